@@ -1,0 +1,37 @@
+# Compiler settings shared by every target, and the two functions that declare targets.
+
+add_library(toryu_settings INTERFACE)
+target_include_directories(toryu_settings INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(toryu_settings INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
+  -march=${TORYU_CPU} -fno-math-errno)
+if(TORYU_CPU STREQUAL "native" OR TORYU_CPU STREQUAL "x86-64-v4")
+  target_compile_options(toryu_settings INTERFACE -mprefer-vector-width=512)
+endif()
+if(TORYU_WARNINGS_AS_ERRORS)
+  target_compile_options(toryu_settings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+endif()
+if(TORYU_SANITIZE)
+  target_compile_options(toryu_settings INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  target_link_options(toryu_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+message(STATUS "toryu ${PROJECT_VERSION}: ${CMAKE_BUILD_TYPE} build for cpu '${TORYU_CPU}' with ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}, sanitizers ${TORYU_SANITIZE}")
+
+# toryu_library(NAME SOURCES a.cpp ... LIBRARIES x ...)
+function(toryu_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC toryu_settings ${ARG_LIBRARIES})
+endfunction()
+
+# toryu_test(NAME SOURCES a.cpp ... LIBRARIES x ... [LABEL unit]): a GoogleTest executable, one CTest entry a test case.
+function(toryu_test name)
+  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT ARG_LABEL)
+    set(ARG_LABEL unit)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 300 DISCOVERY_MODE PRE_TEST)
+endfunction()

@@ -1,0 +1,61 @@
+/// A case file with the overrides of `--set`, read section by section by the owners of the sections.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/case/parameter_table.hpp"
+#include "common/run/failure.hpp"
+
+namespace toryu {
+
+class CaseFile {
+ public:
+  /// Reads `path` (a case.toml, or a folder that holds one) and applies `overrides` ("fluid.sound_speed=30").
+  /// Throws BadInput if the file is not there or is not TOML.
+  CaseFile(const std::filesystem::path& path, const std::vector<std::string>& overrides);
+  ~CaseFile();
+
+  /// Whether the top-level section is there.
+  bool has(const std::string& section) const;
+
+  /// Reads a top-level section (a table, or an array of tables for `list`) by its owner's description; faults
+  /// are collected, not thrown.
+  template <class Parameters>
+  void read(const std::string& section, Parameters& value, const std::string& help) {
+    visit([&](ParameterTable& t) { t.group(section, value, help); });
+  }
+  template <class Parameters>
+  void read_list(const std::string& section, std::vector<Parameters>& values, const std::string& help) {
+    visit([&](ParameterTable& t) { t.list(section, values, help); });
+  }
+
+  /// Top-level sections that belong to another participant and are not looked into.
+  void leave_to_others(const std::vector<std::string>& sections);
+  /// Adds a fault that the owner of a section found by itself, at the place of `key` ("fluid.region").
+  void fault(const std::string& key, const std::string& message);
+  /// Throws BadInput with all faults, unknown top-level sections among them, sorted by line.
+  void throw_if_faulty() const;
+
+  /// The sections read so far with every value, defaults included, as TOML that repeats the run.
+  std::string used() const;
+  /// The sections read so far as a table of key, unit, default, range and help.
+  std::string description() const;
+
+  /// A hash of the text and the overrides, equal in all participants of a run.
+  std::uint64_t hash() const;
+  /// The folder of the file: paths in a case are relative to it.
+  std::filesystem::path folder() const;
+  /// The folder's name: the case's.
+  std::string name() const;
+
+ private:
+  void visit(const std::function<void(ParameterTable&)>& description);
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace toryu

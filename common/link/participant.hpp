@@ -1,0 +1,118 @@
+/// The public interface of a participant: all that a fluid or a solid model needs to take its place in a
+/// coupled run. `tests/participants/` has two short programs on it that serve as templates.
+///
+///     FluidLink link(options, file.hash());              // or SolidLink
+///     link.join(...);                                    // handshake with the coupler, within a time limit
+///     while (auto window = link.next_window()) {         // blocks; empty at the end of the run
+///       ... window->motion ... advance by window->dt ...
+///       link.send(load, time_step_limit);
+///     }
+///
+/// Every wait has a limit; a peer that died, hung or sent nonsense is a PeerLost that names it. A physics
+/// failure of another participant arrives as PhysicsFailure, an interruption of another as Interrupted.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/run/failure.hpp"
+#include "common/run/solver.hpp"
+
+namespace toryu {
+
+/// The solid's particles that the fluid may touch, in the reference configuration; registered once.
+struct Interface {
+  std::vector<std::uint32_t> id;    ///< the solid's particle numbers
+  std::vector<double> position;     ///< dim values a particle [m]
+  std::vector<double> volume;       ///< [m2 per metre depth]
+  std::vector<double> area_vector;  ///< outward, dim values [m per metre depth]; zero inside
+  double spacing = 0;               ///< [m]
+  std::size_t size() const { return id.size(); }
+};
+
+/// Kinematics of the interface at one time, dim values a particle.
+struct InterfaceMotion {
+  std::vector<double> position, velocity, acceleration;  ///< [m], [m/s], [m/s2]
+};
+
+/// What the fluid does to the interface, averaged over a window.
+struct InterfaceLoad {
+  std::vector<double> pressure;        ///< one value a particle [Pa]
+  std::vector<double> force;           ///< pressure and viscous force, dim values [N per metre depth]
+  std::vector<double> friction_force;  ///< dim values [N per metre depth]; empty if the scene has no friction
+  /// Impulse that the fluid itself received from the interface over the window, summed on its side [N s per
+  /// metre].
+  Vec impulse_on_fluid = Vec::Zero();
+};
+
+/// A coupling window granted by the coupler.
+struct Window {
+  std::uint64_t number = 0;
+  std::uint32_t iteration = 0;
+  double time = 0;  ///< start [s]
+  double dt = 0;    ///< length [s]
+};
+
+/// What a participant says of itself in each status message, for coupler.csv and the report.
+struct Health {
+  double kinetic_energy = 0, potential_energy = 0;  ///< [J per metre]
+  Vec momentum = Vec::Zero();                       ///< [N s per metre]
+  double compute_time = 0;                          ///< wall time of the last window's work [s]
+};
+
+struct LinkSettings {
+  std::string role;           ///< "fluid_solver"
+  std::string version;        ///< of the program
+  std::filesystem::path out;  ///< the results folder names the run: its domain and tag follow from it
+  std::uint64_t case_hash = 0;
+  double time_limit = 30;  ///< longest wait for a peer [s]
+  std::string used_case;   ///< this participant's sections with defaults, for used_case.toml
+};
+
+class FluidLink {
+ public:
+  explicit FluidLink(const LinkSettings& settings);
+  ~FluidLink();
+  /// Registers with the coupler and returns the solid's interface. `reach` [m] is how deep the fluid's kernel
+  /// sees into the solid; `time_step_limit` [s] bounds the first window.
+  Interface join(double reach, double time_step_limit);
+  struct Turn : Window {
+    InterfaceMotion motion;  ///< at the start of the window
+  };
+  std::optional<Turn> next_window();
+  void send(const InterfaceLoad& load, double time_step_limit, const Health& health);
+  /// Tells the coupler why this side stops (physics failure, interruption, bug); never throws.
+  void leave(ExitCode code, const std::string& reason) noexcept;
+  double waiting_time() const;  ///< [s] spent in next_window so far
+
+ private:
+  struct Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
+class SolidLink {
+ public:
+  explicit SolidLink(const LinkSettings& settings);
+  ~SolidLink();
+  /// Returns the fluid's reach [m], by which the solid chooses the particles of its interface.
+  double join();
+  void register_interface(const Interface& interface, const InterfaceMotion& at_start);
+  struct Turn : Window {
+    InterfaceLoad load;  ///< constant over the window
+  };
+  std::optional<Turn> next_window();
+  /// `impulse_taken`: sum of load times sub-step over the window as this side applied it [N s per metre].
+  void send(const InterfaceMotion& motion_at_end, const Vec& impulse_taken, const Health& health);
+  void leave(ExitCode code, const std::string& reason) noexcept;
+  double waiting_time() const;
+
+ private:
+  struct Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace toryu

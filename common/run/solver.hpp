@@ -1,0 +1,64 @@
+/// What a time loop, alone or coupled, needs of a solver. Virtual calls happen once a step, never per
+/// particle.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/vector.hpp"
+
+namespace toryu {
+
+/// A number that a run reports over time; `name` becomes a column `name[unit]` of the series.
+struct Observation {
+  std::string name;
+  std::string unit;
+  double value;
+};
+
+/// A field of a frame: `components` values a particle, particle after particle.
+struct FrameField {
+  std::string name;  ///< full words: "pressure", "velocity"
+  std::string unit;
+  std::string description;
+  int components = 1;  ///< 1, dim (written as 3, the last 0) or dim*dim
+  std::vector<double> values;
+};
+
+/// All that is drawn of one body of particles at one time.
+struct Frame {
+  std::vector<double> positions;  ///< dim values a particle [m], particle after particle
+  std::vector<FrameField> fields;
+};
+
+/// A physical term that is active in a run, for the log and the report.
+struct ActiveTerm {
+  std::string name;        ///< "artificial viscosity"
+  std::string formula;     ///< plain text, the paper's symbols
+  std::string source;      ///< "Monaghan 1992, eq. 23-24"
+  std::string parameters;  ///< "alpha 0.02, beta 0; effective kinematic viscosity 1.3e-6 m2/s"
+};
+
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  /// Largest stable time step from the present state [s].
+  virtual double time_step_limit() const = 0;
+  /// Which limit rules: "acoustic", "viscous", "force".
+  virtual std::string_view time_step_rule() const = 0;
+  /// Advances by `dt` [s], which must not exceed the limit.
+  virtual void advance(double dt) = 0;
+  /// Throws PhysicsFailure if a value has left physics at `time`.
+  virtual void check(double time) const = 0;
+
+  virtual Frame frame() const = 0;
+  /// Energies, momentum, observers; the same names in the same order at each call.
+  virtual std::vector<Observation> observe() const = 0;
+  virtual std::vector<ActiveTerm> active_terms() const = 0;
+  virtual std::size_t particle_count() const = 0;
+};
+
+}  // namespace toryu

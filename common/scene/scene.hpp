@@ -1,0 +1,71 @@
+/// What every participant knows of a scene: the `[case]` section, the rigid walls `[[wall]]` and the
+/// references drawn in the report `[[reference]]`. The fluid and the solid have sections of their own, owned
+/// by their solvers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/case/case_file.hpp"
+#include "common/vector.hpp"
+
+namespace toryu {
+
+/// An axis-aligned box [m], the shape of which bodies are made. A body is a list of boxes, less a list of
+/// holes.
+struct Box {
+  Vec min = Vec::Zero();
+  Vec max = Vec::Zero();
+  bool contains(const Vec& x) const {
+    return (x.array() >= min.array()).all() && (x.array() < max.array()).all();
+  }
+};
+void describe(ParameterTable& table, Box& box);
+
+/// Prescribed motion of a rigid body: a table of time and velocity, linear in between, constant beyond its
+/// ends; position is its integral.
+struct Motion {
+  std::vector<std::vector<double>> velocity;  ///< rows of time [s], v_x, v_y [m/s]
+  Vec velocity_at(double time) const;
+  Vec displacement_at(double time) const;  ///< exact integral from t = 0 [m]
+  Vec acceleration_at(double time) const;  ///< slope of the table [m/s2], right-sided at its points
+};
+void describe(ParameterTable& table, Motion& motion);
+
+/// A rigid body: filled with particles by each solver, on a lattice of its own spacing.
+struct Wall {
+  std::string name;
+  Box box;
+  std::optional<Motion> motion;
+};
+void describe(ParameterTable& table, Wall& wall);
+
+/// A measured or published curve that the report draws over a series of this run.
+struct Reference {
+  std::string label;
+  std::string file;    ///< CSV beside the case; lines that start with # are comments
+  std::string series;  ///< "solid.csv:tip_displacement_x[m]"
+  std::string column;  ///< column of `file`; its first column is time [s]
+};
+void describe(ParameterTable& table, Reference& reference);
+
+struct Scene {
+  std::string title;
+  Vec gravity = Vec::Zero();
+  double end_time = 0;
+  double frame_interval = 0;   ///< 0: no frames
+  double series_interval = 0;  ///< 0: every step
+  Box domain;                  ///< a particle outside it is a failure
+  std::vector<Wall> walls;
+  std::vector<Reference> references;
+};
+/// Reads [case], [[wall]] and [[reference]].
+Scene read_scene(CaseFile& file);
+
+/// Points of the lattice origin + (i + 1/2) spacing that lie in some of `boxes` and in none of `holes`, row
+/// by row. `origin` is the smallest corner of `boxes`, so that a box whose sides are whole multiples of the
+/// spacing is filled exactly.
+std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing);
+
+}  // namespace toryu
