@@ -1,0 +1,51 @@
+/// Particle positions as lanes read them: one field a coordinate, padded to whole lanes.
+#pragma once
+
+#include <array>
+
+#include "common/sph/lanes.hpp"
+#include "common/vector.hpp"
+
+namespace toryu {
+
+using VecField = std::array<Field, dim>;
+using VecLanes = std::array<Lanes, dim>;
+
+inline VecLanes load(const VecField& field, std::size_t first) {
+  VecLanes value;
+  for (int a = 0; a < dim; ++a) value[a] = load(field[a], first);
+  return value;
+}
+inline void store(const VecLanes& value, VecField& field, std::size_t first) {
+  for (int a = 0; a < dim; ++a) store(value[a], field[a], first);
+}
+inline void resize(VecField& field, std::size_t size, double value = 0.0) {
+  for (auto& component : field) component.resize(size, value);
+}
+inline Vec at(const VecField& field, std::size_t i) {
+  Vec value;
+  for (int a = 0; a < dim; ++a) value[a] = field[a][i];
+  return value;
+}
+inline void set(VecField& field, std::size_t i, const Vec& value) {
+  for (int a = 0; a < dim; ++a) field[a][i] = value[a];
+}
+
+inline Lanes dot(const VecLanes& a, const VecLanes& b) {
+  Lanes sum = a[0] * b[0];
+  for (int k = 1; k < dim; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+/// Puts field values into a new order: element k becomes what stood at order[k]. The padding repeats the last
+/// one, so that idle lanes hold finite values.
+template <class Order>
+void reorder(Field& field, const Order& order, Field& scratch) {
+  scratch.resize(field.size());
+  for (std::size_t k = 0; k < order.size(); ++k) scratch[k] = field[order[k]];
+  if (!order.empty())
+    for (std::size_t k = order.size(); k < scratch.size(); ++k) scratch[k] = scratch[order.size() - 1];
+  field.swap(scratch);
+}
+
+}  // namespace toryu
