@@ -25,6 +25,9 @@ function(toryu_library name)
   target_link_libraries(${name} PUBLIC toryu_settings ${ARG_LIBRARIES})
 endfunction()
 
+# All that the tests labelled `unit` need, for a build of them alone.
+add_custom_target(unit_tests)
+
 # toryu_test(NAME SOURCES a.cpp ... LIBRARIES x ... [LABEL unit]): a GoogleTest executable, one CTest entry a test case.
 function(toryu_test name)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
@@ -33,6 +36,9 @@ function(toryu_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  if(ARG_LABEL STREQUAL "unit")
+    add_dependencies(unit_tests ${name})
+  endif()
   gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 300 DISCOVERY_MODE PRE_TEST)
 endfunction()
 

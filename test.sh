@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Builds with warnings as errors and runs the tests; the unit tests a second time under the address and
+# undefined-behaviour sanitizers. Installs what is missing. tests/README.md says which label holds what.
+#   ./test.sh             all but the long ones
+#   ./test.sh --browser   and the report in a browser
+#   ./test.sh --all       and the long validation, the benchmarks and the browser
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+without=(long benchmark browser)
+groups=(run test)
+case ${1-} in
+  "") ;;
+  --browser) without=(long benchmark) groups+=(browser) ;;
+  --all) without=(none) groups+=(browser) ;;
+  *)
+    echo "test.sh: unknown option '$1'; --browser, --all or none" >&2
+    exit 2
+    ;;
+esac
+
+results=$(mktemp)
+trap 'rm -f "$results"' EXIT
+failed=0
+run_tests() { # FOLDER CTEST-OPTIONS...
+  ctest --test-dir "$1" --output-on-failure --no-tests=error --parallel "$(nproc)" "${@:2}" | tee -a "$results" || failed=1
+}
+
+tools/install.sh "${groups[@]}"
+tools/build.sh release -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON
+run_tests build/release --label-exclude "^($(IFS='|' && echo "${without[*]}"))\$"
+tools/build.sh debug -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON unit_tests
+run_tests build/debug --label-regex '^unit$'
+
+awk -v seconds=$SECONDS '/tests passed, [0-9]+ tests? failed out of/ {
+    for (i = 1; i < NF; ++i) if ($i == "failed") bad += $(i - 2)
+    all += $NF
+  } END {
+    printf "%d of %d tests passed, %d failed, in %d s, build included\n", all - bad, all, bad, seconds
+  }' "$results"
+exit $failed

@@ -1,0 +1,164 @@
+"""Runs a case with a built toryu: checks the input, starts the processes that the case needs, watches them, and
+closes with the report and a summary. `run.sh` calls it."""
+
+import argparse
+import contextlib
+import fcntl
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+
+import results
+import summary_text
+from processes import BAD_INPUT, BUG, DONE, Run
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PYTHON = "/usr/bin/python3"  # Debian's own, which has h5py
+# In a coupled run at most one side computes at a time, and three processes share the cores: a thread that has
+# nothing to do must sleep, not spin.
+COUPLED_ENVIRONMENT = {"OMP_WAIT_POLICY": "passive"}
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(
+        prog="run.sh", allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself.",
+        epilog="All other options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
+               "4 a process was lost, 130 interrupted.")
+    parser.add_argument("case", metavar="CASE")
+    parser.add_argument("--out", metavar="DIR", help="results folder; default out/<case name>")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[],
+                        help="another value for a key of the case file; repeatable")
+    parser.add_argument("--end-time", metavar="SECONDS")
+    parser.add_argument("--threads", metavar="N")
+    parser.add_argument("--log-level", metavar="LEVEL")
+    parser.add_argument("--check", action="store_true", help="only check the case file")
+    parser.add_argument("--describe", action="store_true", help="list the keys of the case's sections with units, "
+                                                                "defaults and ranges")
+    parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
+    parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
+    parser.add_argument("--bin", metavar="DIR", default=ROOT / "build/release/bin", type=pathlib.Path,
+                        help=argparse.SUPPRESS)
+    options, unknown = parser.parse_known_args(arguments)
+    options.passed_on = [f"--set={pair}" for pair in options.set] + unknown
+    for name in ("end_time", "threads", "log_level"):
+        if (value := getattr(options, name)) is not None:
+            options.passed_on.append(f"--{name.replace('_', '-')}={value}")
+    options.out = pathlib.Path(options.out or pathlib.Path("out") / results.case_name(options.case))
+    return options
+
+
+def programs(options):
+    """Name -> executable of each program that the case needs, the lead first."""
+    path = results.case_file(options.case)
+    executables = {"coupler": options.bin / "coupler", "fluid_solver": options.fluid or options.bin / "fluid_solver",
+                   "solid_solver": options.solid or options.bin / "solid_solver"}
+    for name, executable in executables.items():
+        if not shutil.which(executable):
+            raise SystemExit(complain(f"{executable}: error: no such program, needed as {name}"))
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {"coupler": executables["coupler"]}  # whose own check says what is wrong, and where
+    needed = {side: f"{side}_solver" for side in ("fluid", "solid") if side in content}
+    if not needed:
+        raise SystemExit(complain(f"{path}: error: no section [fluid] and no section [solid]: nothing to compute"))
+    names = ["coupler", *needed.values()] if len(needed) == 2 else list(needed.values())
+    return {name: executables[name] for name in names}
+
+
+def complain(text):
+    print(text, file=sys.stderr)
+    return BAD_INPUT
+
+
+def check(commands):
+    """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file."""
+    errors, others = set(), []
+    for name, command in commands.items():
+        done = subprocess.run([*command, "--check"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        if done.returncode == DONE:
+            continue
+        lines = (done.stdout + done.stderr).splitlines()
+        if done.returncode == BAD_INPUT:
+            errors.update(line for line in lines if line.strip())
+        else:
+            others.append("\n".join([*lines, f"{name} --check ended with exit code {done.returncode}"]))
+    if not errors and not others:
+        return DONE
+
+    def place(line):
+        found = re.match(r".*?:(\d+):(\d+): error:", line)
+        return (int(found[1]), int(found[2]), line) if found else (0, 0, line)
+
+    print(*sorted(errors, key=place), *others, sep="\n", file=sys.stderr)
+    return BAD_INPUT if errors else BUG
+
+
+def describe(commands):
+    """The keys of all sections; a section that several programs read is shown once."""
+    seen = set()
+    for command in commands.values():
+        done = subprocess.run([*command, "--describe"], stdout=subprocess.PIPE, text=True)
+        if done.returncode != DONE:
+            return done.returncode
+        for paragraph in done.stdout.split("\n\n"):
+            if paragraph.strip() and paragraph not in seen:
+                seen.add(paragraph)
+                print(paragraph.strip("\n"), end="\n\n")
+    return DONE
+
+
+@contextlib.contextmanager
+def sole_user(out):
+    """Holds the results folder for this run: two runs in one folder would mix."""
+    out.mkdir(parents=True, exist_ok=True)
+    with open(out / ".run.lock", "w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise SystemExit(complain(f"--out {out}: error: another run is writing there; name another folder"))
+        yield
+
+
+def report(options):
+    """Makes report.html and prints the summary; returns whether both could be done."""
+    made = subprocess.run([PYTHON, ROOT / "tools/report", options.out, "--case", options.case],
+                          stdout=subprocess.DEVNULL).returncode == 0
+    print(summary_text.of_run(options.case, options.out))
+    if made:
+        print(f"report  {options.out / 'report.html'}")
+    return made
+
+
+def main(arguments):
+    options = parse(arguments)
+    commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
+                for name, executable in programs(options).items()}
+    if options.describe:
+        return describe(commands)
+    # A program that takes a solver's place checks its own input when it starts.
+    own = {name: command for name, command in commands.items() if pathlib.Path(command[0]).parent == options.bin}
+    if code := check(own):
+        return code
+    if options.check:
+        print(f"{results.case_file(options.case)}: no errors")
+        return DONE
+
+    environment = dict(os.environ)
+    if len(commands) > 1:
+        environment = COUPLED_ENVIRONMENT | environment  # what the user has set, stays
+    with sole_user(options.out):
+        results.remove_old(options.out)
+        code, words = Run(commands, lead=next(iter(commands)), environment=environment)()
+        if words:
+            print(words, file=sys.stderr)
+        reported = report(options)
+    return code or (DONE if reported else BUG)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,210 @@
+"""The processes of a run: started together, watched together, ended together. None is ever left behind."""
+
+import ctypes
+import os
+import re
+import selectors
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+
+GRACE = 2.0  # [s] in which the others end by themselves after one has failed: they notice by the link
+PATIENCE = 10.0  # [s] to end in order when asked to: the last frame and the series are written
+LAST_PATIENCE = 3.0  # [s] between the request and the kill for those that outlived their grace
+
+# Exit codes, as in common/run/failure.hpp.
+DONE, BUG, BAD_INPUT, PHYSICS_FAILED, PEER_LOST, INTERRUPTED = 0, 1, 2, 3, 4, 130
+MEANING = {
+    DONE: "done",
+    BUG: "a bug",
+    BAD_INPUT: "bad input",
+    PHYSICS_FAILED: "physics failed",
+    PEER_LOST: "a peer was lost",
+    INTERRUPTED: "interrupted",
+}
+FAULTS = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}  # a process's own doing
+
+PR_SET_PDEATHSIG = 1
+libc = ctypes.CDLL(None, use_errno=True)
+
+
+@dataclass
+class Process:
+    name: str
+    command: list[str]
+    popen: subprocess.Popen | None = None
+    pidfd: int = -1
+    ended: bool = False
+    asked_to_end: bool = False  # by us, so how it ended says nothing
+    unread: bytes = b""
+    held_lines: list[str] = field(default_factory=list)  # its errors, shown if it is the cause
+
+    @property
+    def status(self):
+        return self.popen.returncode
+
+    def exit_code(self):
+        """A process killed from outside is a lost peer; one that crashed is a bug."""
+        if self.status >= 0:
+            return self.status if self.status in MEANING else BUG
+        return BUG if -self.status in FAULTS else PEER_LOST
+
+    def fate(self):
+        if self.status >= 0:
+            return f"ended with exit code {self.status} ({MEANING.get(self.status, 'unknown')})"
+        return f"was killed by signal {-self.status} ({signal.strsignal(-self.status)})"
+
+
+def weight(process):
+    """Orders failures: what can only be a cause comes before what may be a consequence."""
+    if process.asked_to_end:
+        return 9
+    if process.status < 0:
+        return 3
+    return {BAD_INPUT: 0, PHYSICS_FAILED: 1, BUG: 2, INTERRUPTED: 4, PEER_LOST: 5}.get(process.status, 2)
+
+
+class Run:
+    """Starts `commands` (name -> command line). `lead` keeps the terminal, for its progress line; the others' lines
+    are passed on, errors only of the one that caused the end."""
+
+    def __init__(self, commands, lead, environment):
+        self.processes = [Process(name, command) for name, command in commands.items()]
+        self.lead = lead
+        self.environment = environment
+        self.selector = selectors.DefaultSelector()
+        self.failed = []  # in the order in which they failed
+        self.interruptions = 0
+        self.deadline = None  # when those that remain are asked to end, then killed
+
+    def __call__(self):
+        """Runs to the end; returns the exit code of the run and what to say of it ("" if all is well)."""
+        wakeup = self._catch_signals()
+        try:
+            for process in self.processes:
+                self._start(process)
+            while not all(p.ended for p in self.processes):
+                self._wait()
+        finally:
+            self._kill_all()
+            self._restore_signals(wakeup)
+        return self._verdict()
+
+    def _start(self, process):
+        parent = os.getpid()
+
+        def end_with_the_parent():
+            libc.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+            if os.getppid() != parent:
+                os._exit(INTERRUPTED)
+
+        stream = None if process.name == self.lead else subprocess.PIPE
+        process.popen = subprocess.Popen(
+            process.command, env=self.environment, stdin=subprocess.DEVNULL, stdout=stream,
+            stderr=subprocess.STDOUT if stream else None, process_group=0, preexec_fn=end_with_the_parent)
+        process.pidfd = os.pidfd_open(process.popen.pid)
+        self.selector.register(process.pidfd, selectors.EVENT_READ, lambda: self._ended(process))
+        if stream:
+            os.set_blocking(process.popen.stdout.fileno(), False)
+            self.selector.register(process.popen.stdout.fileno(), selectors.EVENT_READ, lambda: self._pass_on(process))
+
+    def _wait(self):
+        limit = None if self.deadline is None else max(0.0, self.deadline - time.monotonic())
+        for key, _ in self.selector.select(limit):
+            key.data()
+        if self.deadline is not None and time.monotonic() >= self.deadline:
+            self._end_the_rest()
+
+    def _ended(self, process):
+        if process.popen.poll() is None:
+            return
+        process.ended = True
+        self.selector.unregister(process.pidfd)
+        os.close(process.pidfd)
+        if process.popen.stdout and process.popen.stdout.fileno() in self.selector.get_map():
+            self._pass_on(process)
+        if process.status != 0:
+            self.failed.append(process)
+            if self.deadline is None:
+                self.deadline = time.monotonic() + GRACE
+
+    def _pass_on(self, process):
+        stream = process.popen.stdout.fileno()
+        try:
+            while piece := os.read(stream, 1 << 16):
+                process.unread += piece
+        except BlockingIOError:
+            if not process.ended:  # more may come; what there is ends with a line or will
+                *lines, process.unread = process.unread.split(b"\n")
+                return self._show(process, lines)
+        self.selector.unregister(stream)
+        self._show(process, process.unread.splitlines())
+
+    def _show(self, process, lines):
+        for line in (line.decode(errors="replace") for line in lines):
+            if re.search(r"\berror\b", line, re.IGNORECASE):
+                process.held_lines.append(line)
+            else:  # over the progress line, if there is one
+                print(f"\r\x1b[K{line}" if sys.stderr.isatty() else line, file=sys.stderr)
+
+    def _end_the_rest(self):
+        rest = [p for p in self.processes if not p.ended]
+        if any(p.asked_to_end for p in rest):
+            self._signal(rest, signal.SIGKILL)
+            self.deadline = None
+        else:
+            self._signal(rest, signal.SIGTERM)
+            self.deadline = time.monotonic() + LAST_PATIENCE
+
+    def _signal(self, processes, number):
+        for process in processes:
+            process.asked_to_end = True
+            try:
+                os.killpg(process.popen.pid, number)
+            except ProcessLookupError:
+                pass  # it ended just now
+
+    def _kill_all(self):
+        started = [p for p in self.processes if p.popen and not p.ended]
+        self._signal(started, signal.SIGKILL)
+        for process in started:
+            process.popen.wait()
+
+    def _catch_signals(self):
+        reader, writer = os.pipe()
+        for end in (reader, writer):
+            os.set_blocking(end, False)
+        old_wakeup = signal.set_wakeup_fd(writer)
+        handlers = {n: signal.signal(n, lambda *_: None) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+        self.selector.register(reader, selectors.EVENT_READ, lambda: self._interrupted(reader))
+        return reader, writer, old_wakeup, handlers
+
+    def _restore_signals(self, wakeup):
+        reader, writer, old_wakeup, handlers = wakeup
+        signal.set_wakeup_fd(old_wakeup)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        self.selector.close()
+        os.close(reader)
+        os.close(writer)
+
+    def _interrupted(self, reader):
+        os.read(reader, 64)
+        self.interruptions += 1
+        rest = [p for p in self.processes if not p.ended]
+        if self.interruptions == 1:
+            self._signal(rest, signal.SIGINT)
+            self.deadline = time.monotonic() + PATIENCE
+        else:  # the user insists
+            self._signal(rest, signal.SIGKILL)
+
+    def _verdict(self):
+        if self.interruptions and self.failed:
+            return INTERRUPTED, "interrupted"
+        if not self.failed:
+            return DONE, ""
+        cause = min(self.failed, key=weight)  # min keeps the first of equals
+        return cause.exit_code(), "\n".join(cause.held_lines + [f"{cause.name} {cause.fate()}"])
+

@@ -1,0 +1,41 @@
+"""The summary of a run as lines of text: what moved, how far from the measurement, how long, where the time went."""
+
+import math
+import re
+
+import results
+
+
+def of_run(case, out):
+    lines = [*displacements(out), *distances(case, out), *times(results.read_summaries(out))]
+    width = max((len(label) for label, _ in lines), default=0)
+    return "\n".join(f"{label:{width}}  {text}" for label, text in lines)
+
+
+def displacements(out):
+    """Peak of every displacement that was observed."""
+    series = results.read_series(out, "solid")
+    for column, values in series.items():
+        found = re.fullmatch(r"(\w+)_displacement_(\w)\[m\]", column)
+        if found and any(math.isfinite(v) for v in values):
+            time, value = results.peak(series["time[s]"], values)
+            yield f"peak {found[1]} displacement {found[2]}", f"{value * 1e3:.4g} mm at {time:.4g} s"
+
+
+def distances(case, out):
+    try:
+        comparisons = results.compare(case, out)
+    except (OSError, KeyError) as error:
+        return [("references", f"cannot be read: {error!r}")]
+    return [(f"distance to {c.label}", f"{c.distance:.1%} of its peak (root mean square)")
+            for c in comparisons if math.isfinite(c.distance)]
+
+
+def times(summaries):
+    for participant, summary in summaries.items():
+        name = participant if participant == "coupler" else f"{participant}_solver"
+        wall, waiting = summary["wall_time"], summary["waiting_time"]
+        text = f"{wall:.1f} s"
+        if waiting > 0 and wall > 0:
+            text += f", {waiting / wall:.0%} of it waiting"
+        yield f"wall time {name}", f"{text}; {summary['steps']} steps, {summary['processor_time']:.1f} s of processor"
