@@ -1,6 +1,7 @@
 /// A case file with the overrides of `--set`, read section by section by the owners of the sections.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -12,14 +13,21 @@
 
 namespace toryu {
 
+/// The file that a user means by `path`: a case.toml, or a folder that holds one. Throws BadInput if there is
+/// none.
+std::filesystem::path find_case_file(const std::filesystem::path& path);
+/// The name of the folder of a case file: the case's.
+std::string case_name(const std::filesystem::path& file);
+
 class CaseFile {
  public:
-  /// Reads `path` (a case.toml, or a folder that holds one) and applies `overrides` ("fluid.sound_speed=30").
-  /// Throws BadInput if the file is not there or is not TOML.
+  /// Reads `path` (as in find_case_file) and applies `overrides` ("fluid.sound_speed=30", see overrides.hpp).
+  /// Throws BadInput if the file is not there or is not TOML. An empty path is a case without a section, whose
+  /// description can be asked for.
   CaseFile(const std::filesystem::path& path, const std::vector<std::string>& overrides);
   ~CaseFile();
 
-  /// Whether the top-level section is there.
+  /// Whether the top-level section is there, and not `false`.
   bool has(const std::string& section) const;
 
   /// Reads a top-level section (a table, or an array of tables for `list`) by its owner's description; faults
@@ -35,7 +43,8 @@ class CaseFile {
 
   /// Top-level sections that belong to another participant and are not looked into.
   void leave_to_others(const std::vector<std::string>& sections);
-  /// Adds a fault that the owner of a section found by itself, at the place of `key` ("fluid.region").
+  /// Adds a fault that the owner of a section found by itself, at the place of `key`: a path with items by
+  /// number or name ("fluid.region.0.box").
   void fault(const std::string& key, const std::string& message);
   /// Throws BadInput with all faults, unknown top-level sections among them, sorted by line.
   void throw_if_faulty() const;

@@ -33,9 +33,11 @@ struct NumberRule {
 struct TextRule {
   bool required = false;
   std::string help;
+  std::vector<std::string> allowed = {};  ///< the only words that `text` and `texts` take; empty: any
 };
 
-/// Visits the parameters of a section; the three visitors (read, describe, write) live in case_file.cpp.
+/// Visits the parameters of a section. There are three visitors: read_table.hpp, describe_table.hpp and
+/// write_table.hpp.
 class ParameterTable {
  public:
   virtual ~ParameterTable() = default;
@@ -60,7 +62,8 @@ class ParameterTable {
     value = static_cast<Enum>(index);
   }
 
-  /// A sub-table that switches a model on by being there: `[fluid.density_diffusion]`.
+  /// A sub-table that switches a model on by being there: `[fluid.density_diffusion]`. `false` in its place
+  /// is the same as its absence.
   template <class Parameters>
   void optional(const std::string& key, std::optional<Parameters>& value, const std::string& help) {
     Parameters inner = value.value_or(Parameters{});
@@ -90,7 +93,8 @@ class ParameterTable {
         });
   }
 
-  /// A check that joins several parameters ("max must exceed min"); reported at `key`, only when reading.
+  /// A check that joins several parameters ("max must exceed min"); reported at `key`, which may be a path
+  /// ("box.max"), only when reading, and not if a parameter of the section is faulty by itself.
   virtual void require(bool holds, const std::string& key, const std::string& message) = 0;
 
  protected:

@@ -6,6 +6,9 @@
 
 namespace toryu {
 
+/// "t 0.1230 of 0.4000 s,  30 %, window 12345, 1234 windows/s, 12 s left", after `seconds` of wall time.
+std::string progress_line(double time, double end_time, long count, const std::string& unit, double seconds);
+
 class Progress {
  public:
   /// `unit` is what is counted: "step" or "window". On a terminal the line is rewritten in place five times a

@@ -26,10 +26,10 @@ void describe(ParameterTable& table, Box& box);
 /// Prescribed motion of a rigid body: a table of time and velocity, linear in between, constant beyond its
 /// ends; position is its integral.
 struct Motion {
-  std::vector<std::vector<double>> velocity;  ///< rows of time [s], v_x, v_y [m/s]
+  std::vector<std::vector<double>> velocity;  ///< rows of time [s], v_x, v_y [m/s]; at least one
   Vec velocity_at(double time) const;
   Vec displacement_at(double time) const;  ///< exact integral from t = 0 [m]
-  Vec acceleration_at(double time) const;  ///< slope of the table [m/s2], right-sided at its points
+  Vec acceleration_at(double time) const;  ///< slope of the table [m/s2], right-sided at its rows
 };
 void describe(ParameterTable& table, Motion& motion);
 
@@ -60,12 +60,16 @@ struct Scene {
   std::vector<Wall> walls;
   std::vector<Reference> references;
 };
-/// Reads [case], [[wall]] and [[reference]].
+/// The keys of [case]; walls and references are sections of their own.
+void describe(ParameterTable& table, Scene& scene);
+/// Reads [case], [[wall]] and [[reference]], and checks that names of walls differ, that walls lie within the
+/// domain and that the files of references are there. Faults are collected in `file`.
 Scene read_scene(CaseFile& file);
 
 /// Points of the lattice origin + (i + 1/2) spacing that lie in some of `boxes` and in none of `holes`, row
 /// by row. `origin` is the smallest corner of `boxes`, so that a box whose sides are whole multiples of the
-/// spacing is filled exactly.
+/// spacing is filled exactly, whatever the rounding. Otherwise a particle is there if its centre is inside; a
+/// centre within 1e-6 spacings of an edge counts as on it, and belongs to the box whose smaller edge it is.
 std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing);
 
 }  // namespace toryu

@@ -1,0 +1,156 @@
+#include "common/case/case_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <tuple>
+
+#include "common/case/describe_table.hpp"
+#include "common/case/document.hpp"
+#include "common/case/nearest_word.hpp"
+#include "common/case/overrides.hpp"
+#include "common/case/read_table.hpp"
+#include "common/case/write_table.hpp"
+
+namespace toryu {
+
+struct CaseFile::Content {
+  std::filesystem::path file;
+  std::string text;
+  std::vector<std::string> overrides;
+  toml::table root;
+  toml::source_region start;  ///< of the file, where a missing section is reported
+  std::vector<InputError> faults;
+  std::vector<std::pair<std::string, InputError>> override_faults;  ///< by top-level section
+  std::vector<std::string> read_sections, left_sections;
+  std::string used, description;
+};
+
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw BadInput({{.place = file.string(), .message = "cannot be read"}});
+  return text.str();
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+std::filesystem::path find_case_file(const std::filesystem::path& path) {
+  if (std::filesystem::is_regular_file(path)) return path;
+  const auto file = path / "case.toml";
+  if (std::filesystem::is_regular_file(file)) return file;
+  const bool folder = std::filesystem::is_directory(path);
+  throw BadInput({{.place = path.string(),
+                   .message = folder ? "this folder holds no case.toml" : "no such file or folder"}});
+}
+
+std::string case_name(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
+}
+
+CaseFile::CaseFile(const std::filesystem::path& path, const std::vector<std::string>& overrides)
+    : content_(std::make_unique<Content>()) {
+  Content& c = *content_;
+  c.overrides = overrides;
+  if (!path.empty()) {
+    c.file = find_case_file(path);
+    c.text = read_text(c.file);
+    c.root = parse_document(c.text, c.file.string());
+  }
+  c.start = {{1, 1}, {1, 1}, std::make_shared<const std::string>(c.file.string())};
+  for (const auto& text : overrides)
+    if (auto fault = apply_override(c.root, text))
+      c.override_faults.emplace_back(split_path(text).front(), std::move(*fault));
+}
+
+CaseFile::~CaseFile() = default;
+
+bool CaseFile::has(const std::string& section) const {
+  const toml::node* node = content_->root.get(section);
+  return node && node->value_exact<bool>() != false;
+}
+
+void CaseFile::visit(const std::function<void(ParameterTable&)>& description) {
+  // In this order: the description shows the defaults, the used case what has been read.
+  DescribeTable described;
+  description(described);
+  content_->description += described.text();
+
+  ReadTable read(&content_->root, "", "", content_->start, content_->faults);
+  description(read);
+  for (const auto& section : read.known()) content_->read_sections.push_back(section);
+
+  WriteTable written;
+  description(written);
+  content_->used += written.text();
+}
+
+void CaseFile::leave_to_others(const std::vector<std::string>& sections) {
+  content_->left_sections.insert(content_->left_sections.end(), sections.begin(), sections.end());
+}
+
+void CaseFile::fault(const std::string& key, const std::string& message) {
+  content_->faults.push_back(fault_at(place_of(content_->root, key, content_->start), message));
+}
+
+void CaseFile::throw_if_faulty() const {
+  const Content& c = *content_;
+  std::vector<InputError> faults = c.faults;
+  for (const auto& [section, fault] : c.override_faults)
+    if (!contains(c.left_sections, section)) faults.push_back(fault);
+
+  std::vector<std::string> known = c.read_sections;
+  known.insert(known.end(), c.left_sections.begin(), c.left_sections.end());
+  for (const auto& [key, node] : c.root) {
+    const std::string name(key.str());
+    if (contains(known, name)) continue;
+    const std::string kind = node.is_table() || node.is_array_of_tables() ? "section" : "key";
+    const std::string hint = did_you_mean(name, known);
+    faults.push_back(fault_at(key.source(), fmt::format("unknown {} '{}'{}", kind, name,
+                                                        hint.empty() ? "; sections are " + quoted_list(known)
+                                                                     : hint)));
+  }
+  if (faults.empty()) return;
+  // Faults of the file by line, then those of the overrides in their order.
+  std::stable_sort(faults.begin(), faults.end(), [](const InputError& a, const InputError& b) {
+    return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
+  });
+  throw BadInput(faults);
+}
+
+std::string CaseFile::used() const {
+  const auto first = content_->used.find_first_not_of('\n');
+  return first == std::string::npos ? "" : content_->used.substr(first);
+}
+
+std::string CaseFile::description() const {
+  const auto first = content_->description.find_first_not_of('\n');
+  return first == std::string::npos ? "" : content_->description.substr(first);
+}
+
+std::uint64_t CaseFile::hash() const {
+  // FNV-1a (Fowler, Noll, Vo), the same on every machine.
+  std::uint64_t hash = 14695981039346656037u;
+  const auto add = [&](const std::string& text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    hash = (hash ^ 0xffu) * 1099511628211u;  // no UTF-8 text holds this byte: it ends a text
+  };
+  add(content_->text);
+  for (const auto& text : content_->overrides) add(text);
+  return hash;
+}
+
+std::filesystem::path CaseFile::folder() const {
+  return std::filesystem::absolute(content_->file).lexically_normal().parent_path();
+}
+
+std::string CaseFile::name() const { return case_name(content_->file); }
+
+}  // namespace toryu

@@ -1,0 +1,110 @@
+#include "common/case/describe_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "common/case/nearest_word.hpp"
+#include "common/case/rule_text.hpp"
+
+namespace toryu {
+
+namespace {
+std::string number_words(const std::string& kind, const NumberRule& rule) {
+  const std::string range = range_text(rule);
+  return kind + unit_text(rule.unit) + (range.empty() ? "" : " " + range);
+}
+}  // namespace
+
+void DescribeTable::number(const std::string& key, double& value, const NumberRule& rule) {
+  add(key, rule.required, fmt::format("{}", value), number_words("number", rule), rule.help);
+}
+
+void DescribeTable::integer(const std::string& key, int& value, const NumberRule& rule) {
+  add(key, rule.required, fmt::format("{}", value), number_words("integer", rule), rule.help);
+}
+
+void DescribeTable::flag(const std::string& key, bool& value, const std::string& help) {
+  add(key, false, value ? "true" : "false", "true or false", help);
+}
+
+void DescribeTable::text(const std::string& key, std::string& value, const TextRule& rule) {
+  add(key, rule.required, "'" + value + "'", rule.allowed.empty() ? "text" : quoted_list(rule.allowed),
+      rule.help);
+}
+
+void DescribeTable::texts(const std::string& key, std::vector<std::string>& value, const TextRule& rule) {
+  add(key, rule.required, "[" + quoted_list(value) + "]",
+      rule.allowed.empty() ? "texts" : "some of " + quoted_list(rule.allowed), rule.help);
+}
+
+void DescribeTable::vector(const std::string& key, Vec& value, const NumberRule& rule) {
+  const std::vector<double> numbers(value.data(), value.data() + dim);
+  add(key, rule.required, fmt::format("[{}]", fmt::join(numbers, ", ")),
+      number_words(fmt::format("{} numbers", dim), rule), rule.help);
+}
+
+void DescribeTable::rows(const std::string& key, std::vector<std::vector<double>>& value,
+                         const std::vector<std::string>& columns, const TextRule& rule) {
+  add(key, rule.required, fmt::format("{}", value),
+      fmt::format("rows of {} numbers ({})", columns.size(), fmt::join(columns, ", ")), rule.help);
+}
+
+void DescribeTable::word(const std::string& key, int& index, const std::vector<std::string>& words,
+                         const TextRule& rule) {
+  add(key, rule.required, "'" + words.at(static_cast<std::size_t>(index)) + "'", quoted_list(words),
+      rule.help);
+}
+
+bool DescribeTable::section(const std::string& key, bool present, const std::string& help,
+                            const std::function<void(ParameterTable&)>& visit) {
+  add_section("[" + path_of(key) + "]  (optional)", key, help, visit);
+  return present;
+}
+
+void DescribeTable::required_section(const std::string& key, const std::string& help,
+                                     const std::function<void(ParameterTable&)>& visit) {
+  add_section("[" + path_of(key) + "]", key, help, visit);
+}
+
+void DescribeTable::items(const std::string& key, std::size_t /*count*/, const std::string& help,
+                          const std::function<void(std::size_t)>& /*resize*/,
+                          const std::function<void(std::size_t, ParameterTable&)>& visit) {
+  // No list has an item of this number, so the pattern of an item is described.
+  constexpr std::size_t pattern = static_cast<std::size_t>(-1);
+  add_section("[[" + path_of(key) + "]]  (any number)", key, help,
+              [&](ParameterTable& table) { visit(pattern, table); });
+}
+
+std::string DescribeTable::text() const {
+  std::array<std::size_t, 3> widths{};
+  for (const auto& row : keys_)
+    for (std::size_t c = 0; c < widths.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  std::string text;
+  for (const auto& row : keys_) {
+    std::string line = fmt::format("  {:{}}  {:{}}  {:{}}  {}", row[0], widths[0], row[1], widths[1], row[2],
+                                   widths[2], row[3]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text + sections_;
+}
+
+void DescribeTable::add(const std::string& key, bool required, const std::string& initial,
+                        const std::string& allowed, const std::string& help) {
+  keys_.push_back({key, required ? "required" : initial, allowed, help});
+}
+
+void DescribeTable::add_section(const std::string& title, const std::string& key, const std::string& help,
+                                const std::function<void(ParameterTable&)>& visit) {
+  DescribeTable inner(path_of(key));
+  visit(inner);
+  sections_ += fmt::format("\n{}{}\n{}", title, help.empty() ? "" : "  " + help, inner.text());
+}
+
+std::string DescribeTable::path_of(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
+
+}  // namespace toryu

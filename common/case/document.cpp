@@ -1,0 +1,89 @@
+#include "common/case/document.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace toryu {
+
+namespace {
+constexpr std::string_view override_option = "--set ";
+}
+
+toml::table parse_document(const std::string& text, const std::string& place) {
+  try {
+    return toml::parse(std::string_view(text), std::string_view(place));
+  } catch (const toml::parse_error& error) {
+    // A line break is quoted as it is by the parser; a message must stay one line.
+    std::string description(error.description());
+    if (const auto at = description.find('\n'); at != std::string::npos) description.replace(at, 1, "\\n");
+    throw BadInput({fault_at(error.source(), "not valid TOML: " + description)});
+  }
+}
+
+std::string override_place(const std::string& text) { return std::string(override_option) + text; }
+
+InputError fault_at(const toml::source_region& place, const std::string& message) {
+  InputError fault{.place = place.path ? *place.path : std::string(), .message = message};
+  if (!fault.place.starts_with(override_option)) {
+    fault.line = static_cast<int>(place.begin.line);
+    fault.column = static_cast<int>(place.begin.column);
+  }
+  return fault;
+}
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+toml::node* item_of(toml::array& array, const std::string& part) {
+  std::size_t index = 0;
+  const auto end = part.data() + part.size();
+  const auto [rest, error] = std::from_chars(part.data(), end, index);
+  if (error == std::errc() && rest == end) return array.get(index);
+  for (auto& item : array) {
+    const toml::table* table = item.as_table();
+    if (table && table->get("name") && (*table)["name"].value<std::string>() == part) return &item;
+  }
+  return nullptr;
+}
+
+toml::source_region place_of(const toml::table& table, const std::string& path,
+                             const toml::source_region& otherwise) {
+  toml::source_region place = otherwise;
+  const toml::node* node = &table;
+  for (const auto& part : split_path(path)) {
+    if (const toml::table* inner = node->as_table()) {
+      const auto entry = inner->find(part);
+      if (entry == inner->end()) break;
+      place = entry->first.source();
+      node = &entry->second;
+    } else if (const toml::array* items = node->as_array()) {
+      node = item_of(const_cast<toml::array&>(*items), part);
+      if (!node) break;
+      if (node->source().path) place = node->source();
+    } else {
+      break;
+    }
+  }
+  return place;
+}
+
+std::string found(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) return fmt::format("the text \"{}\"", *text);
+  if (const auto integer = node.value_exact<std::int64_t>()) return fmt::format("the number {}", *integer);
+  if (const auto number = node.value_exact<double>()) return fmt::format("the number {}", *number);
+  if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
+  if (node.is_table()) return "a section";
+  if (node.is_array_of_tables()) return "a list of sections";
+  if (const auto* array = node.as_array()) return fmt::format("a list of {}", array->size());
+  return "a date or time";
+}
+
+}  // namespace toryu

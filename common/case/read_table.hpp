@@ -1,0 +1,71 @@
+/// The visitor that reads a section of a case file into its owner's parameters and collects what is wrong.
+#pragma once
+
+#include "common/case/document.hpp"
+#include "common/case/parameter_table.hpp"
+
+namespace toryu {
+
+class ReadTable final : public ParameterTable {
+ public:
+  /// `table` is null where the case has no such section; `path` is its dotted name, `header` the same as a
+  /// user writes it ("[[fluid.region]]"), `place` where a missing key is reported.
+  ReadTable(const toml::table* table, std::string path, std::string header, toml::source_region place,
+            std::vector<InputError>& faults);
+
+  void number(const std::string& key, double& value, const NumberRule& rule) override;
+  void integer(const std::string& key, int& value, const NumberRule& rule) override;
+  void flag(const std::string& key, bool& value, const std::string& help) override;
+  void text(const std::string& key, std::string& value, const TextRule& rule) override;
+  void texts(const std::string& key, std::vector<std::string>& value, const TextRule& rule) override;
+  void vector(const std::string& key, Vec& value, const NumberRule& rule) override;
+  void rows(const std::string& key, std::vector<std::vector<double>>& value,
+            const std::vector<std::string>& columns, const TextRule& rule) override;
+  void require(bool holds, const std::string& key, const std::string& message) override;
+
+  /// Reports the keys that no parameter has asked for.
+  void report_unknown_keys();
+  /// The keys asked for so far.
+  const std::vector<std::string>& known() const { return known_; }
+
+ protected:
+  void word(const std::string& key, int& index, const std::vector<std::string>& words,
+            const TextRule& rule) override;
+  bool section(const std::string& key, bool present, const std::string& help,
+               const std::function<void(ParameterTable&)>& visit) override;
+  void required_section(const std::string& key, const std::string& help,
+                        const std::function<void(ParameterTable&)>& visit) override;
+  void items(const std::string& key, std::size_t count, const std::string& help,
+             const std::function<void(std::size_t)>& resize,
+             const std::function<void(std::size_t, ParameterTable&)>& visit) override;
+
+ private:
+  const toml::node* find(const std::string& key, bool required, const std::string& kind,
+                         const std::string& help);
+  toml::source_region place_of_key(const std::string& key) const;
+  void fault(const toml::source_region& place, const std::string& message);
+  void wrong_type(const std::string& key, const std::string& kind, const toml::node& node,
+                  const toml::source_region& place);
+  std::optional<double> checked_number(const std::string& key, const toml::node& node, const NumberRule& rule,
+                                       const toml::source_region& place);
+  std::optional<std::string> checked_text(const std::string& key, const toml::node& node,
+                                          const std::vector<std::string>& allowed,
+                                          const toml::source_region& place);
+  std::optional<std::vector<double>> checked_numbers(const std::string& key, const toml::node& node,
+                                                     std::size_t count, const NumberRule& rule,
+                                                     const std::string& kind,
+                                                     const toml::source_region& place);
+  void read_section(const toml::table* table, const std::string& key,
+                    const std::function<void(ParameterTable&)>& visit);
+  std::string path_of(const std::string& key) const;
+
+  const toml::table* table_;
+  std::string path_, header_;
+  toml::source_region place_;
+  std::vector<InputError>& faults_;
+  std::vector<std::string> known_;
+  /// Faults there were before this section, plus those of its own joint checks.
+  std::size_t faults_apart_;
+};
+
+}  // namespace toryu

@@ -1,0 +1,106 @@
+#include "common/case/write_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/case/rule_text.hpp"
+
+namespace toryu {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += {'\\', c};
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      result += fmt::format("\\u{:04x}", static_cast<int>(c));
+    else
+      result += c;
+  }
+  return result + "\"";
+}
+
+template <class Values, class Text>
+std::string array_text(const Values& values, Text text) {
+  std::string result;
+  for (const auto& value : values) result += (result.empty() ? "" : ", ") + text(value);
+  return "[" + result + "]";
+}
+
+std::string numbers_text(const std::vector<double>& values) { return array_text(values, number_text); }
+
+bool finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+void WriteTable::number(const std::string& key, double& value, const NumberRule& /*rule*/) {
+  if (std::isfinite(value)) add(key, number_text(value));
+}
+
+void WriteTable::integer(const std::string& key, int& value, const NumberRule& /*rule*/) {
+  add(key, fmt::format("{}", value));
+}
+
+void WriteTable::flag(const std::string& key, bool& value, const std::string& /*help*/) {
+  add(key, value ? "true" : "false");
+}
+
+void WriteTable::text(const std::string& key, std::string& value, const TextRule& /*rule*/) {
+  add(key, quoted(value));
+}
+
+void WriteTable::texts(const std::string& key, std::vector<std::string>& value, const TextRule& /*rule*/) {
+  add(key, array_text(value, quoted));
+}
+
+void WriteTable::vector(const std::string& key, Vec& value, const NumberRule& /*rule*/) {
+  const std::vector<double> numbers(value.data(), value.data() + dim);
+  if (finite(numbers)) add(key, numbers_text(numbers));
+}
+
+void WriteTable::rows(const std::string& key, std::vector<std::vector<double>>& value,
+                      const std::vector<std::string>& /*columns*/, const TextRule& /*rule*/) {
+  add(key, array_text(value, numbers_text));
+}
+
+void WriteTable::word(const std::string& key, int& index, const std::vector<std::string>& words,
+                      const TextRule& /*rule*/) {
+  add(key, quoted(words.at(static_cast<std::size_t>(index))));
+}
+
+bool WriteTable::section(const std::string& key, bool present, const std::string& /*help*/,
+                         const std::function<void(ParameterTable&)>& visit) {
+  if (present) add_section("[" + path_of(key) + "]", path_of(key), visit);
+  return present;
+}
+
+void WriteTable::required_section(const std::string& key, const std::string& /*help*/,
+                                  const std::function<void(ParameterTable&)>& visit) {
+  add_section("[" + path_of(key) + "]", path_of(key), visit);
+}
+
+void WriteTable::items(const std::string& key, std::size_t count, const std::string& /*help*/,
+                       const std::function<void(std::size_t)>& /*resize*/,
+                       const std::function<void(std::size_t, ParameterTable&)>& visit) {
+  for (std::size_t i = 0; i < count; ++i)
+    add_section("[[" + path_of(key) + "]]", path_of(key), [&](ParameterTable& table) { visit(i, table); });
+}
+
+void WriteTable::add_section(const std::string& header, const std::string& path,
+                             const std::function<void(ParameterTable&)>& visit) {
+  WriteTable inner(path);
+  visit(inner);
+  sections_ += "\n" + header + "\n" + inner.text();
+}
+
+std::string WriteTable::path_of(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
+
+}  // namespace toryu

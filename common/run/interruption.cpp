@@ -1,0 +1,30 @@
+#include <csignal>
+
+#include "common/run/program.hpp"
+
+namespace toryu {
+
+namespace {
+
+volatile std::sig_atomic_t requested = 0;
+
+void request(int /*signal*/) { requested = 1; }
+
+}  // namespace
+
+void catch_interruptions() {
+  requested = 0;
+  struct sigaction action = {};
+  action.sa_handler = request;
+  action.sa_flags = SA_RESTART;  // a half-done write goes on
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interruption_requested() { return requested != 0; }
+
+void throw_if_interrupted() {
+  if (interruption_requested()) throw Interrupted();
+}
+
+}  // namespace toryu

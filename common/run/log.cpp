@@ -1,0 +1,66 @@
+#include <fcntl.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <mutex>
+#include <system_error>
+
+#include "common/run/program.hpp"
+
+namespace toryu {
+
+namespace {
+
+/// A file that several processes append to. spdlog's own file sink writes by stdio, which may cut a line in
+/// two; one write(2) to a file opened with O_APPEND does not.
+class SharedFileSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit SharedFileSink(const std::filesystem::path& file)
+      : descriptor_(open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644)) {
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), file.string());
+  }
+  ~SharedFileSink() override { close(descriptor_); }
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    if (write(descriptor_, line.data(), line.size()) < 0)
+      throw spdlog::spdlog_ex("cannot write the log", errno);
+  }
+  void flush_() override {}
+
+ private:
+  int descriptor_;
+};
+
+std::shared_ptr<spdlog::sinks::sink> log_file;
+
+}  // namespace
+
+void open_log(const std::string& role, const std::filesystem::path& out, const std::string& level) {
+  std::vector<spdlog::sink_ptr> sinks;
+  const auto standard_error = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  standard_error->set_level(spdlog::level::warn);
+  standard_error->set_pattern("%n: %l: %v");
+  sinks.push_back(standard_error);
+  log_file = nullptr;
+  if (!out.empty()) {
+    std::filesystem::create_directories(out);
+    log_file = std::make_shared<SharedFileSink>(out / "log.txt");
+    log_file->set_pattern("%Y-%m-%d %H:%M:%S.%e %n %l: %v");
+    sinks.push_back(log_file);
+  }
+  const auto logger = std::make_shared<spdlog::logger>(role, sinks.begin(), sinks.end());
+  logger->set_level(spdlog::level::from_str(level));
+  spdlog::set_default_logger(logger);
+}
+
+void log_error_to_file(const std::string& message) {
+  if (log_file) log_file->log({spdlog::default_logger()->name(), spdlog::level::err, message});
+}
+
+}  // namespace toryu

@@ -1,0 +1,121 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+
+#include "common/case/nearest_word.hpp"
+#include "common/run/program.hpp"
+
+namespace toryu {
+
+namespace {
+
+const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "error", "off"};
+
+/// Values as typed. They are checked here and not by CLI11, which stops at the first fault.
+struct Typed {
+  std::string case_path, out, end_time, threads = "0", log_level = "info";
+  std::vector<std::string> overrides;
+  bool check = false, describe = false;
+};
+
+void declare(CLI::App& app, Typed& typed) {
+  app.set_help_flag("");
+  app.allow_extras();
+  app.add_option("CASE", typed.case_path, "A case.toml, or a folder that holds one");
+  app.add_option("--out", typed.out, "Folder of the results (default: out/<name of the case>)")
+      ->option_text("DIR");
+  app.add_option("--set", typed.overrides,
+                 "Another value of the case: fluid.sound_speed=30, wall.floor.box.max=[1,0]; "
+                 "false takes an optional section away (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("SECTION.KEY=VALUE");
+  app.add_option("--end-time", typed.end_time, "Short for --set case.end_time=SECONDS")
+      ->option_text("SECONDS");
+  app.add_option("--threads", typed.threads, "Threads (default 0: all cores)")->option_text("N");
+  app.add_option("--log-level", typed.log_level, "trace, debug, info (default), warn, error or off")
+      ->option_text("LEVEL");
+  app.add_flag("--check", typed.check, "Check the case, compute nothing");
+  app.add_flag("--describe", typed.describe, "Print the parameters of a case with units, defaults and ranges");
+  app.add_flag("--version", "Print the version and the commit");
+  app.add_flag("--help", "Print this help");
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// Arguments that CLI11 could not place. The value of a mistyped option lands among the plain ones, so those
+/// are reported only where no option is unknown.
+std::vector<InputError> extra_faults(const CLI::App& app) {
+  std::vector<InputError> unknown, plain;
+  for (const auto& argument : app.remaining()) {
+    if (!argument.starts_with("-")) {
+      plain.push_back({.place = argument, .message = "one argument too many; there is one CASE"});
+      continue;
+    }
+    const auto names = option_names(app);
+    const std::string hint = did_you_mean(argument.substr(0, argument.find('=')), names);
+    unknown.push_back({.place = argument,
+                       .message = "unknown option" + (hint.empty() ? "; see --help" : hint)});
+  }
+  return unknown.empty() ? plain : unknown;
+}
+
+std::optional<int> thread_count(const std::string& text) {
+  int threads = 0;
+  const auto end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, threads);
+  if (error != std::errc() || rest != end || threads < 0) return std::nullopt;
+  return threads;
+}
+
+}  // namespace
+
+Options parse_options(const std::string& role, const std::vector<std::string>& arguments) {
+  CLI::App app("", role);
+  Typed typed;
+  declare(app, typed);
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    throw BadInput({{.place = role, .message = error.what()}});
+  }
+
+  Options options{.overrides = typed.overrides,
+                  .log_level = typed.log_level,
+                  .check = typed.check,
+                  .describe = typed.describe};
+  std::vector<InputError> faults = extra_faults(app);
+  if (const auto threads = thread_count(typed.threads))
+    options.threads = *threads;
+  else
+    faults.push_back({.place = "--threads " + typed.threads, .message = "must be an integer of at least 0"});
+  if (std::find(log_levels.begin(), log_levels.end(), typed.log_level) == log_levels.end())
+    faults.push_back({.place = "--log-level " + typed.log_level,
+                      .message = "must be one of " + quoted_list(log_levels) +
+                                 did_you_mean(typed.log_level, log_levels)});
+  if (!typed.end_time.empty()) options.overrides.push_back("case.end_time=" + typed.end_time);
+  try {
+    if (!typed.case_path.empty())
+      options.case_path = find_case_file(typed.case_path);
+    else if (!typed.describe && faults.empty())
+      faults.push_back({.place = role, .message = "no CASE given; see --help"});
+  } catch (const BadInput& error) {
+    faults.insert(faults.end(), error.errors().begin(), error.errors().end());
+  }
+  if (!faults.empty()) throw BadInput(faults);
+  options.out = typed.out.empty() ? "out/" + case_name(options.case_path) : typed.out;
+  return options;
+}
+
+std::string help_text(const std::string& role) {
+  CLI::App app("", role);
+  Typed typed;
+  declare(app, typed);
+  return app.help();
+}
+
+}  // namespace toryu

@@ -1,0 +1,64 @@
+#include "common/run/program.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace toryu {
+
+namespace {
+
+/// Runs the body; what it throws ends in one line and an exit code.
+ExitCode guarded(const std::function<ExitCode()>& body) {
+  try {
+    return body();
+  } catch (const BadInput& error) {
+    // Standard error shows the bare lines, as a compiler does, so that editors find the places.
+    fmt::print(stderr, "{}\n", error.what());
+    log_error_to_file(error.what());
+    return ExitCode::bad_input;
+  } catch (const PhysicsFailure& error) {
+    spdlog::error("physics failed: {}", error.what());
+    return ExitCode::physics_failed;
+  } catch (const PeerLost& error) {
+    spdlog::error("peer lost: {}", error.what());
+    return ExitCode::peer_lost;
+  } catch (const Interrupted& error) {
+    spdlog::error("{}", error.what());
+    return ExitCode::interrupted;
+  } catch (const std::exception& error) {
+    spdlog::error("unexpected: {}", error.what());
+    return ExitCode::bug;
+  }
+}
+
+}  // namespace
+
+int run_program(const std::string& role, int argc, char** argv,
+                const std::function<ExitCode(const Options&)>& body) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto given = [&](const char* option) {
+    return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
+  };
+  open_log(role, "", "info");
+  const ExitCode code = guarded([&] {
+    if (given("--help")) {
+      fmt::print("{}", help_text(role));
+      return ExitCode::done;
+    }
+    if (given("--version")) {
+      const Provenance made = provenance(1);
+      fmt::print("{} of toryu {} (commit {}, {})\n", role, made.version, made.commit, made.compiler);
+      return ExitCode::done;
+    }
+    const Options options = parse_options(role, arguments);
+    const bool computes = !options.check && !options.describe;
+    open_log(role, computes ? options.out : "", options.log_level);
+    catch_interruptions();
+    return body(options);
+  });
+  return static_cast<int>(code);
+}
+
+}  // namespace toryu

@@ -1,0 +1,18 @@
+# Writes the commit of SOURCE into HEADER, if it has changed: its hash, with "-dirty" if files were changed.
+find_package(Git QUIET)
+set(commit "")
+if(GIT_FOUND)
+  execute_process(COMMAND ${GIT_EXECUTABLE} -C ${SOURCE} describe --always --dirty --abbrev=12 --exclude=*
+                  OUTPUT_VARIABLE commit ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+endif()
+if(commit STREQUAL "")
+  set(commit "unknown")
+endif()
+set(text "#pragma once\n#define TORYU_COMMIT \"${commit}\"\n")
+set(written "")
+if(EXISTS ${HEADER})
+  file(READ ${HEADER} written)
+endif()
+if(NOT written STREQUAL text)
+  file(WRITE ${HEADER} "${text}")
+endif()

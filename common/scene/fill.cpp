@@ -1,0 +1,60 @@
+#include <cmath>
+
+#include "common/scene/scene.hpp"
+
+namespace toryu {
+
+namespace {
+
+using Index = Eigen::Array<long, dim, 1>;
+
+/// Lattice points with begin <= index < end.
+struct IndexBox {
+  Index begin, end;
+  bool contains(const Index& index) const { return (index >= begin).all() && (index < end).all(); }
+};
+
+/// Rounding moves the edge of a box by far less than this share of a spacing, and no user means so little.
+constexpr double rounding = 1e-6;
+
+IndexBox lattice_range(const Box& box, const Vec& origin, double spacing) {
+  const auto first_at_or_above = [&](const Vec& corner) -> Index {
+    return ((corner - origin).array() / spacing - 0.5 - rounding).ceil().cast<long>();
+  };
+  return {first_at_or_above(box.min), first_at_or_above(box.max)};
+}
+
+bool in_any(const std::vector<IndexBox>& boxes, const Index& index) {
+  for (const auto& box : boxes)
+    if (box.contains(index)) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing) {
+  std::vector<Vec> points;
+  if (boxes.empty()) return points;
+  Vec origin = boxes.front().min;
+  for (const auto& box : boxes) origin = origin.cwiseMin(box.min);
+
+  std::vector<IndexBox> filled, empty;
+  for (const auto& box : boxes) filled.push_back(lattice_range(box, origin, spacing));
+  for (const auto& hole : holes) empty.push_back(lattice_range(hole, origin, spacing));
+  Index end = filled.front().end;
+  for (const auto& box : filled) end = end.max(box.end);
+
+  // Counts up like the digits of a clock, the first axis fastest.
+  for (Index index = Index::Zero(); index[dim - 1] < end[dim - 1];) {
+    if (in_any(filled, index) && !in_any(empty, index))
+      points.push_back(origin + spacing * (index.cast<double>() + 0.5).matrix());
+    ++index[0];
+    for (int axis = 0; axis + 1 < dim && index[axis] >= end[axis]; ++axis) {
+      index[axis] = 0;
+      ++index[axis + 1];
+    }
+  }
+  return points;
+}
+
+}  // namespace toryu

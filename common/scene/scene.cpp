@@ -1,0 +1,94 @@
+#include "common/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+namespace toryu {
+
+namespace {
+
+/// A box whose own faults have been reported is left alone.
+bool sound(const Box& box) { return (box.max.array() > box.min.array()).all(); }
+
+bool box_in_box(const Box& inner, const Box& outer) {
+  return (inner.min.array() >= outer.min.array()).all() && (inner.max.array() <= outer.max.array()).all();
+}
+
+void check_walls(CaseFile& file, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    const std::string key = fmt::format("wall.{}", i);
+    for (std::size_t k = 0; k < i; ++k)
+      if (!wall.name.empty() && wall.name == scene.walls[k].name)
+        file.fault(key + ".name", fmt::format("two walls are named '{}'; names must differ", wall.name));
+    if (sound(wall.box) && sound(scene.domain) && !box_in_box(wall.box, scene.domain))
+      file.fault(key + ".box", fmt::format("the box of wall '{}' is not within [case.domain]", wall.name));
+  }
+}
+
+void check_references(CaseFile& file, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.references.size(); ++i) {
+    const std::string& name = scene.references[i].file;
+    if (!name.empty() && !std::filesystem::is_regular_file(file.folder() / name))
+      file.fault(fmt::format("reference.{}.file", i),
+                 fmt::format("no file '{}' in the folder of the case", name));
+  }
+}
+
+}  // namespace
+
+void describe(ParameterTable& table, Scene& scene) {
+  table.text("title", scene.title, {.required = true, .help = "heads the log and the report"});
+  table.vector("gravity", scene.gravity, {.unit = "m/s2", .help = "acceleration of every fluid and solid"});
+  table.number("end_time", scene.end_time,
+               {.unit = "s", .minimum = 0, .above_minimum = true, .required = true, .help = "end of the run"});
+  table.number("frame_interval", scene.frame_interval,
+               {.unit = "s", .minimum = 0, .help = "time between frames; 0: no frames"});
+  table.number("series_interval", scene.series_interval,
+               {.unit = "s", .minimum = 0, .help = "time between rows of a series; 0: every step"});
+  table.group("domain", scene.domain, "a particle that leaves it stops the run");
+}
+
+void describe(ParameterTable& table, Box& box) {
+  table.vector("min", box.min, {.unit = "m", .required = true, .help = "smallest corner"});
+  table.vector("max", box.max, {.unit = "m", .required = true, .help = "largest corner"});
+  table.require(sound(box), "max", "'max' must exceed 'min' in each direction");
+}
+
+void describe(ParameterTable& table, Motion& motion) {
+  std::vector<std::string> columns = {"time [s]"};
+  for (int axis = 0; axis < dim; ++axis) columns.push_back(fmt::format("v_{} [m/s]", "xyz"[axis]));
+  table.rows("velocity", motion.velocity, columns,
+             {.required = true, .help = "linear in between, constant before and after"});
+  table.require(!motion.velocity.empty(), "velocity", "'velocity' needs at least one row");
+  for (std::size_t k = 1; k < motion.velocity.size(); ++k)
+    table.require(motion.velocity[k][0] > motion.velocity[k - 1][0], "velocity",
+                  fmt::format("times in 'velocity' must increase: {} comes after {}", motion.velocity[k][0],
+                              motion.velocity[k - 1][0]));
+}
+
+void describe(ParameterTable& table, Wall& wall) {
+  table.text("name", wall.name, {.required = true, .help = "as the log and the report call it"});
+  table.group("box", wall.box, "filled with particles on a lattice of each solver's spacing");
+  table.optional("motion", wall.motion, "prescribed motion; without it the wall stands still");
+}
+
+void describe(ParameterTable& table, Reference& reference) {
+  table.text("label", reference.label, {.required = true, .help = "in the legend of the chart"});
+  table.text("file", reference.file,
+             {.required = true, .help = "CSV beside the case, its first column time [s]; # starts a comment"});
+  table.text("series", reference.series,
+             {.required = true, .help = "what it is drawn over: 'solid.csv:tip_displacement_x[m]'"});
+  table.text("column", reference.column, {.required = true, .help = "column of the file"});
+}
+
+Scene read_scene(CaseFile& file) {
+  Scene scene;
+  file.read("case", scene, "what all participants share");
+  file.read_list("wall", scene.walls, "rigid bodies");
+  file.read_list("reference", scene.references, "measured or published curves, drawn in the report");
+  check_walls(file, scene);
+  check_references(file, scene);
+  return scene;
+}
+
+}  // namespace toryu
