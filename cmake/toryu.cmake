@@ -2,8 +2,9 @@
 
 add_library(toryu_settings INTERFACE)
 target_include_directories(toryu_settings INTERFACE ${PROJECT_SOURCE_DIR})
+# GCC 12 sees overlapping copies in std::string where there are none (GCC bug 105651): no -Wrestrict.
 target_compile_options(toryu_settings INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wno-restrict>
   -march=${TORYU_CPU} -fno-math-errno)
 if(TORYU_CPU STREQUAL "native" OR TORYU_CPU STREQUAL "x86-64-v4")
   target_compile_options(toryu_settings INTERFACE -mprefer-vector-width=512)

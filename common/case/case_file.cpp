@@ -113,15 +113,19 @@ void CaseFile::throw_if_faulty() const {
     if (contains(known, name)) continue;
     const std::string kind = node.is_table() || node.is_array_of_tables() ? "section" : "key";
     const std::string hint = did_you_mean(name, known);
-    faults.push_back(fault_at(key.source(), fmt::format("unknown {} '{}'{}", kind, name,
-                                                        hint.empty() ? "; sections are " + quoted_list(known)
-                                                                     : hint)));
+    faults.push_back(
+        fault_at(key.source(), fmt::format("unknown {} '{}'{}", kind, name,
+                                           hint.empty() ? "; sections are " + quoted_list(known) : hint)));
   }
   if (faults.empty()) return;
   // Faults of the file by line, then those of the overrides in their order.
-  std::stable_sort(faults.begin(), faults.end(), [](const InputError& a, const InputError& b) {
-    return std::tuple(a.line == 0, a.line, a.column) < std::tuple(b.line == 0, b.line, b.column);
-  });
+  const auto rank = [&](const InputError& fault) {
+    const auto is_place = [&](const std::string& text) { return override_place(text) == fault.place; };
+    const auto given = std::find_if(c.overrides.begin(), c.overrides.end(), is_place);
+    return std::tuple(fault.line == 0, given - c.overrides.begin(), fault.line, fault.column);
+  };
+  std::stable_sort(faults.begin(), faults.end(),
+                   [&](const InputError& a, const InputError& b) { return rank(a) < rank(b); });
   throw BadInput(faults);
 }
 
@@ -151,6 +155,8 @@ std::filesystem::path CaseFile::folder() const {
   return std::filesystem::absolute(content_->file).lexically_normal().parent_path();
 }
 
-std::string CaseFile::name() const { return case_name(content_->file); }
+std::string CaseFile::name() const {
+  return case_name(content_->file);
+}
 
 }  // namespace toryu

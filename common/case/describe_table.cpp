@@ -10,19 +10,12 @@
 
 namespace toryu {
 
-namespace {
-std::string number_words(const std::string& kind, const NumberRule& rule) {
-  const std::string range = range_text(rule);
-  return kind + unit_text(rule.unit) + (range.empty() ? "" : " " + range);
-}
-}  // namespace
-
 void DescribeTable::number(const std::string& key, double& value, const NumberRule& rule) {
-  add(key, rule.required, fmt::format("{}", value), number_words("number", rule), rule.help);
+  add(key, rule.required, fmt::format("{}", value), number_kind("a number", rule), rule.help);
 }
 
 void DescribeTable::integer(const std::string& key, int& value, const NumberRule& rule) {
-  add(key, rule.required, fmt::format("{}", value), number_words("integer", rule), rule.help);
+  add(key, rule.required, fmt::format("{}", value), number_kind("an integer", rule), rule.help);
 }
 
 void DescribeTable::flag(const std::string& key, bool& value, const std::string& help) {
@@ -30,19 +23,17 @@ void DescribeTable::flag(const std::string& key, bool& value, const std::string&
 }
 
 void DescribeTable::text(const std::string& key, std::string& value, const TextRule& rule) {
-  add(key, rule.required, "'" + value + "'", rule.allowed.empty() ? "text" : quoted_list(rule.allowed),
-      rule.help);
+  add(key, rule.required, "'" + value + "'", text_kind(rule.allowed), rule.help);
 }
 
 void DescribeTable::texts(const std::string& key, std::vector<std::string>& value, const TextRule& rule) {
-  add(key, rule.required, "[" + quoted_list(value) + "]",
-      rule.allowed.empty() ? "texts" : "some of " + quoted_list(rule.allowed), rule.help);
+  add(key, rule.required, "[" + quoted_list(value) + "]", texts_kind(rule.allowed), rule.help);
 }
 
 void DescribeTable::vector(const std::string& key, Vec& value, const NumberRule& rule) {
   const std::vector<double> numbers(value.data(), value.data() + dim);
   add(key, rule.required, fmt::format("[{}]", fmt::join(numbers, ", ")),
-      number_words(fmt::format("{} numbers", dim), rule), rule.help);
+      number_kind(fmt::format("{} numbers", dim), rule), rule.help);
 }
 
 void DescribeTable::rows(const std::string& key, std::vector<std::vector<double>>& value,
@@ -53,8 +44,7 @@ void DescribeTable::rows(const std::string& key, std::vector<std::vector<double>
 
 void DescribeTable::word(const std::string& key, int& index, const std::vector<std::string>& words,
                          const TextRule& rule) {
-  add(key, rule.required, "'" + words.at(static_cast<std::size_t>(index)) + "'", quoted_list(words),
-      rule.help);
+  add(key, rule.required, "'" + words.at(static_cast<std::size_t>(index)) + "'", text_kind(words), rule.help);
 }
 
 bool DescribeTable::section(const std::string& key, bool present, const std::string& help,

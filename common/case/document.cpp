@@ -20,7 +20,9 @@ toml::table parse_document(const std::string& text, const std::string& place) {
   }
 }
 
-std::string override_place(const std::string& text) { return std::string(override_option) + text; }
+std::string override_place(const std::string& text) {
+  return std::string(override_option) + text;
+}
 
 InputError fault_at(const toml::source_region& place, const std::string& message) {
   InputError fault{.place = place.path ? *place.path : std::string(), .message = message};

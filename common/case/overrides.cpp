@@ -31,8 +31,8 @@ std::string no_such_item(const toml::array& array, const std::string& part, cons
   for (const auto& item : array)
     if (const auto* table = item.as_table())
       if (const auto name = (*table)["name"].value<std::string>()) names.push_back(*name);
-  const std::string size = fmt::format("{} has {} item{}, counted from 0", path, array.size(),
-                                       array.size() == 1 ? "" : "s");
+  const std::string size =
+      fmt::format("{} has {} item{}, counted from 0", path, array.size(), array.size() == 1 ? "" : "s");
   return fmt::format("no item '{}': {}{}{}", part, size, names.empty() ? "" : ", named " + quoted_list(names),
                      did_you_mean(part, names));
 }

@@ -27,12 +27,12 @@ struct NumberRule {
   double maximum = std::numeric_limits<double>::infinity();
   bool above_minimum = false;  ///< the minimum itself is not allowed
   bool required = false;
-  std::string help;
+  std::string help = {};
 };
 
 struct TextRule {
   bool required = false;
-  std::string help;
+  std::string help = {};
   std::vector<std::string> allowed = {};  ///< the only words that `text` and `texts` take; empty: any
 };
 

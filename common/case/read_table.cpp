@@ -11,24 +11,11 @@
 
 namespace toryu {
 
-namespace {
-
-std::string number_kind(const std::string& kind, const NumberRule& rule) {
-  const std::string range = range_text(rule);
-  return kind + unit_text(rule.unit) + (range.empty() ? "" : " " + range);
-}
-
-std::string text_kind(const std::string& kind, const std::vector<std::string>& allowed) {
-  return allowed.empty() ? kind : kind + " of " + quoted_list(allowed);
-}
-
-}  // namespace
-
-ReadTable::ReadTable(const toml::table* table, std::string path, std::string header,
-                     toml::source_region place, std::vector<InputError>& faults)
+ReadTable::ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
+                     std::vector<InputError>& faults)
     : table_(table),
       path_(std::move(path)),
-      header_(std::move(header)),
+      where_(std::move(where)),
       place_(std::move(place)),
       faults_(faults),
       faults_apart_(faults.size()) {}
@@ -40,13 +27,14 @@ void ReadTable::number(const std::string& key, double& value, const NumberRule& 
 }
 
 void ReadTable::integer(const std::string& key, int& value, const NumberRule& rule) {
-  NumberRule held = rule;
-  held.minimum = std::max<double>(rule.minimum, INT_MIN);
-  held.maximum = std::min<double>(rule.maximum, INT_MAX);
-  const toml::node* node = find(key, rule.required, number_kind("an integer", rule), rule.help);
+  const std::string kind = number_kind("an integer", rule);
+  const toml::node* node = find(key, rule.required, kind, rule.help);
   if (!node) return;
-  if (!node->is_integer()) return wrong_type(key, "an integer", *node, place_of_key(key));
-  if (const auto read = checked_number(key, *node, held, place_of_key(key))) value = static_cast<int>(*read);
+  if (!node->is_integer()) return wrong_type(key, kind, *node, place_of_key(key));
+  const NumberRule representable{.minimum = INT_MIN, .maximum = INT_MAX};
+  auto read = checked_number(key, *node, rule, place_of_key(key));
+  if (read) read = checked_number(key, *node, representable, place_of_key(key));
+  if (read) value = static_cast<int>(*read);
 }
 
 void ReadTable::flag(const std::string& key, bool& value, const std::string& help) {
@@ -59,13 +47,13 @@ void ReadTable::flag(const std::string& key, bool& value, const std::string& hel
 }
 
 void ReadTable::text(const std::string& key, std::string& value, const TextRule& rule) {
-  const toml::node* node = find(key, rule.required, text_kind("text", rule.allowed), rule.help);
+  const toml::node* node = find(key, rule.required, text_kind(rule.allowed), rule.help);
   if (!node) return;
   if (const auto read = checked_text(key, *node, rule.allowed, place_of_key(key))) value = *read;
 }
 
 void ReadTable::texts(const std::string& key, std::vector<std::string>& value, const TextRule& rule) {
-  const std::string kind = text_kind("a list of texts", rule.allowed);
+  const std::string kind = texts_kind(rule.allowed);
   const toml::node* node = find(key, rule.required, kind, rule.help);
   if (!node) return;
   const toml::array* array = node->as_array();
@@ -101,7 +89,7 @@ void ReadTable::rows(const std::string& key, std::vector<std::vector<double>>& v
 
 void ReadTable::word(const std::string& key, int& index, const std::vector<std::string>& words,
                      const TextRule& rule) {
-  const toml::node* node = find(key, rule.required, text_kind("one", words), rule.help);
+  const toml::node* node = find(key, rule.required, text_kind(words), rule.help);
   if (!node) return;
   if (const auto read = checked_text(key, *node, words, place_of_key(key)))
     index = static_cast<int>(std::find(words.begin(), words.end(), *read) - words.begin());
@@ -129,7 +117,7 @@ void ReadTable::required_section(const std::string& key, const std::string& help
 void ReadTable::read_section(const toml::table* table, const std::string& key,
                              const std::function<void(ParameterTable&)>& visit) {
   const std::string path = path_of(key);
-  ReadTable inner(table, path, "[" + path + "]", table ? place_of_key(key) : place_, faults_);
+  ReadTable inner(table, path, " in [" + path + "]", table ? place_of_key(key) : place_, faults_);
   visit(inner);
   inner.report_unknown_keys();
 }
@@ -150,7 +138,7 @@ void ReadTable::items(const std::string& key, std::size_t /*count*/, const std::
       wrong_type(key, "a list of sections " + header, item, place);
       continue;
     }
-    ReadTable inner(item.as_table(), path_of(key), header, place, faults_);
+    ReadTable inner(item.as_table(), path_of(key), " in " + header, place, faults_);
     visit(i, inner);
     inner.report_unknown_keys();
   }
@@ -168,7 +156,7 @@ void ReadTable::report_unknown_keys() {
     const std::string typed(key.str());
     if (std::find(known_.begin(), known_.end(), typed) != known_.end()) continue;
     const std::string hint = did_you_mean(typed, known_);
-    fault(key.source(), fmt::format("unknown key '{}' in {}{}", typed, header_,
+    fault(key.source(), fmt::format("unknown key '{}'{}{}", typed, where_,
                                     hint.empty() ? "; known are " + quoted_list(known_) : hint));
   }
 }
@@ -178,8 +166,8 @@ const toml::node* ReadTable::find(const std::string& key, bool required, const s
   known_.push_back(key);
   const toml::node* node = table_ ? table_->get(key) : nullptr;
   if (!node && required)
-    fault(place_, fmt::format("missing key '{}' in {}: {}{}", key, header_, kind,
-                              help.empty() ? "" : ", " + help));
+    fault(place_,
+          fmt::format("missing key '{}'{}: {}{}", key, where_, kind, help.empty() ? "" : ", " + help));
   return node;
 }
 
@@ -193,7 +181,7 @@ void ReadTable::fault(const toml::source_region& place, const std::string& messa
 
 void ReadTable::wrong_type(const std::string& key, const std::string& kind, const toml::node& node,
                            const toml::source_region& place) {
-  fault(place, fmt::format("'{}' in {} must be {}, found {}", key, header_, kind, found(node)));
+  fault(place, fmt::format("'{}'{} must be {}, found {}", key, where_, kind, found(node)));
 }
 
 std::optional<double> ReadTable::checked_number(const std::string& key, const toml::node& node,
@@ -205,12 +193,12 @@ std::optional<double> ReadTable::checked_number(const std::string& key, const to
   }
   const double value = *node.value<double>();
   if (!std::isfinite(value)) {
-    fault(place, fmt::format("'{}' in {} must be a finite number{}, found {}", key, header_,
-                             unit_text(rule.unit), value));
+    fault(place, fmt::format("'{}'{} must be a finite number{}, found {}", key, where_, unit_text(rule.unit),
+                             value));
     return std::nullopt;
   }
   if (!in_range(value, rule)) {
-    fault(place, fmt::format("'{}' in {} must be {}{}, found {}", key, header_, range_text(rule),
+    fault(place, fmt::format("'{}'{} must be {}{}, found {}", key, where_, range_text(rule),
                              unit_text(rule.unit), value));
     return std::nullopt;
   }
@@ -222,11 +210,11 @@ std::optional<std::string> ReadTable::checked_text(const std::string& key, const
                                                    const toml::source_region& place) {
   const auto value = node.value_exact<std::string>();
   if (!value) {
-    wrong_type(key, text_kind(allowed.empty() ? "text" : "one", allowed), node, place);
+    wrong_type(key, text_kind(allowed), node, place);
     return std::nullopt;
   }
   if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
-    fault(place, fmt::format("'{}' in {} must be one of {}, found '{}'{}", key, header_, quoted_list(allowed),
+    fault(place, fmt::format("'{}'{} must be one of {}, found '{}'{}", key, where_, quoted_list(allowed),
                              *value, did_you_mean(*value, allowed)));
     return std::nullopt;
   }

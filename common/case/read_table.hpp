@@ -8,9 +8,9 @@ namespace toryu {
 
 class ReadTable final : public ParameterTable {
  public:
-  /// `table` is null where the case has no such section; `path` is its dotted name, `header` the same as a
-  /// user writes it ("[[fluid.region]]"), `place` where a missing key is reported.
-  ReadTable(const toml::table* table, std::string path, std::string header, toml::source_region place,
+  /// `table` is null where the case has no such section; `path` is its dotted name, `where` the same for a
+  /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported.
+  ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
             std::vector<InputError>& faults);
 
   void number(const std::string& key, double& value, const NumberRule& rule) override;
@@ -60,7 +60,7 @@ class ReadTable final : public ParameterTable {
   std::string path_of(const std::string& key) const;
 
   const toml::table* table_;
-  std::string path_, header_;
+  std::string path_, where_;
   toml::source_region place_;
   std::vector<InputError>& faults_;
   std::vector<std::string> known_;

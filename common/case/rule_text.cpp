@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/case/nearest_word.hpp"
+
 namespace toryu {
 
 std::string unit_text(const std::string& unit) {
@@ -18,6 +20,20 @@ std::string range_text(const NumberRule& rule) {
   if (from) return fmt::format("{} {}", rule.above_minimum ? "above" : "at least", rule.minimum);
   if (to) return fmt::format("at most {}", rule.maximum);
   return "";
+}
+
+std::string number_kind(const std::string& kind, const NumberRule& rule) {
+  const std::string range = range_text(rule);
+  if (range.empty()) return kind + unit_text(rule.unit);
+  return fmt::format("{}{} {}{}", kind, unit_text(rule.unit), range.starts_with("at") ? "of " : "", range);
+}
+
+std::string text_kind(const std::vector<std::string>& allowed) {
+  return allowed.empty() ? "text" : "one of " + quoted_list(allowed);
+}
+
+std::string texts_kind(const std::vector<std::string>& allowed) {
+  return "a list of " + (allowed.empty() ? "texts" : quoted_list(allowed));
 }
 
 bool in_range(double value, const NumberRule& rule) {

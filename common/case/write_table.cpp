@@ -31,7 +31,9 @@ std::string array_text(const Values& values, Text text) {
   return "[" + result + "]";
 }
 
-std::string numbers_text(const std::vector<double>& values) { return array_text(values, number_text); }
+std::string numbers_text(const std::vector<double>& values) {
+  return array_text(values, number_text);
+}
 
 bool finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });

@@ -1,5 +1,6 @@
 /// The visitor that writes a section with all its values, defaults included, as TOML that reads back to the
-/// same parameters. A number that is not finite can only be a default, which reading restores: it is left out.
+/// same parameters. A number that is not finite can only be a default, which reading restores: it is left
+/// out.
 #pragma once
 
 #include "common/case/parameter_table.hpp"

@@ -8,7 +8,9 @@ namespace {
 
 volatile std::sig_atomic_t requested = 0;
 
-void request(int /*signal*/) { requested = 1; }
+void request(int /*signal*/) {
+  requested = 1;
+}
 
 }  // namespace
 
@@ -21,7 +23,9 @@ void catch_interruptions() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-bool interruption_requested() { return requested != 0; }
+bool interruption_requested() {
+  return requested != 0;
+}
 
 void throw_if_interrupted() {
   if (interruption_requested()) throw Interrupted();

@@ -15,7 +15,7 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 struct Typed {
   std::string case_path, out, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
-  bool check = false, describe = false;
+  bool check = false, describe = false, version = false, help = false;
 };
 
 void declare(CLI::App& app, Typed& typed) {
@@ -23,21 +23,21 @@ void declare(CLI::App& app, Typed& typed) {
   app.allow_extras();
   app.add_option("CASE", typed.case_path, "A case.toml, or a folder that holds one");
   app.add_option("--out", typed.out, "Folder of the results (default: out/<name of the case>)")
-      ->option_text("DIR");
+      ->type_name("DIR");
   app.add_option("--set", typed.overrides,
                  "Another value of the case: fluid.sound_speed=30, wall.floor.box.max=[1,0]; "
                  "false takes an optional section away (repeatable)")
       ->allow_extra_args(false)
-      ->option_text("SECTION.KEY=VALUE");
-  app.add_option("--end-time", typed.end_time, "Short for --set case.end_time=SECONDS")
-      ->option_text("SECONDS");
-  app.add_option("--threads", typed.threads, "Threads (default 0: all cores)")->option_text("N");
+      ->type_name("SECTION.KEY=VALUE");
+  app.add_option("--end-time", typed.end_time, "Short for --set case.end_time=SECONDS")->type_name("SECONDS");
+  app.add_option("--threads", typed.threads, "Threads (default 0: all cores)")->type_name("N");
   app.add_option("--log-level", typed.log_level, "trace, debug, info (default), warn, error or off")
-      ->option_text("LEVEL");
+      ->type_name("LEVEL");
   app.add_flag("--check", typed.check, "Check the case, compute nothing");
-  app.add_flag("--describe", typed.describe, "Print the parameters of a case with units, defaults and ranges");
-  app.add_flag("--version", "Print the version and the commit");
-  app.add_flag("--help", "Print this help");
+  app.add_flag("--describe", typed.describe,
+               "Print the parameters of a case with units, defaults and ranges");
+  app.add_flag("--version", typed.version, "Print the version and the commit");
+  app.add_flag("--help", typed.help, "Print this help");
 }
 
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -58,8 +58,8 @@ std::vector<InputError> extra_faults(const CLI::App& app) {
     }
     const auto names = option_names(app);
     const std::string hint = did_you_mean(argument.substr(0, argument.find('=')), names);
-    unknown.push_back({.place = argument,
-                       .message = "unknown option" + (hint.empty() ? "; see --help" : hint)});
+    unknown.push_back(
+        {.place = argument, .message = "unknown option" + (hint.empty() ? "; see --help" : hint)});
   }
   return unknown.empty() ? plain : unknown;
 }
@@ -84,19 +84,20 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
     throw BadInput({{.place = role, .message = error.what()}});
   }
 
-  Options options{.overrides = typed.overrides,
-                  .log_level = typed.log_level,
-                  .check = typed.check,
-                  .describe = typed.describe};
+  Options options;
+  options.overrides = typed.overrides;
+  options.log_level = typed.log_level;
+  options.check = typed.check;
+  options.describe = typed.describe;
   std::vector<InputError> faults = extra_faults(app);
   if (const auto threads = thread_count(typed.threads))
     options.threads = *threads;
   else
     faults.push_back({.place = "--threads " + typed.threads, .message = "must be an integer of at least 0"});
   if (std::find(log_levels.begin(), log_levels.end(), typed.log_level) == log_levels.end())
-    faults.push_back({.place = "--log-level " + typed.log_level,
-                      .message = "must be one of " + quoted_list(log_levels) +
-                                 did_you_mean(typed.log_level, log_levels)});
+    faults.push_back(
+        {.place = "--log-level " + typed.log_level,
+         .message = "must be one of " + quoted_list(log_levels) + did_you_mean(typed.log_level, log_levels)});
   if (!typed.end_time.empty()) options.overrides.push_back("case.end_time=" + typed.end_time);
   try {
     if (!typed.case_path.empty())
@@ -107,7 +108,8 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
     faults.insert(faults.end(), error.errors().begin(), error.errors().end());
   }
   if (!faults.empty()) throw BadInput(faults);
-  options.out = typed.out.empty() ? "out/" + case_name(options.case_path) : typed.out;
+  options.out = typed.out;
+  if (typed.out.empty() && !options.case_path.empty()) options.out = "out/" + case_name(options.case_path);
   return options;
 }
 

@@ -8,7 +8,9 @@ namespace {
 
 using Row = std::vector<double>;
 
-Vec velocity_of(const Row& row) { return Eigen::Map<const Vec>(row.data() + 1); }
+Vec velocity_of(const Row& row) {
+  return Eigen::Map<const Vec>(row.data() + 1);
+}
 
 /// The first row later than `time`.
 std::size_t next_row(const std::vector<Row>& rows, double time) {
@@ -48,6 +50,8 @@ Vec Motion::displacement_at(double time) const {
   return integral_to(velocity, time) - integral_to(velocity, 0);
 }
 
-Vec Motion::acceleration_at(double time) const { return slope_before(velocity, next_row(velocity, time)); }
+Vec Motion::acceleration_at(double time) const {
+  return slope_before(velocity, next_row(velocity, time));
+}
 
 }  // namespace toryu

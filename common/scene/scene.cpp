@@ -7,7 +7,9 @@ namespace toryu {
 namespace {
 
 /// A box whose own faults have been reported is left alone.
-bool sound(const Box& box) { return (box.max.array() > box.min.array()).all(); }
+bool sound(const Box& box) {
+  return (box.max.array() > box.min.array()).all();
+}
 
 bool box_in_box(const Box& inner, const Box& outer) {
   return (inner.min.array() >= outer.min.array()).all() && (inner.max.array() <= outer.max.array()).all();
@@ -39,8 +41,9 @@ void check_references(CaseFile& file, const Scene& scene) {
 void describe(ParameterTable& table, Scene& scene) {
   table.text("title", scene.title, {.required = true, .help = "heads the log and the report"});
   table.vector("gravity", scene.gravity, {.unit = "m/s2", .help = "acceleration of every fluid and solid"});
-  table.number("end_time", scene.end_time,
-               {.unit = "s", .minimum = 0, .above_minimum = true, .required = true, .help = "end of the run"});
+  table.number(
+      "end_time", scene.end_time,
+      {.unit = "s", .minimum = 0, .above_minimum = true, .required = true, .help = "end of the run"});
   table.number("frame_interval", scene.frame_interval,
                {.unit = "s", .minimum = 0, .help = "time between frames; 0: no frames"});
   table.number("series_interval", scene.series_interval,
@@ -74,8 +77,9 @@ void describe(ParameterTable& table, Wall& wall) {
 
 void describe(ParameterTable& table, Reference& reference) {
   table.text("label", reference.label, {.required = true, .help = "in the legend of the chart"});
-  table.text("file", reference.file,
-             {.required = true, .help = "CSV beside the case, its first column time [s]; # starts a comment"});
+  table.text(
+      "file", reference.file,
+      {.required = true, .help = "CSV beside the case, its first column time [s]; # starts a comment"});
   table.text("series", reference.series,
              {.required = true, .help = "what it is drawn over: 'solid.csv:tip_displacement_x[m]'"});
   table.text("column", reference.column, {.required = true, .help = "column of the file"});

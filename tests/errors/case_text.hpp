@@ -1,0 +1,61 @@
+/// A case written to a folder of its own, and the faults that reading it collects.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/errors/example_section.hpp"
+
+namespace toryu {
+
+class CaseText {
+ public:
+  explicit CaseText(const std::string& text)
+      : folder_(std::filesystem::temp_directory_path() / ("toryu_case_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "case.toml") << text;
+  }
+  ~CaseText() { std::filesystem::remove_all(folder_); }
+  CaseText(const CaseText&) = delete;
+  CaseText& operator=(const CaseText&) = delete;
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// What is thrown on reading [medium], with "case.toml" for the path of the file; empty if nothing.
+  std::string faults(const std::vector<std::string>& overrides = {}) const {
+    try {
+      CaseFile file(folder_, overrides);
+      Medium medium;
+      file.read("medium", medium, "what fills the room");
+      file.leave_to_others({"other"});
+      file.throw_if_faulty();
+    } catch (const BadInput& error) {
+      return shortened(error.what());
+    }
+    return "";
+  }
+  /// The same for [case], [[wall]] and [[reference]].
+  std::string scene_faults(const std::vector<std::string>& overrides = {}) const {
+    try {
+      CaseFile file(folder_, overrides);
+      read_scene(file);
+      file.throw_if_faulty();
+    } catch (const BadInput& error) {
+      return shortened(error.what());
+    }
+    return "";
+  }
+
+ private:
+  std::string shortened(std::string text) const {
+    const std::string path = folder_.string() + "/";
+    for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.erase(at, path.size());
+    return text;
+  }
+  std::filesystem::path folder_;
+};
+
+}  // namespace toryu

@@ -1,0 +1,168 @@
+// Exit codes, standard output, standard error and log of a real program, for good and bad command lines.
+#include "common/run/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace toryu {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string sound_case =
+    "[case]\ntitle = 'A'\nend_time = 1\ndomain = {min=[0,0], max=[2,2]}\n[medium]\ndensity = 1000\n";
+
+class ExampleProgram : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("toryu_program_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_ / "room");
+    std::ofstream(folder_ / "room/case.toml") << sound_case;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  struct Ending {
+    int code;
+    std::string output, error;
+  };
+  Ending run(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" EXAMPLE_PROGRAM "' " + arguments + " >output.txt 2>error.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of("output.txt"), text_of("error.txt")};
+  }
+  std::string text_of(const std::string& file) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / file).rdbuf();
+    return text.str();
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(ExampleProgram, EndsWellInSilence) {
+  const Ending ending = run("room");
+  EXPECT_EQ(ending.code, 0);
+  EXPECT_EQ(ending.output + ending.error, "");
+  EXPECT_THAT(text_of("out/room/log.txt"), HasSubstr(" example_program info: runs to 1 s with 0 threads\n"));
+}
+
+TEST_F(ExampleProgram, TakesOptions) {
+  const Ending ending = run("room/case.toml --out here --end-time 0.25 --threads 2 --set medium.steps=3");
+  EXPECT_EQ(ending.code, 0) << ending.error;
+  EXPECT_THAT(text_of("here/log.txt"), HasSubstr("runs to 0.25 s with 2 threads"));
+}
+
+TEST_F(ExampleProgram, KeepsTheCaseApartFromOverridesBeforeIt) {
+  EXPECT_EQ(run("--set medium.wind=[1,2] --set medium.steps=3 room").code, 0);
+}
+
+TEST_F(ExampleProgram, ChecksWithoutLeavingAnything) {
+  const Ending ending = run("room --check");
+  EXPECT_EQ(ending.code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(ExampleProgram, ListsFaultsOfTheCase) {
+  const Ending ending = run("room --set case.end_time=-1 --set medium.densty=1 --check");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_EQ(ending.error,
+            "--set case.end_time=-1: error: 'end_time' in [case] must be above 0 [s], found -1\n"
+            "--set medium.densty=1: error: unknown key 'densty' in [medium]; did you mean 'density'?\n");
+}
+
+TEST_F(ExampleProgram, WritesFaultsToTheLogToo) {
+  EXPECT_EQ(run("room --set medium.steps=0").code, 2);
+  EXPECT_THAT(text_of("out/room/log.txt"),
+              HasSubstr("example_program error: --set medium.steps=0: error: 'steps' in [medium] must be at "
+                        "least 1, found 0\n"));
+}
+
+TEST_F(ExampleProgram, ListsAllFaultsOfTheCommandLine) {
+  const Ending ending = run("rom --ouy here --threads few --log-level wrn --chek");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_EQ(
+      ending.error,
+      "--ouy: error: unknown option; did you mean '--out'?\n"
+      "--chek: error: unknown option; did you mean '--check'?\n"
+      "--threads few: error: must be an integer of at least 0\n"
+      "--log-level wrn: error: must be one of 'trace', 'debug', 'info', 'warn', 'error', 'off'; did you "
+      "mean 'warn'?\n"
+      "rom: error: no such file or folder\n");
+}
+
+TEST_F(ExampleProgram, RefusesOneArgumentTooMany) {
+  EXPECT_EQ(run("room room").error, "room: error: one argument too many; there is one CASE\n");
+}
+
+TEST_F(ExampleProgram, RefusesAnOptionWithoutValue) {
+  const Ending ending = run("room --out");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_EQ(ending.error, "example_program: error: --out: 1 required DIR missing\n");
+}
+
+TEST_F(ExampleProgram, WantsACase) {
+  EXPECT_EQ(run("").error, "example_program: error: no CASE given; see --help\n");
+  EXPECT_EQ(run("").code, 2);
+}
+
+TEST_F(ExampleProgram, TakesANegativeEndTimeForAFaultOfTheCase) {
+  EXPECT_EQ(run("room --end-time -1 --check").error,
+            "--set case.end_time=-1: error: 'end_time' in [case] must be above 0 [s], found -1\n");
+}
+
+TEST_F(ExampleProgram, DescribesWithAndWithoutACase) {
+  const Ending without = run("--describe"), with = run("room --describe");
+  EXPECT_EQ(without.code, 0);
+  EXPECT_EQ(without.output, with.output);
+  EXPECT_THAT(without.output, HasSubstr("[medium.drag]  (optional)"));
+}
+
+TEST_F(ExampleProgram, SaysItsVersion) {
+  const Ending ending = run("--version");
+  EXPECT_EQ(ending.code, 0);
+  EXPECT_THAT(ending.output, StartsWith("example_program of toryu " + provenance(1).version + " (commit "));
+}
+
+TEST_F(ExampleProgram, Helps) {
+  const Ending ending = run("--help");
+  EXPECT_EQ(ending.code, 0);
+  for (const char* option : {"CASE", "--out DIR", "--set SECTION.KEY=VALUE", "--end-time SECONDS",
+                             "--threads N", "--log-level LEVEL", "--check", "--describe", "--version"})
+    EXPECT_THAT(ending.output, HasSubstr(option));
+}
+
+struct Failure {
+  std::string label;
+  int code;
+  std::string error;
+};
+
+TEST_F(ExampleProgram, EndsEachFailureWithItsCodeAndOneLine) {
+  const std::vector<Failure> failures = {
+      {"physics", 3, "physics failed: medium particle 7 at t = 0.5 s: speed = 12 m/s, limit 10 m/s"},
+      {"peer", 4, "peer lost: solid_solver has not answered for 2 s"},
+      {"interrupted", 130, "interrupted"},
+      {"bug", 1, "unexpected: index 3 of 2"}};
+  for (const auto& failure : failures) {
+    const Ending ending = run("room --out " + failure.label + " --set medium.label=" + failure.label);
+    EXPECT_EQ(ending.code, failure.code);
+    EXPECT_EQ(ending.error, "example_program: error: " + failure.error + "\n");
+    EXPECT_THAT(text_of(failure.label + "/log.txt"),
+                HasSubstr("example_program error: " + failure.error + "\n"));
+  }
+}
+
+TEST_F(ExampleProgram, WarnsOnStandardError) {
+  const Ending ending = run("room --set medium.label=warning");
+  EXPECT_EQ(ending.code, 0);
+  EXPECT_EQ(ending.error, "example_program: warning: the medium is thin\n");
+}
+
+}  // namespace
+}  // namespace toryu
