@@ -1,15 +1,21 @@
 /// The public interface of a participant: all that a fluid or a solid model needs to take its place in a
 /// coupled run. `tests/participants/` has two short programs on it that serve as templates.
 ///
-///     FluidLink link(options, file.hash());              // or SolidLink
-///     link.join(...);                                    // handshake with the coupler, within a time limit
-///     while (auto window = link.next_window()) {         // blocks; empty at the end of the run
-///       ... window->motion ... advance by window->dt ...
-///       link.send(load, time_step_limit);
+///     FluidLink link({.role = "fluid_solver", ...});     // or SolidLink
+///     try {
+///       link.join(...);                                  // handshake with the coupler, within a time limit
+///       while (auto turn = link.next_window()) {         // blocks; empty at the end of the run
+///         ... turn->motion ... advance by turn->dt, link.count_step() after each step ...
+///         link.send(load, time_step_limit, health);
+///       }
+///     } catch (...) {
+///       link.leave();                                    // the others learn why, and end alike
+///       throw;
 ///     }
 ///
-/// Every wait has a limit; a peer that died, hung or sent nonsense is a PeerLost that names it. A physics
-/// failure of another participant arrives as PhysicsFailure, an interruption of another as Interrupted.
+/// Every wait has a limit and ends on an interruption; a peer that died, hung or sent nonsense is a PeerLost
+/// that names it. A physics failure of another participant arrives as PhysicsFailure, an interruption of
+/// another as Interrupted, a refusal by the coupler as BadInput.
 #pragma once
 
 #include <cstdint>
@@ -61,15 +67,15 @@ struct Window {
 struct Health {
   double kinetic_energy = 0, potential_energy = 0;  ///< [J per metre]
   Vec momentum = Vec::Zero();                       ///< [N s per metre]
-  double compute_time = 0;                          ///< wall time of the last window's work [s]
+  double compute_time = 0;  ///< wall time from next_window to send [s]; measured by the link itself
 };
 
 struct LinkSettings {
-  std::string role;           ///< "fluid_solver"
+  std::string role;           ///< name of the program, as others shall see it: "fluid_solver"
   std::string version;        ///< of the program
   std::filesystem::path out;  ///< the results folder names the run: its domain and tag follow from it
   std::uint64_t case_hash = 0;
-  double time_limit = 30;  ///< longest wait for a peer [s]
+  double time_limit = 30;  ///< longest wait for the coupler to come [s]; from then on the case's counts
   std::string used_case;   ///< this participant's sections with defaults, for used_case.toml
 };
 
@@ -83,10 +89,17 @@ class FluidLink {
   struct Turn : Window {
     InterfaceMotion motion;  ///< at the start of the window
   };
+  /// Blocks until the coupler grants a window; empty when the run is over in good order.
   std::optional<Turn> next_window();
+  /// Answers the window: the load over it, and the longest step [s] the fluid may take next.
   void send(const InterfaceLoad& load, double time_step_limit, const Health& health);
+  /// To be called after each step within a window: a participant that neither steps nor answers for the
+  /// case's time limit counts as hung. Also notices here that the coupler is gone; costs next to nothing.
+  void count_step();
   /// Tells the coupler why this side stops (physics failure, interruption, bug); never throws.
   void leave(ExitCode code, const std::string& reason) noexcept;
+  /// The same from within a catch block: the exception at hand says why.
+  void leave() noexcept;
   double waiting_time() const;  ///< [s] spent in next_window so far
 
  private:
@@ -100,14 +113,19 @@ class SolidLink {
   ~SolidLink();
   /// Returns the fluid's reach [m], by which the solid chooses the particles of its interface.
   double join();
+  /// Once, after join: the particles that the fluid may touch and where they start.
   void register_interface(const Interface& interface, const InterfaceMotion& at_start);
   struct Turn : Window {
     InterfaceLoad load;  ///< constant over the window
   };
+  /// Blocks until the coupler grants a window; empty when the run is over in good order.
   std::optional<Turn> next_window();
   /// `impulse_taken`: sum of load times sub-step over the window as this side applied it [N s per metre].
   void send(const InterfaceMotion& motion_at_end, const Vec& impulse_taken, const Health& health);
+  /// As those of FluidLink.
+  void count_step();
   void leave(ExitCode code, const std::string& reason) noexcept;
+  void leave() noexcept;
   double waiting_time() const;
 
  private:

@@ -1,0 +1,182 @@
+#include "common/link/connection.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+
+#include "common/run/program.hpp"
+
+namespace toryu {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto longest_sleep = 100ms;   // between looks at interruptions and the peer's lease
+constexpr auto status_interval = 200ms;
+using Seconds = std::chrono::duration<double>;
+
+}  // namespace
+
+Connection::Connection(const LinkSettings& settings, toryu_Role role)
+    : settings_(settings),
+      role_(role),
+      node_(dds::meeting_place(settings.out)),
+      hello_(node_, wire::hello),
+      status_(node_, wire::status),
+      sessions_(node_, wire::session),
+      time_limit_(settings.time_limit) {}
+
+Connection::~Connection() {
+  // A participant that goes without a word would look dead only after its lease has lapsed.
+  if (!over_ && !left_) leave(ExitCode::bug, "ended before the run was over");
+}
+
+void Connection::write_hello() {
+  std::string units = wire::units;
+  toryu_Hello message{};
+  message.sender = id_;
+  message.session = session_;
+  message.role = role_;
+  message.program = settings_.role.data();
+  message.version = settings_.version.data();
+  message.protocol = wire::protocol;
+  message.case_hash = settings_.case_hash;
+  message.units = units.data();
+  message.dimension = dim;
+  message.reach = reach_;
+  message.time_step_limit = time_step_limit_;
+  message.used_case = settings_.used_case.data();
+  hello_.write(message);
+}
+
+void Connection::write_status(toryu_Activity activity, ExitCode code, const std::string& reason) {
+  std::string text = reason;
+  toryu_Status message{};
+  message.sender = id_;
+  message.session = session_;
+  message.window = window_.number;
+  message.steps = steps_;
+  message.activity = activity;
+  message.exit_code = static_cast<std::uint32_t>(code);
+  message.reason = text.data();
+  status_.write(message);
+  status_sent_ = Clock::now();
+}
+
+void Connection::join(double reach, double time_step_limit) {
+  reach_ = reach;
+  time_step_limit_ = time_step_limit;
+  write_hello();
+  spdlog::info("waiting for the coupler, at most {} s", time_limit_);
+  if (!wait([this] { return running_; })) throw PeerLost("coupler ended the run before it began");
+}
+
+void Connection::heed(const toryu_Session& session) {
+  const std::uint64_t taken_in = role_ == toryu_FLUID ? session.fluid : session.solid;
+  if (session_ != 0 && session.session != session_) {
+    spdlog::warn("refused a message of coupler session {:x}: this run is session {:x}", session.session, session_);
+    return;
+  }
+  if (!coupler_came_ || session.beat != coupler_beat_) coupler_moved_ = Clock::now();
+  coupler_came_ = true;
+  coupler_beat_ = session.beat;
+  if (session.phase == toryu_OVER) {
+    over_ = true;
+    session_ = session.session;
+    write_status(toryu_LEFT);  // so that the coupler knows that this side knows
+    const auto code = static_cast<ExitCode>(session.exit_code);
+    if (code != ExitCode::done) wire::throw_ending(code, session.reason);
+    return;
+  }
+  if (taken_in != 0 && taken_in != id_) {
+    left_ = true;
+    throw BadInput({{.place = settings_.role, .message = "another process has this part in the run already"}});
+  }
+  if (taken_in == id_ && session_ == 0) {
+    session_ = session.session;
+    time_limit_ = session.time_limit;
+    write_hello();
+  }
+  if (session_ != 0 && session.phase == toryu_RUNNING && !running_) {
+    running_ = true;
+    reach_ = session.reach;
+  }
+}
+
+void Connection::check_coupler() {
+  const auto now = Clock::now();
+  if (now - checked_ < longest_sleep) return;
+  if (now - checked_ > 1s) coupler_moved_ = now;  // silence counts only while this side listened
+  checked_ = now;
+  if (!coupler_came_) {
+    if (now - start_ > Seconds(time_limit_))
+      throw PeerLost(fmt::format("coupler did not come within {} s", time_limit_));
+    return;
+  }
+  if (sessions_.live_writers() > 0) lapsed_ = {};
+  else if (!lapsed_) lapsed_ = now;
+  if (lapsed_ && now - *lapsed_ > dds::grace)
+    throw PeerLost(fmt::format("coupler was killed or stopped: no sign of life in window {}", window_.number));
+  if (now - coupler_moved_ > Seconds(time_limit_))
+    throw PeerLost(fmt::format("coupler hangs: it has not moved for {} s in window {}", time_limit_,
+                               window_.number));
+  node_.check_quality();
+}
+
+/// Hears what the coupler says of the run, and looks after it and after interruptions.
+void Connection::attend() {
+  while (!over_ && sessions_.take([this](const toryu_Session& session) { heed(session); })) {
+  }
+  if (over_) return;
+  throw_if_interrupted();
+  check_coupler();
+}
+
+bool Connection::wait(const std::function<bool()>& arrived) {
+  const auto start = Clock::now();
+  bool has_arrived = false;
+  while (!(has_arrived = arrived())) {
+    attend();
+    if (over_) break;
+    if (Clock::now() - status_sent_ > status_interval) write_status(toryu_WAITING);
+    node_.wait(longest_sleep);
+  }
+  handed_out_ = Clock::now();
+  waiting_time_ += Seconds(handed_out_ - start).count();
+  return has_arrived;
+}
+
+void Connection::count_step() {
+  ++steps_;
+  if (over_ || Clock::now() - status_sent_ < status_interval) return;
+  attend();
+  if (!over_) write_status(toryu_WORKING);
+}
+
+bool Connection::accept(const toryu_Window& window) {
+  if (window.session != session_) {
+    spdlog::warn("refused window {} of coupler session {:x}: this run is session {:x}", window.number,
+                 window.session, session_);
+    return false;
+  }
+  // An iteration beyond the first would ask for the state before the window, which no participant keeps.
+  wire::check(window, {.number = window_.number + 1}, "coupler");
+  window_ = wire::window(window);
+  return true;
+}
+
+double Connection::compute_time() const { return Seconds(Clock::now() - handed_out_).count(); }
+
+void Connection::leave(ExitCode code, const std::string& reason) noexcept {
+  if (over_ || left_) return;
+  left_ = true;
+  try {
+    write_status(toryu_LEFT, code, reason);
+    if (code != ExitCode::peer_lost) status_.flush(1s);
+  } catch (const std::exception& failure) {
+    spdlog::warn("the coupler could not be told of the end: {}", failure.what());
+  }
+}
+
+}  // namespace toryu

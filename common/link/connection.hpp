@@ -1,0 +1,74 @@
+/// A participant's connection to the coupler: the handshake, signs of life both ways, waits with a limit.
+/// FluidLink and SolidLink add the messages of their side.
+#pragma once
+
+#include <functional>
+
+#include "common/link/dds.hpp"
+#include "common/link/participant.hpp"
+#include "common/link/wire.hpp"
+
+namespace toryu {
+
+class Connection {
+ public:
+  Connection(const LinkSettings& settings, toryu_Role role);
+  ~Connection();
+
+  /// Introduces this side and waits until the coupler has taken in both.
+  void join(double reach, double time_step_limit);
+  /// Blocks until `arrived` is true; false if the run is over in good order. Throws if it ended otherwise, if
+  /// the coupler is lost, or on an interruption.
+  bool wait(const std::function<bool()>& arrived);
+  void count_step();
+  void leave(ExitCode code, const std::string& reason) noexcept;
+
+  /// Checks the head of a turn and takes note of it; false if it belongs to another run.
+  bool accept(const toryu_Window& window);
+  /// The head of the answer to the window at hand.
+  toryu_Window answer() const { return wire::window(session_, window_); }
+  /// Wall time since the window at hand was handed out [s].
+  double compute_time() const;
+  double waiting_time() const { return waiting_time_; }
+
+  dds::Node& node() { return node_; }
+  std::uint64_t session() const { return session_; }
+  double reach() const { return reach_; }
+  void expect_particles(std::size_t count) { particles_ = count; }
+  std::size_t particles() const { return particles_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void attend();
+  void heed(const toryu_Session& session);
+  void check_coupler();
+  void write_hello();
+  void write_status(toryu_Activity activity, ExitCode code = ExitCode::done, const std::string& reason = "");
+
+  LinkSettings settings_;
+  toryu_Role role_;
+  const std::uint64_t id_ = dds::random_id();
+  dds::Node node_;
+  dds::Writer<toryu_Hello> hello_;
+  dds::Writer<toryu_Status> status_;
+  dds::Reader<toryu_Session> sessions_;
+
+  std::uint64_t session_ = 0;  // 0 until the coupler took this side in
+  bool running_ = false;       // both sides were taken in
+  bool over_ = false;
+  bool left_ = false;
+  double reach_ = 0, time_step_limit_ = 0, time_limit_;
+  Window window_{.number = 0};  // the window at hand; numbers start at 1
+  std::size_t particles_ = 0;
+  std::uint64_t steps_ = 0;
+
+  bool coupler_came_ = false;
+  std::uint64_t coupler_beat_ = 0;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point checked_ = start_, coupler_moved_ = start_;
+  std::optional<Clock::time_point> lapsed_;  // since when the coupler's lease is over
+  Clock::time_point status_sent_, handed_out_;
+  double waiting_time_ = 0;
+};
+
+}  // namespace toryu

@@ -1,0 +1,145 @@
+/// A thin layer over the C interface of Cyclone DDS: where the processes of a run meet, and typed writers and
+/// readers that turn return codes into exceptions. One quality of service serves all topics: reliable, the
+/// newest sample kept for late joiners, and a lease by which a dead writer is noticed.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "messages.h"
+
+namespace toryu::dds {
+
+/// Signs of life of a process end this long after its death [ms].
+inline constexpr int lease_ms = 500;
+/// How long a lease may lapse before its owner counts as dead: a busy machine is late at times [ms].
+inline constexpr std::chrono::milliseconds grace{700};
+
+/// Processes meet if they agree on both: the domain sets the ports, the tag keeps runs apart that share them.
+struct MeetingPlace {
+  std::uint32_t domain;
+  std::string tag;
+};
+
+/// Follows from the absolute path of the results folder, so that programs started by hand find each other.
+MeetingPlace meeting_place(const std::filesystem::path& out);
+
+/// Random and never 0: names a process or a run.
+std::uint64_t random_id();
+
+/// This process's seat in a run: the DDS participant and all that hangs on it, deleted together.
+class Node {
+ public:
+  explicit Node(const MeetingPlace& place);
+  ~Node();
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  dds_entity_t make_writer(const dds_topic_descriptor_t& type, const std::string& topic);
+  dds_entity_t make_reader(const dds_topic_descriptor_t& type, const std::string& topic);
+  /// Blocks until a reader has news or the time is over; false if it is.
+  bool wait(std::chrono::milliseconds longest) const;
+  /// Throws PeerLost if another process offers or asks for a topic on terms that can never match.
+  void check_quality() const;
+
+ private:
+  dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& topic) const;
+  struct Endpoint {
+    dds_entity_t entity;
+    std::string topic;
+    bool reads;
+  };
+  std::shared_ptr<const dds_entity_t> domain_;
+  dds_entity_t participant_ = 0;
+  dds_entity_t waitset_ = 0;
+  std::vector<Endpoint> endpoints_;
+};
+
+/// The generated description of a message type.
+template <class Message>
+const dds_topic_descriptor_t& descriptor();
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_Hello>() { return toryu_Hello_desc; }
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_Session>() { return toryu_Session_desc; }
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_Status>() { return toryu_Status_desc; }
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_Interface>() { return toryu_Interface_desc; }
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_Motion>() { return toryu_Motion_desc; }
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_Load>() { return toryu_Load_desc; }
+
+/// Throws PeerLost for a time-out and std::runtime_error for any other fault of a call on `topic`.
+void require(dds_return_t code, const std::string& topic);
+
+template <class Message>
+class Writer {
+ public:
+  Writer(Node& node, std::string topic)
+      : topic_(std::move(topic)), entity_(node.make_writer(descriptor<Message>(), topic_)) {}
+  /// Copies the message; may block up to a second if the reader's process is stopped.
+  void write(const Message& message) { require(dds_write(entity_, &message), topic_); }
+  /// Waits until every reader has all that was written, at most `longest`.
+  void flush(std::chrono::milliseconds longest) noexcept {
+    dds_wait_for_acks(entity_, DDS_MSECS(longest.count()));
+  }
+
+ private:
+  std::string topic_;
+  dds_entity_t entity_;
+};
+
+template <class Message>
+class Reader {
+ public:
+  Reader(Node& node, std::string topic)
+      : topic_(std::move(topic)), entity_(node.make_reader(descriptor<Message>(), topic_)) {}
+
+  /// Hands one new message to `use`; false if there was none. The message lives during the call only.
+  template <class Use>
+  bool take(Use&& use) {
+    for (;;) {
+      const Loan loan(*this);
+      if (loan.count == 0) return false;
+      if (!loan.info.valid_data) continue;  // news of a writer's end, not a message
+      use(*static_cast<const Message*>(loan.sample));
+      return true;
+    }
+  }
+
+  /// Writers of the topic that show signs of life.
+  std::uint32_t live_writers() const {
+    dds_liveliness_changed_status_t status{};
+    require(dds_get_liveliness_changed_status(entity_, &status), topic_);
+    return status.alive_count;
+  }
+
+ private:
+  struct Loan {
+    explicit Loan(const Reader& from) : reader(from) {
+      count = dds_take(reader.entity_, &sample, &info, 1, 1);
+      require(count, reader.topic_);
+    }
+    ~Loan() {
+      if (count > 0) dds_return_loan(reader.entity_, &sample, count);
+    }
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    const Reader& reader;
+    void* sample = nullptr;
+    dds_sample_info_t info{};
+    dds_return_t count = 0;
+  };
+  std::string topic_;
+  dds_entity_t entity_;
+};
+
+}  // namespace toryu::dds

@@ -1,0 +1,183 @@
+#include "common/link/wire.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace toryu::wire {
+
+namespace {
+
+/// Cyclone copies what a sequence points to and leaves it alone, though its type says otherwise.
+dds_sequence_double sequence(const std::vector<double>& values) {
+  const auto count = static_cast<std::uint32_t>(values.size());
+  return {count, count, const_cast<double*>(values.data()), false};
+}
+
+std::vector<double> values(const dds_sequence_double& sequence) {
+  return {sequence._buffer, sequence._buffer + sequence._length};
+}
+
+void check_values(const std::vector<double>& values, std::size_t expected, const char* name,
+                  const std::string& sender) {
+  if (values.size() != expected)
+    throw PeerLost(fmt::format("{}: {} values of {} came, {} were awaited", sender, values.size(), name, expected));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!std::isfinite(values[k]))
+      throw PhysicsFailure(fmt::format("{}: {} of interface particle {} is {}", sender, name,
+                                       k / std::max<std::size_t>(1, expected / dim), values[k]));
+}
+
+}  // namespace
+
+void set(double (&components)[3], const Vec& value) {
+  for (int c = 0; c < 3; ++c) components[c] = c < dim ? value[c] : 0.0;
+}
+
+Vec vector(const double (&components)[3]) {
+  Vec value;
+  for (int c = 0; c < dim; ++c) value[c] = components[c];
+  return value;
+}
+
+toryu_Window window(std::uint64_t session_id, const Window& window) {
+  return {session_id, window.number, window.iteration, window.time, window.dt};
+}
+
+Window window(const toryu_Window& message) {
+  return {message.number, message.iteration, message.time, message.dt};
+}
+
+toryu_Health health(const Health& health) {
+  toryu_Health message{health.kinetic_energy, health.potential_energy, {}, health.compute_time};
+  set(message.momentum, health.momentum);
+  return message;
+}
+
+Health health(const toryu_Health& message) {
+  return {message.kinetic_energy, message.potential_energy, vector(message.momentum), message.compute_time};
+}
+
+toryu_Interface interface_message(std::uint64_t session_id, const Interface& interface,
+                                  const InterfaceMotion& start) {
+  const auto count = static_cast<std::uint32_t>(interface.id.size());
+  toryu_Interface message{};
+  message.session = session_id;
+  message.spacing = interface.spacing;
+  message.id = {count, count, const_cast<std::uint32_t*>(interface.id.data()), false};
+  message.reference_position = sequence(interface.position);
+  message.volume = sequence(interface.volume);
+  message.area_vector = sequence(interface.area_vector);
+  message.position = sequence(start.position);
+  message.velocity = sequence(start.velocity);
+  message.acceleration = sequence(start.acceleration);
+  return message;
+}
+
+Interface interface_of(const toryu_Interface& message) {
+  Interface interface;
+  interface.id.assign(message.id._buffer, message.id._buffer + message.id._length);
+  interface.position = values(message.reference_position);
+  interface.volume = values(message.volume);
+  interface.area_vector = values(message.area_vector);
+  interface.spacing = message.spacing;
+  return interface;
+}
+
+InterfaceMotion start_of(const toryu_Interface& message) {
+  return {values(message.position), values(message.velocity), values(message.acceleration)};
+}
+
+toryu_Motion motion(const toryu_Window& window, const InterfaceMotion& motion) {
+  toryu_Motion message{};
+  message.window = window;
+  message.position = sequence(motion.position);
+  message.velocity = sequence(motion.velocity);
+  message.acceleration = sequence(motion.acceleration);
+  return message;
+}
+
+InterfaceMotion motion(const toryu_Motion& message) {
+  return {values(message.position), values(message.velocity), values(message.acceleration)};
+}
+
+toryu_Load load(const toryu_Window& window, const InterfaceLoad& load) {
+  toryu_Load message{};
+  message.window = window;
+  message.pressure = sequence(load.pressure);
+  message.force = sequence(load.force);
+  message.friction_force = sequence(load.friction_force);
+  set(message.impulse_on_fluid, load.impulse_on_fluid);
+  return message;
+}
+
+InterfaceLoad load(const toryu_Load& message) {
+  return {values(message.pressure), values(message.force), values(message.friction_force),
+          vector(message.impulse_on_fluid)};
+}
+
+void check(const Interface& interface, const std::string& sender) {
+  const std::size_t count = interface.size();
+  check_values(interface.position, dim * count, "reference position", sender);
+  check_values(interface.volume, count, "volume", sender);
+  check_values(interface.area_vector, dim * count, "area vector", sender);
+  if (!(interface.spacing > 0))
+    throw PeerLost(fmt::format("{}: spacing {} of the interface is not above 0", sender, interface.spacing));
+}
+
+void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender) {
+  check_values(motion.position, dim * particles, "position", sender);
+  check_values(motion.velocity, dim * particles, "velocity", sender);
+  check_values(motion.acceleration, dim * particles, "acceleration", sender);
+}
+
+void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender) {
+  check_values(load.pressure, particles, "pressure", sender);
+  check_values(load.force, dim * particles, "force", sender);
+  if (!load.friction_force.empty())
+    check_values(load.friction_force, dim * particles, "friction force", sender);
+  if (!load.impulse_on_fluid.allFinite())
+    throw PhysicsFailure(fmt::format("{}: impulse on the fluid is not finite", sender));
+}
+
+void check(const toryu_Window& window, const Window& expected, const std::string& sender) {
+  if (window.number != expected.number || window.iteration != expected.iteration)
+    throw PeerLost(fmt::format("{} sent window {} iteration {} where window {} iteration {} was awaited", sender,
+                               window.number, window.iteration, expected.number, expected.iteration));
+  if (!std::isfinite(window.time) || !(window.dt > 0) || !std::isfinite(window.dt))
+    throw PhysicsFailure(
+        fmt::format("{}: window {} at t = {} s is {} s long", sender, window.number, window.time, window.dt));
+}
+
+void throw_ending(ExitCode code, const std::string& reason) {
+  switch (code) {
+    case ExitCode::physics_failed:
+      throw PhysicsFailure(reason);
+    case ExitCode::interrupted:
+      throw Interrupted();
+    case ExitCode::bad_input:
+      throw BadInput({{.place = "coupling", .message = reason}});
+    default:
+      throw PeerLost(reason);
+  }
+}
+
+Ending ending_of_exception() noexcept {
+  try {
+    throw;
+  } catch (const BadInput& failure) {
+    return {ExitCode::bad_input, failure.what()};
+  } catch (const PhysicsFailure& failure) {
+    return {ExitCode::physics_failed, failure.what()};
+  } catch (const PeerLost& failure) {
+    return {ExitCode::peer_lost, failure.what()};
+  } catch (const Interrupted& failure) {
+    return {ExitCode::interrupted, failure.what()};
+  } catch (const std::exception& failure) {
+    return {ExitCode::bug, failure.what()};
+  } catch (...) {
+    return {ExitCode::bug, "an exception of unknown type"};
+  }
+}
+
+}  // namespace toryu::wire

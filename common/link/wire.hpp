@@ -1,0 +1,64 @@
+/// Between the messages of the wire and the structures of the public interface, with the checks that every
+/// message undergoes before it is used.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "common/link/dds.hpp"
+#include "common/link/participant.hpp"
+
+namespace toryu::wire {
+
+/// Raised whenever a message changes its meaning; processes of different protocols refuse each other.
+inline constexpr std::uint32_t protocol = 1;
+inline constexpr const char* units = "SI";
+
+// A topic has one writer's role; what passes through the coupler has a topic on each of its sides.
+inline constexpr const char* hello = "toryu/hello";
+inline constexpr const char* session = "toryu/session";
+inline constexpr const char* status = "toryu/status";
+inline constexpr const char* interface_from_solid = "toryu/interface_from_solid";
+inline constexpr const char* interface_to_fluid = "toryu/interface_to_fluid";
+inline constexpr const char* motion_from_solid = "toryu/motion_from_solid";
+inline constexpr const char* motion_to_fluid = "toryu/motion_to_fluid";
+inline constexpr const char* load_from_fluid = "toryu/load_from_fluid";
+inline constexpr const char* load_to_solid = "toryu/load_to_solid";
+
+// To the wire: the message points into the structure, which must outlive it.
+toryu_Window window(std::uint64_t session_id, const Window& window);
+toryu_Health health(const Health& health);
+toryu_Interface interface_message(std::uint64_t session_id, const Interface& interface,
+                                  const InterfaceMotion& start);
+toryu_Motion motion(const toryu_Window& window, const InterfaceMotion& motion);
+toryu_Load load(const toryu_Window& window, const InterfaceLoad& load);
+
+// From the wire.
+Window window(const toryu_Window& message);
+Health health(const toryu_Health& message);
+Vec vector(const double (&components)[3]);
+Interface interface_of(const toryu_Interface& message);
+InterfaceMotion start_of(const toryu_Interface& message);
+InterfaceMotion motion(const toryu_Motion& message);
+InterfaceLoad load(const toryu_Load& message);
+void set(double (&components)[3], const Vec& value);
+
+/// Each throws PeerLost if a count is not that of `particles`, PhysicsFailure if a value is not finite.
+/// `sender` begins the message: "solid_solver: window 12".
+void check(const Interface& interface, const std::string& sender);
+void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender);
+void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender);
+/// Throws PeerLost if the answer is not to `expected`, PhysicsFailure if its time or step is not finite.
+void check(const toryu_Window& window, const Window& expected, const std::string& sender);
+
+/// Throws what `code` stands for: the way a process learns of another's end.
+[[noreturn]] void throw_ending(ExitCode code, const std::string& reason);
+
+/// How the exception that is being handled ends a run.
+struct Ending {
+  ExitCode code;
+  std::string reason;
+};
+Ending ending_of_exception() noexcept;
+
+}  // namespace toryu::wire
