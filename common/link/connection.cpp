@@ -1,4 +1,5 @@
 #include "common/link/connection.hpp"
+#include "common/link/ending.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -36,7 +37,7 @@ void Connection::write_hello() {
   std::string units = wire::units;
   toryu_Hello message{};
   message.sender = id_;
-  message.session = session_;
+  message.session_id = session_;
   message.role = role_;
   message.program = settings_.role.data();
   message.version = settings_.version.data();
@@ -54,7 +55,7 @@ void Connection::write_status(toryu_Activity activity, ExitCode code, const std:
   std::string text = reason;
   toryu_Status message{};
   message.sender = id_;
-  message.session = session_;
+  message.session_id = session_;
   message.window = window_.number;
   message.steps = steps_;
   message.activity = activity;
@@ -74,8 +75,8 @@ void Connection::join(double reach, double time_step_limit) {
 
 void Connection::heed(const toryu_Session& session) {
   const std::uint64_t taken_in = role_ == toryu_FLUID ? session.fluid : session.solid;
-  if (session_ != 0 && session.session != session_) {
-    spdlog::warn("refused a message of coupler session {:x}: this run is session {:x}", session.session, session_);
+  if (session_ != 0 && session.session_id != session_) {
+    spdlog::warn("refused a message of coupler session {:x}: this run is session {:x}", session.session_id, session_);
     return;
   }
   if (!coupler_came_ || session.beat != coupler_beat_) coupler_moved_ = Clock::now();
@@ -83,10 +84,10 @@ void Connection::heed(const toryu_Session& session) {
   coupler_beat_ = session.beat;
   if (session.phase == toryu_OVER) {
     over_ = true;
-    session_ = session.session;
+    session_ = session.session_id;
     write_status(toryu_LEFT);  // so that the coupler knows that this side knows
     const auto code = static_cast<ExitCode>(session.exit_code);
-    if (code != ExitCode::done) wire::throw_ending(code, session.reason);
+    if (code != ExitCode::done) throw_ending({code, session.reason});
     return;
   }
   if (taken_in != 0 && taken_in != id_) {
@@ -94,7 +95,7 @@ void Connection::heed(const toryu_Session& session) {
     throw BadInput({{.place = settings_.role, .message = "another process has this part in the run already"}});
   }
   if (taken_in == id_ && session_ == 0) {
-    session_ = session.session;
+    session_ = session.session_id;
     time_limit_ = session.time_limit;
     write_hello();
   }
@@ -154,10 +155,10 @@ void Connection::count_step() {
   if (!over_) write_status(toryu_WORKING);
 }
 
-bool Connection::accept(const toryu_Window& window) {
-  if (window.session != session_) {
+bool Connection::accept(const toryu_WindowHead& window) {
+  if (window.session_id != session_) {
     spdlog::warn("refused window {} of coupler session {:x}: this run is session {:x}", window.number,
-                 window.session, session_);
+                 window.session_id, session_);
     return false;
   }
   // An iteration beyond the first would ask for the state before the window, which no participant keeps.

@@ -24,9 +24,9 @@ class Connection {
   void leave(ExitCode code, const std::string& reason) noexcept;
 
   /// Checks the head of a turn and takes note of it; false if it belongs to another run.
-  bool accept(const toryu_Window& window);
+  bool accept(const toryu_WindowHead& window);
   /// The head of the answer to the window at hand.
-  toryu_Window answer() const { return wire::window(session_, window_); }
+  toryu_WindowHead answer() const { return wire::window(session_, window_); }
   /// Wall time since the window at hand was handed out [s].
   double compute_time() const;
   double waiting_time() const { return waiting_time_; }

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "common/link/dds.hpp"
+#include "common/link/ending.hpp"
 #include "common/link/wire.hpp"
 #include "common/run/program.hpp"
 
@@ -26,7 +27,7 @@ constexpr auto farewell = 3s;          // longest wait for both to hear of the e
 struct Guest {
   const char* part;  ///< "fluid"
   std::uint64_t id = 0;
-  CouplerLink::Partner partner;
+  CouplerLink::Partner partner = {};
   double reach = 0, time_step_limit = 0;
   std::uint64_t window = 0, steps = 0;
   Clock::time_point moved = Clock::now();
@@ -74,12 +75,12 @@ struct CouplerLink::Connection {
   void check_lease(Guest& guest, std::uint32_t live_writers);
   void attend();
   void wait(const Guest& awaited, const std::string& what, const std::function<bool()>& arrived);
-  bool ours(const toryu_Window& window, const Guest& sender) const;
+  bool ours(const toryu_WindowHead& window, const Guest& sender) const;
 };
 
 void CouplerLink::Connection::announce() {
   toryu_Session message{};
-  message.session = session;
+  message.session_id = session;
   message.phase = phase;
   message.beat = ++beat;
   message.fluid = fluid.id;
@@ -112,7 +113,7 @@ void CouplerLink::Connection::compare(const toryu_Hello& hello, const Guest& gue
 }
 
 void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
-  if (hello.session != 0) return;  // taken in already, by this coupler or by one before it
+  if (hello.session_id != 0) return;  // taken in already, by this coupler or by one before it
   Guest& guest = hello.role == toryu_FLUID ? fluid : solid;
   if (guest.joined()) {
     if (guest.id != hello.sender)
@@ -132,7 +133,7 @@ void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
 
 void CouplerLink::Connection::note(const toryu_Status& status) {
   Guest* guest = status.sender == fluid.id ? &fluid : status.sender == solid.id ? &solid : nullptr;
-  if (guest == nullptr || status.session != session) return;  // of a refused participant, or of another run
+  if (guest == nullptr || status.session_id != session) return;  // of a refused participant, or of another run
   const bool moved = status.steps != guest->steps || status.window != guest->window;
   if (moved) guest->moved = Clock::now();
   guest->steps = status.steps;
@@ -142,7 +143,7 @@ void CouplerLink::Connection::note(const toryu_Status& status) {
   if (phase == toryu_OVER) return;
   const auto their_code = static_cast<ExitCode>(status.exit_code);
   const std::string words = their_code == ExitCode::done ? "left before the end of the run" : status.reason;
-  wire::throw_ending(their_code, fmt::format("{}: {}", guest->name(), words));
+  throw_ending({their_code, fmt::format("{}: {}", guest->name(), words)});
 }
 
 void CouplerLink::Connection::listen() {
@@ -187,10 +188,10 @@ void CouplerLink::Connection::wait(const Guest& awaited, const std::string& what
   }
 }
 
-bool CouplerLink::Connection::ours(const toryu_Window& window, const Guest& sender) const {
-  if (window.session == session) return true;
+bool CouplerLink::Connection::ours(const toryu_WindowHead& window, const Guest& sender) const {
+  if (window.session_id == session) return true;
   spdlog::warn("refused window {} of {}'s session {:x}: this run is session {:x}", window.number, sender.name(),
-               window.session, session);
+               window.session_id, session);
   return false;
 }
 
@@ -208,7 +209,7 @@ CouplerLink::Start CouplerLink::gather() {
   c.wait(c.solid, "did not register its interface", [&] {
     bool mine = false;
     c.interfaces.take([&](const toryu_Interface& message) {
-      mine = message.session == c.session;
+      mine = message.session_id == c.session;
       if (!mine) return;
       start.interface = wire::interface_of(message);
       start.motion = wire::start_of(message);
@@ -286,7 +287,7 @@ void CouplerLink::stop(ExitCode code, const std::string& reason) noexcept {
 }
 
 void CouplerLink::stop() noexcept {
-  const auto [code, reason] = wire::ending_of_exception();
+  const auto [code, reason] = ending_of_exception();
   stop(code, reason);
 }
 

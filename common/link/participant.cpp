@@ -1,6 +1,7 @@
 #include "common/link/participant.hpp"
 
 #include "common/link/connection.hpp"
+#include "common/link/ending.hpp"
 
 namespace toryu {
 
@@ -24,7 +25,7 @@ Interface FluidLink::join(double reach, double time_step_limit) {
   const bool came = connection_->wait([&] {
     bool mine = false;
     connection_->interfaces.take([&](const toryu_Interface& message) {
-      mine = message.session == connection_->session();
+      mine = message.session_id == connection_->session();
       if (mine) interface = wire::interface_of(message);
     });
     return mine;
@@ -61,7 +62,7 @@ void FluidLink::send(const InterfaceLoad& load, double time_step_limit, const He
 void FluidLink::count_step() { connection_->count_step(); }
 void FluidLink::leave(ExitCode code, const std::string& reason) noexcept { connection_->leave(code, reason); }
 void FluidLink::leave() noexcept {
-  const auto [code, reason] = wire::ending_of_exception();
+  const auto [code, reason] = ending_of_exception();
   connection_->leave(code, reason);
 }
 double FluidLink::waiting_time() const { return connection_->waiting_time(); }
@@ -116,7 +117,7 @@ void SolidLink::send(const InterfaceMotion& motion_at_end, const Vec& impulse_ta
 void SolidLink::count_step() { connection_->count_step(); }
 void SolidLink::leave(ExitCode code, const std::string& reason) noexcept { connection_->leave(code, reason); }
 void SolidLink::leave() noexcept {
-  const auto [code, reason] = wire::ending_of_exception();
+  const auto [code, reason] = ending_of_exception();
   connection_->leave(code, reason);
 }
 double SolidLink::waiting_time() const { return connection_->waiting_time(); }

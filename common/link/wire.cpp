@@ -40,21 +40,21 @@ Vec vector(const double (&components)[3]) {
   return value;
 }
 
-toryu_Window window(std::uint64_t session_id, const Window& window) {
+toryu_WindowHead window(std::uint64_t session_id, const Window& window) {
   return {session_id, window.number, window.iteration, window.time, window.dt};
 }
 
-Window window(const toryu_Window& message) {
+Window window(const toryu_WindowHead& message) {
   return {message.number, message.iteration, message.time, message.dt};
 }
 
-toryu_Health health(const Health& health) {
-  toryu_Health message{health.kinetic_energy, health.potential_energy, {}, health.compute_time};
+toryu_HealthReport health(const Health& health) {
+  toryu_HealthReport message{health.kinetic_energy, health.potential_energy, {}, health.compute_time};
   set(message.momentum, health.momentum);
   return message;
 }
 
-Health health(const toryu_Health& message) {
+Health health(const toryu_HealthReport& message) {
   return {message.kinetic_energy, message.potential_energy, vector(message.momentum), message.compute_time};
 }
 
@@ -62,7 +62,7 @@ toryu_Interface interface_message(std::uint64_t session_id, const Interface& int
                                   const InterfaceMotion& start) {
   const auto count = static_cast<std::uint32_t>(interface.id.size());
   toryu_Interface message{};
-  message.session = session_id;
+  message.session_id = session_id;
   message.spacing = interface.spacing;
   message.id = {count, count, const_cast<std::uint32_t*>(interface.id.data()), false};
   message.reference_position = sequence(interface.position);
@@ -88,7 +88,7 @@ InterfaceMotion start_of(const toryu_Interface& message) {
   return {values(message.position), values(message.velocity), values(message.acceleration)};
 }
 
-toryu_Motion motion(const toryu_Window& window, const InterfaceMotion& motion) {
+toryu_Motion motion(const toryu_WindowHead& window, const InterfaceMotion& motion) {
   toryu_Motion message{};
   message.window = window;
   message.position = sequence(motion.position);
@@ -101,7 +101,7 @@ InterfaceMotion motion(const toryu_Motion& message) {
   return {values(message.position), values(message.velocity), values(message.acceleration)};
 }
 
-toryu_Load load(const toryu_Window& window, const InterfaceLoad& load) {
+toryu_Load load(const toryu_WindowHead& window, const InterfaceLoad& load) {
   toryu_Load message{};
   message.window = window;
   message.pressure = sequence(load.pressure);
@@ -140,44 +140,13 @@ void check(const InterfaceLoad& load, std::size_t particles, const std::string& 
     throw PhysicsFailure(fmt::format("{}: impulse on the fluid is not finite", sender));
 }
 
-void check(const toryu_Window& window, const Window& expected, const std::string& sender) {
+void check(const toryu_WindowHead& window, const Window& expected, const std::string& sender) {
   if (window.number != expected.number || window.iteration != expected.iteration)
     throw PeerLost(fmt::format("{} sent window {} iteration {} where window {} iteration {} was awaited", sender,
                                window.number, window.iteration, expected.number, expected.iteration));
   if (!std::isfinite(window.time) || !(window.dt > 0) || !std::isfinite(window.dt))
     throw PhysicsFailure(
         fmt::format("{}: window {} at t = {} s is {} s long", sender, window.number, window.time, window.dt));
-}
-
-void throw_ending(ExitCode code, const std::string& reason) {
-  switch (code) {
-    case ExitCode::physics_failed:
-      throw PhysicsFailure(reason);
-    case ExitCode::interrupted:
-      throw Interrupted();
-    case ExitCode::bad_input:
-      throw BadInput({{.place = "coupling", .message = reason}});
-    default:
-      throw PeerLost(reason);
-  }
-}
-
-Ending ending_of_exception() noexcept {
-  try {
-    throw;
-  } catch (const BadInput& failure) {
-    return {ExitCode::bad_input, failure.what()};
-  } catch (const PhysicsFailure& failure) {
-    return {ExitCode::physics_failed, failure.what()};
-  } catch (const PeerLost& failure) {
-    return {ExitCode::peer_lost, failure.what()};
-  } catch (const Interrupted& failure) {
-    return {ExitCode::interrupted, failure.what()};
-  } catch (const std::exception& failure) {
-    return {ExitCode::bug, failure.what()};
-  } catch (...) {
-    return {ExitCode::bug, "an exception of unknown type"};
-  }
 }
 
 }  // namespace toryu::wire

@@ -26,16 +26,16 @@ inline constexpr const char* load_from_fluid = "toryu/load_from_fluid";
 inline constexpr const char* load_to_solid = "toryu/load_to_solid";
 
 // To the wire: the message points into the structure, which must outlive it.
-toryu_Window window(std::uint64_t session_id, const Window& window);
-toryu_Health health(const Health& health);
+toryu_WindowHead window(std::uint64_t session_id, const Window& window);
+toryu_HealthReport health(const Health& health);
 toryu_Interface interface_message(std::uint64_t session_id, const Interface& interface,
                                   const InterfaceMotion& start);
-toryu_Motion motion(const toryu_Window& window, const InterfaceMotion& motion);
-toryu_Load load(const toryu_Window& window, const InterfaceLoad& load);
+toryu_Motion motion(const toryu_WindowHead& window, const InterfaceMotion& motion);
+toryu_Load load(const toryu_WindowHead& window, const InterfaceLoad& load);
 
 // From the wire.
-Window window(const toryu_Window& message);
-Health health(const toryu_Health& message);
+Window window(const toryu_WindowHead& message);
+Health health(const toryu_HealthReport& message);
 Vec vector(const double (&components)[3]);
 Interface interface_of(const toryu_Interface& message);
 InterfaceMotion start_of(const toryu_Interface& message);
@@ -49,16 +49,6 @@ void check(const Interface& interface, const std::string& sender);
 void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender);
 void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender);
 /// Throws PeerLost if the answer is not to `expected`, PhysicsFailure if its time or step is not finite.
-void check(const toryu_Window& window, const Window& expected, const std::string& sender);
-
-/// Throws what `code` stands for: the way a process learns of another's end.
-[[noreturn]] void throw_ending(ExitCode code, const std::string& reason);
-
-/// How the exception that is being handled ends a run.
-struct Ending {
-  ExitCode code;
-  std::string reason;
-};
-Ending ending_of_exception() noexcept;
+void check(const toryu_WindowHead& window, const Window& expected, const std::string& sender);
 
 }  // namespace toryu::wire

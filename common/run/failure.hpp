@@ -42,7 +42,10 @@ class BadInput : public std::runtime_error {
  private:
   static std::string join(const std::vector<InputError>& errors) {
     std::string text;
-    for (const auto& error : errors) text += (text.empty() ? "" : "\n") + error.text();
+    for (const auto& error : errors) {
+      if (!text.empty()) text += '\n';
+      text += error.text();
+    }
     return text;
   }
   std::vector<InputError> errors_;

@@ -1,0 +1,36 @@
+#include "common/link/ending.hpp"
+
+namespace toryu {
+
+Ending ending_of_exception() noexcept {
+  try {
+    throw;
+  } catch (const BadInput& failure) {
+    return {ExitCode::bad_input, failure.what()};
+  } catch (const PhysicsFailure& failure) {
+    return {ExitCode::physics_failed, failure.what()};
+  } catch (const PeerLost& failure) {
+    return {ExitCode::peer_lost, failure.what()};
+  } catch (const Interrupted& failure) {
+    return {ExitCode::interrupted, failure.what()};
+  } catch (const std::exception& failure) {
+    return {ExitCode::bug, failure.what()};
+  } catch (...) {
+    return {ExitCode::bug, "an exception of unknown type"};
+  }
+}
+
+void throw_ending(const Ending& ending) {
+  switch (ending.code) {
+    case ExitCode::physics_failed:
+      throw PhysicsFailure(ending.reason);
+    case ExitCode::interrupted:
+      throw Interrupted();
+    case ExitCode::bad_input:
+      throw BadInput({{.place = "coupling", .message = ending.reason}});
+    default:
+      throw PeerLost(ending.reason);
+  }
+}
+
+}  // namespace toryu

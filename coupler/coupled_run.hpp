@@ -1,0 +1,78 @@
+/// The schedule of a coupled run, serial explicit: in each window first the fluid steps with the motion that
+/// the solid had at its start, then the solid steps under the load that this gave. Both answers are checked and
+/// recorded before the next window is granted.
+#pragma once
+
+#include <optional>
+
+#include "common/link/coupler_link.hpp"
+#include "common/output/results.hpp"
+#include "common/run/progress.hpp"
+#include "common/run/timers.hpp"
+#include "coupler/exchange_audit.hpp"
+#include "coupler/interface_record.hpp"
+#include "coupler/parameters.hpp"
+
+namespace toryu {
+
+/// Length [s] of the window that starts `left` [s] before the end of the run: at most `steps` fluid steps of
+/// `limit` [s], and the last two windows alike rather than a whole one and a splinter.
+double window_length(double left, int steps, double limit);
+
+/// Says when something that happens each `interval` [s] is due; each time if the interval is 0.
+class Due {
+ public:
+  explicit Due(double interval) : interval_(interval) {}
+  bool at(double time);
+
+ private:
+  double interval_;
+  long next_ = 1;
+};
+
+class CoupledRun {
+ public:
+  struct Settings {
+    double end_time, frame_interval, series_interval;  ///< [s]
+    CouplingParameters coupling;
+    std::filesystem::path out;
+  };
+  CoupledRun(Settings settings, CouplerLink& link);
+
+  /// Runs all windows to the end.
+  void run(const CouplerLink::Start& start);
+  /// What is known of the run so far.
+  void report(Summary& summary) const;
+
+ private:
+  void advance();
+  InterfaceLoad felt(const InterfaceLoad& given) const;
+  void write_series(const InterfaceLoad& load, const CouplerLink::FluidAnswer& fluid,
+                    const CouplerLink::SolidAnswer& solid);
+
+  Settings settings_;
+  CouplerLink& link_;
+  InterfaceMotion motion_;
+  double time_ = 0, time_step_limit_ = 0;  // [s]
+  Window window_;
+  ExchangeAudit audit_;
+  bool warned_ = false;
+  Timers timers_;
+  std::vector<double> round_trips_;  // one a window [s]
+  double fluid_compute_ = 0, solid_compute_ = 0;  // [s], sums over the run
+  double smallest_window_ = 0, largest_window_ = 0;  // [s]
+
+  std::optional<InterfaceRecord> record_;
+  std::optional<SeriesWriter> series_;
+  Due frame_due_, series_due_;
+  std::size_t particles_ = 0;
+
+  /// Over the windows since the last row of the series.
+  struct Row {
+    int windows = 0;
+    double round_trip = 0, fluid_compute = 0, solid_compute = 0;  // [s], sums
+    double impulse_error = 0;                                      // largest
+  } row_;
+};
+
+}  // namespace toryu

@@ -1,0 +1,31 @@
+/// The exchange audit: the impulse that one side gives must be the impulse that the other takes.
+#pragma once
+
+#include <vector>
+
+#include "common/link/participant.hpp"
+
+namespace toryu {
+
+/// Sum of vectors that lie one after the other, dim values each.
+Vec sum_of(const std::vector<double>& vectors);
+/// Sum of their lengths.
+double sum_of_lengths(const std::vector<double>& vectors);
+
+class ExchangeAudit {
+ public:
+  /// Differences above this are reported: the two sides round differently, but no more.
+  static constexpr double tolerance = 1e-12;
+
+  /// Compares, over a window of `dt` [s], `given` (all that the fluid sent) with what it says it received, and
+  /// `felt` (what was passed on) with what the solid says it took. Returns the larger of the two differences,
+  /// relative to the sum of the lengths of the particles' forces times dt: the scale of what was summed.
+  double compare(const InterfaceLoad& given, const InterfaceLoad& felt, const Vec& impulse_taken, double dt);
+
+  double largest() const { return largest_; }
+
+ private:
+  double largest_ = 0;
+};
+
+}  // namespace toryu

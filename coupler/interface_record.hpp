@@ -1,0 +1,26 @@
+/// `interface.h5`: what crossed the interface over time, for replay and for study. Positions, velocities and
+/// accelerations [m, m/s, m/s2] are at `time` [s]; pressure [Pa] and forces [N/m] are those of the window that
+/// ended then (zero in the first row). The file is written as `interface.h5.part` and renamed at the end.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "common/link/participant.hpp"
+
+namespace toryu {
+
+class InterfaceRecord {
+ public:
+  InterfaceRecord(const std::filesystem::path& out, const Interface& interface);
+  ~InterfaceRecord();  ///< gives the file its final name
+
+  /// Appends a row. `load` is what the solid felt.
+  void write(double time, const InterfaceMotion& motion, const InterfaceLoad& load);
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace toryu

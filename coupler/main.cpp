@@ -1,0 +1,87 @@
+/// The coupler: brings the fluid and the solid of a case together, gives each its turn, checks and records what
+/// they exchange, and ends the run for all. README.md shows the sequence.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "common/link/coupler_link.hpp"
+#include "common/link/ending.hpp"
+#include "common/output/atomic_file.hpp"
+#include "common/output/results.hpp"
+#include "common/run/program.hpp"
+#include "common/scene/scene.hpp"
+#include "coupler/coupled_run.hpp"
+#include "coupler/run_lock.hpp"
+#include "coupler/used_case.hpp"
+
+namespace {
+
+using namespace toryu;
+
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void run_windows(const Options& options, const CaseFile& file, const CoupledRun::Settings& settings) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  Summary summary{.participant = "coupler", .provenance = provenance(1)};
+  CouplerLink link({.role = "coupler",
+                    .version = summary.provenance.version,
+                    .out = options.out,
+                    .case_hash = file.hash(),
+                    .time_limit = settings.coupling.time_limit,
+                    .used_case = file.used()});
+  CoupledRun run(settings, link);
+  const auto finish = [&](const Ending& ending) {
+    run.report(summary);
+    summary.exit_code = ending.code;
+    summary.last_words = ending.reason;
+    summary.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
+    summary.processor_time = processor_time();
+    write_summary(options.out, summary);
+  };
+  try {
+    const auto gathered = link.gather();
+    write_atomically(options.out / "used_case.toml",
+                     merge_used_cases({file.used(), gathered.fluid.used_case, gathered.solid.used_case}));
+    run.run(gathered);
+    link.stop(ExitCode::done, "");
+  } catch (...) {
+    const Ending ending = ending_of_exception();
+    link.stop(ending.code, ending.reason);
+    finish(ending);
+    throw;
+  }
+  finish({});
+  for (const auto& [name, value] : summary.figures) spdlog::info("{} {:.4g}", name, value);
+}
+
+ExitCode couple(const Options& options) {
+  CaseFile file(options.case_path, options.overrides);
+  const Scene scene = read_scene(file);
+  CouplingParameters coupling;
+  file.read("coupling", coupling, "how the fluid and the solid exchange their load and motion");
+  file.leave_to_others({"fluid", "solid"});
+  for (const char* section : {"fluid", "solid"})
+    if (!file.has(section)) file.fault("coupling", fmt::format("a coupled case needs a section [{}]", section));
+  if (options.describe) {
+    fmt::print("{}", file.description());
+    return ExitCode::done;
+  }
+  file.throw_if_faulty();
+  if (options.check) return ExitCode::done;
+
+  const RunLock lock(options.out);
+  run_windows(options, file,
+              {.end_time = options.end_time.value_or(scene.end_time),
+               .frame_interval = scene.frame_interval,
+               .series_interval = scene.series_interval,
+               .coupling = coupling,
+               .out = options.out});
+  return ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_program("coupler", argc, argv, couple); }

@@ -1,0 +1,21 @@
+/// One run at a time in a results folder.
+#pragma once
+
+#include <filesystem>
+
+namespace toryu {
+
+/// Holds `coupler.lock` in the folder while it lives; the system frees it if the process dies. Throws BadInput
+/// if another run holds it.
+class RunLock {
+ public:
+  explicit RunLock(const std::filesystem::path& out);
+  ~RunLock();
+  RunLock(const RunLock&) = delete;
+  RunLock& operator=(const RunLock&) = delete;
+
+ private:
+  int file_;
+};
+
+}  // namespace toryu
