@@ -76,9 +76,10 @@ void CoupledRun::advance() {
 
   const double error = audit_.compare(fluid.load, load, solid.impulse_taken, dt);
   if (!(error <= ExchangeAudit::tolerance) && !warned_) {
-    spdlog::warn("window {}: impulse given and taken differ by {:.3g} of the sum of the forces; the largest "
-                 "difference of the run is in the summary",
-                 window_.number, error);
+    spdlog::warn(
+        "window {}: impulse given and taken differ by {:.3g} of the sum of the forces; the largest "
+        "difference of the run is in the summary",
+        window_.number, error);
     warned_ = true;
   }
   round_trips_.push_back(elapsed - fluid.health.compute_time - solid.health.compute_time);

@@ -1,6 +1,6 @@
 /// The schedule of a coupled run, serial explicit: in each window first the fluid steps with the motion that
-/// the solid had at its start, then the solid steps under the load that this gave. Both answers are checked and
-/// recorded before the next window is granted.
+/// the solid had at its start, then the solid steps under the load that this gave. Both answers are checked
+/// and recorded before the next window is granted.
 #pragma once
 
 #include <optional>
@@ -58,8 +58,8 @@ class CoupledRun {
   ExchangeAudit audit_;
   bool warned_ = false;
   Timers timers_;
-  std::vector<double> round_trips_;  // one a window [s]
-  double fluid_compute_ = 0, solid_compute_ = 0;  // [s], sums over the run
+  std::vector<double> round_trips_;                  // one a window [s]
+  double fluid_compute_ = 0, solid_compute_ = 0;     // [s], sums over the run
   double smallest_window_ = 0, largest_window_ = 0;  // [s]
 
   std::optional<InterfaceRecord> record_;
@@ -71,7 +71,7 @@ class CoupledRun {
   struct Row {
     int windows = 0;
     double round_trip = 0, fluid_compute = 0, solid_compute = 0;  // [s], sums
-    double impulse_error = 0;                                      // largest
+    double impulse_error = 0;                                     // largest
   } row_;
 };
 

@@ -22,7 +22,8 @@ Vec sum_of(const std::vector<double>& vectors) {
 
 double sum_of_lengths(const std::vector<double>& vectors) {
   double sum = 0;
-  for (std::size_t k = 0; k + dim <= vectors.size(); k += dim) sum += Eigen::Map<const Vec>(&vectors[k]).norm();
+  for (std::size_t k = 0; k + dim <= vectors.size(); k += dim)
+    sum += Eigen::Map<const Vec>(&vectors[k]).norm();
   return sum;
 }
 

@@ -17,9 +17,10 @@ class ExchangeAudit {
   /// Differences above this are reported: the two sides round differently, but no more.
   static constexpr double tolerance = 1e-12;
 
-  /// Compares, over a window of `dt` [s], `given` (all that the fluid sent) with what it says it received, and
-  /// `felt` (what was passed on) with what the solid says it took. Returns the larger of the two differences,
-  /// relative to the sum of the lengths of the particles' forces times dt: the scale of what was summed.
+  /// Compares, over a window of `dt` [s], `given` (all that the fluid sent) with what it says it received,
+  /// and `felt` (what was passed on) with what the solid says it took. Returns the larger of the two
+  /// differences, relative to the sum of the lengths of the particles' forces times dt: the scale of what was
+  /// summed.
   double compare(const InterfaceLoad& given, const InterfaceLoad& felt, const Vec& impulse_taken, double dt);
 
   double largest() const { return largest_; }

@@ -16,7 +16,8 @@ void attribute(hid_t object, const std::string& name, const std::string& text) {
   const HdfHandle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
   H5Tset_size(type, text.size());
   const HdfHandle space(H5Screate(H5S_SCALAR), H5Sclose, name);
-  const HdfHandle made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  const HdfHandle made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                       name);
   H5Awrite(made, type, text.data());
 }
 
@@ -38,7 +39,8 @@ class Series {
     if (H5Dset_extent(dataset_, size.data()) < 0) fail();
     const HdfHandle space(H5Dget_space(dataset_), H5Sclose, name_);
     H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-    const HdfHandle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose, name_);
+    const HdfHandle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
+                           name_);
     if (H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, row) < 0) fail();
     ++rows_;
   }
@@ -49,13 +51,14 @@ class Series {
     size.insert(size.begin(), 0);
     limit.insert(limit.begin(), H5S_UNLIMITED);
     chunk.insert(chunk.begin(), rows_per_chunk);
-    const HdfHandle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), limit.data()), H5Sclose, name_);
+    const HdfHandle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), limit.data()),
+                          H5Sclose, name_);
     const HdfHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name_);
     H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
     H5Pset_shuffle(properties);
     H5Pset_deflate(properties, 4);
-    return {H5Dcreate2(file, name_.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
-            name_};
+    return {H5Dcreate2(file, name_.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+            H5Dclose, name_};
   }
   [[noreturn]] void fail() const { throw std::runtime_error("interface.h5: cannot write " + name_); }
 
@@ -68,9 +71,10 @@ class Series {
 /// A dataset that is known at the start.
 void constant(hid_t file, const std::string& name, const std::string& unit, hid_t type,
               const std::vector<hsize_t>& shape, const void* values) {
-  const HdfHandle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, name);
-  const HdfHandle made(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                       name);
+  const HdfHandle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
+                        name);
+  const HdfHandle made(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose, name);
   H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
   attribute(made, "unit", unit);
 }
@@ -99,7 +103,8 @@ InterfaceRecord::InterfaceRecord(const std::filesystem::path& out, const Interfa
     : file_(std::make_unique<File>(out / "interface.h5", interface.size())) {
   const hsize_t count = interface.size();
   constant(file_->file, "id", "1", H5T_NATIVE_UINT32, {count}, interface.id.data());
-  constant(file_->file, "reference_position", "m", H5T_NATIVE_DOUBLE, {count, dim}, interface.position.data());
+  constant(file_->file, "reference_position", "m", H5T_NATIVE_DOUBLE, {count, dim},
+           interface.position.data());
   constant(file_->file, "volume", "m2", H5T_NATIVE_DOUBLE, {count}, interface.volume.data());
   constant(file_->file, "area_vector", "m", H5T_NATIVE_DOUBLE, {count, dim}, interface.area_vector.data());
 }
@@ -114,7 +119,9 @@ InterfaceRecord::~InterfaceRecord() {
 
 void InterfaceRecord::write(double time, const InterfaceMotion& motion, const InterfaceLoad& load) {
   const std::vector<double> none(motion.position.size(), 0.0);
-  const auto row = [&](const std::vector<double>& values) { return values.empty() ? none.data() : values.data(); };
+  const auto row = [&](const std::vector<double>& values) {
+    return values.empty() ? none.data() : values.data();
+  };
   file_->time.append(&time);
   file_->position.append(motion.position.data());
   file_->velocity.append(motion.velocity.data());

@@ -1,6 +1,7 @@
 /// `interface.h5`: what crossed the interface over time, for replay and for study. Positions, velocities and
-/// accelerations [m, m/s, m/s2] are at `time` [s]; pressure [Pa] and forces [N/m] are those of the window that
-/// ended then (zero in the first row). The file is written as `interface.h5.part` and renamed at the end.
+/// accelerations [m, m/s, m/s2] are at `time` [s]; pressure [Pa] and forces [N/m] are those of the window
+/// that ended then (zero in the first row). The file is written as `interface.h5.part` and renamed at the
+/// end.
 #pragma once
 
 #include <filesystem>

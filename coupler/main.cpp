@@ -1,5 +1,5 @@
-/// The coupler: brings the fluid and the solid of a case together, gives each its turn, checks and records what
-/// they exchange, and ends the run for all. README.md shows the sequence.
+/// The coupler: brings the fluid and the solid of a case together, gives each its turn, checks and records
+/// what they exchange, and ends the run for all. README.md shows the sequence.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -20,12 +20,16 @@ namespace {
 
 using namespace toryu;
 
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double processor_time() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 void run_windows(const Options& options, const CaseFile& file, const CoupledRun::Settings& settings) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  Summary summary{.participant = "coupler", .provenance = provenance(1)};
+  Summary summary;
+  summary.participant = "coupler";
+  summary.provenance = provenance(1);
   CouplerLink link({.role = "coupler",
                     .version = summary.provenance.version,
                     .out = options.out,
@@ -64,7 +68,8 @@ ExitCode couple(const Options& options) {
   file.read("coupling", coupling, "how the fluid and the solid exchange their load and motion");
   file.leave_to_others({"fluid", "solid"});
   for (const char* section : {"fluid", "solid"})
-    if (!file.has(section)) file.fault("coupling", fmt::format("a coupled case needs a section [{}]", section));
+    if (!file.has(section))
+      file.fault("coupling", fmt::format("a coupled case needs a section [{}]", section));
   if (options.describe) {
     fmt::print("{}", file.description());
     return ExitCode::done;
@@ -74,7 +79,7 @@ ExitCode couple(const Options& options) {
 
   const RunLock lock(options.out);
   run_windows(options, file,
-              {.end_time = options.end_time.value_or(scene.end_time),
+              {.end_time = scene.end_time,
                .frame_interval = scene.frame_interval,
                .series_interval = scene.series_interval,
                .coupling = coupling,
@@ -84,4 +89,6 @@ ExitCode couple(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_program("coupler", argc, argv, couple); }
+int main(int argc, char** argv) {
+  return run_program("coupler", argc, argv, couple);
+}

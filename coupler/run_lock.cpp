@@ -13,11 +13,14 @@ RunLock::RunLock(const std::filesystem::path& out)
   if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   const bool held = file_ >= 0;
   if (held) close(file_);
-  throw BadInput({{.place = out.string(),
-                   .message = held ? "another run writes its results here; wait for it or give --out another folder"
-                                   : "cannot write to this folder"}});
+  throw BadInput(
+      {{.place = out.string(),
+        .message = held ? "another run writes its results here; wait for it or give --out another folder"
+                        : "cannot write to this folder"}});
 }
 
-RunLock::~RunLock() { close(file_); }
+RunLock::~RunLock() {
+  close(file_);
+}
 
 }  // namespace toryu

@@ -5,8 +5,8 @@
 
 namespace toryu {
 
-/// Holds `coupler.lock` in the folder while it lives; the system frees it if the process dies. Throws BadInput
-/// if another run holds it.
+/// Holds `coupler.lock` in the folder while it lives; the system frees it if the process dies. Throws
+/// BadInput if another run holds it.
 class RunLock {
  public:
   explicit RunLock(const std::filesystem::path& out);

@@ -1,11 +1,11 @@
 #include "common/link/connection.hpp"
-#include "common/link/ending.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <cmath>
 
+#include "common/link/ending.hpp"
 #include "common/run/program.hpp"
 
 namespace toryu {
@@ -13,7 +13,7 @@ namespace toryu {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto longest_sleep = 100ms;   // between looks at interruptions and the peer's lease
+constexpr auto longest_sleep = 100ms;  // between looks at interruptions and the peer's lease
 constexpr auto status_interval = 200ms;
 using Seconds = std::chrono::duration<double>;
 
@@ -76,7 +76,8 @@ void Connection::join(double reach, double time_step_limit) {
 void Connection::heed(const toryu_Session& session) {
   const std::uint64_t taken_in = role_ == toryu_FLUID ? session.fluid : session.solid;
   if (session_ != 0 && session.session_id != session_) {
-    spdlog::warn("refused a message of coupler session {:x}: this run is session {:x}", session.session_id, session_);
+    spdlog::warn("refused a message of coupler session {:x}: this run is session {:x}", session.session_id,
+                 session_);
     return;
   }
   if (!coupler_came_ || session.beat != coupler_beat_) coupler_moved_ = Clock::now();
@@ -92,7 +93,8 @@ void Connection::heed(const toryu_Session& session) {
   }
   if (taken_in != 0 && taken_in != id_) {
     left_ = true;
-    throw BadInput({{.place = settings_.role, .message = "another process has this part in the run already"}});
+    throw BadInput(
+        {{.place = settings_.role, .message = "another process has this part in the run already"}});
   }
   if (taken_in == id_ && session_ == 0) {
     session_ = session.session_id;
@@ -115,13 +117,16 @@ void Connection::check_coupler() {
       throw PeerLost(fmt::format("coupler did not come within {} s", time_limit_));
     return;
   }
-  if (sessions_.live_writers() > 0) lapsed_ = {};
-  else if (!lapsed_) lapsed_ = now;
+  if (sessions_.live_writers() > 0)
+    lapsed_ = {};
+  else if (!lapsed_)
+    lapsed_ = now;
   if (lapsed_ && now - *lapsed_ > dds::grace)
-    throw PeerLost(fmt::format("coupler was killed or stopped: no sign of life in window {}", window_.number));
+    throw PeerLost(
+        fmt::format("coupler was killed or stopped: no sign of life in window {}", window_.number));
   if (now - coupler_moved_ > Seconds(time_limit_))
-    throw PeerLost(fmt::format("coupler hangs: it has not moved for {} s in window {}", time_limit_,
-                               window_.number));
+    throw PeerLost(
+        fmt::format("coupler hangs: it has not moved for {} s in window {}", time_limit_, window_.number));
   node_.check_quality();
 }
 
@@ -167,7 +172,9 @@ bool Connection::accept(const toryu_WindowHead& window) {
   return true;
 }
 
-double Connection::compute_time() const { return Seconds(Clock::now() - handed_out_).count(); }
+double Connection::compute_time() const {
+  return Seconds(Clock::now() - handed_out_).count();
+}
 
 void Connection::leave(ExitCode code, const std::string& reason) noexcept {
   if (over_ || left_) return;

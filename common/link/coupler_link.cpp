@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 constexpr auto longest_sleep = 100ms;  // between looks at interruptions and the peers' leases
 constexpr auto beat_interval = 200ms;
-constexpr auto farewell = 3s;          // longest wait for both to hear of the end
+constexpr auto farewell = 3s;  // longest wait for both to hear of the end
 
 /// What the coupler knows of a participant.
 struct Guest {
@@ -133,7 +133,8 @@ void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
 
 void CouplerLink::Connection::note(const toryu_Status& status) {
   Guest* guest = status.sender == fluid.id ? &fluid : status.sender == solid.id ? &solid : nullptr;
-  if (guest == nullptr || status.session_id != session) return;  // of a refused participant, or of another run
+  if (guest == nullptr || status.session_id != session)
+    return;  // of a refused participant, or of another run
   const bool moved = status.steps != guest->steps || status.window != guest->window;
   if (moved) guest->moved = Clock::now();
   guest->steps = status.steps;
@@ -154,8 +155,10 @@ void CouplerLink::Connection::listen() {
 }
 
 void CouplerLink::Connection::check_lease(Guest& guest, std::uint32_t live_writers) {
-  if (!guest.joined() || live_writers > 0) guest.lapsed = {};
-  else if (!guest.lapsed) guest.lapsed = Clock::now();
+  if (!guest.joined() || live_writers > 0)
+    guest.lapsed = {};
+  else if (!guest.lapsed)
+    guest.lapsed = Clock::now();
 }
 
 /// Hears the participants, looks after them and after interruptions, and gives a sign of life.
@@ -190,8 +193,8 @@ void CouplerLink::Connection::wait(const Guest& awaited, const std::string& what
 
 bool CouplerLink::Connection::ours(const toryu_WindowHead& window, const Guest& sender) const {
   if (window.session_id == session) return true;
-  spdlog::warn("refused window {} of {}'s session {:x}: this run is session {:x}", window.number, sender.name(),
-               window.session_id, session);
+  spdlog::warn("refused window {} of {}'s session {:x}: this run is session {:x}", window.number,
+               sender.name(), window.session_id, session);
   return false;
 }
 
@@ -199,7 +202,9 @@ CouplerLink::CouplerLink(const LinkSettings& settings) : connection_(std::make_u
   connection_->announce();
 }
 
-CouplerLink::~CouplerLink() { stop(ExitCode::bug, "coupler ended before the run was over"); }
+CouplerLink::~CouplerLink() {
+  stop(ExitCode::bug, "coupler ended before the run was over");
+}
 
 CouplerLink::Start CouplerLink::gather() {
   Connection& c = *connection_;
@@ -223,7 +228,8 @@ CouplerLink::Start CouplerLink::gather() {
   return start;
 }
 
-CouplerLink::FluidAnswer CouplerLink::ask_fluid(const Window& window, const InterfaceMotion& motion_at_start) {
+CouplerLink::FluidAnswer CouplerLink::ask_fluid(const Window& window,
+                                                const InterfaceMotion& motion_at_start) {
   Connection& c = *connection_;
   c.motions.write(wire::motion(wire::window(c.session, window), motion_at_start));
   FluidAnswer answer;

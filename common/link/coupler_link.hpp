@@ -1,4 +1,5 @@
-/// The coupler's end of the link: it takes both participants in, gives each its turn, and ends the run for all.
+/// The coupler's end of the link: it takes both participants in, gives each its turn, and ends the run for
+/// all.
 #pragma once
 
 #include <memory>
@@ -24,8 +25,8 @@ class CouplerLink {
     Interface interface;
     InterfaceMotion motion;  ///< at the start
   };
-  /// Waits for both, checks that they compute the same case in the same units, and joins them. Throws BadInput
-  /// that says what each side said if they differ, PeerLost that names who did not come.
+  /// Waits for both, checks that they compute the same case in the same units, and joins them. Throws
+  /// BadInput that says what each side said if they differ, PeerLost that names who did not come.
   Start gather();
 
   struct FluidAnswer {

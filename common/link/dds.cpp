@@ -91,7 +91,8 @@ void require(dds_return_t code, const std::string& topic) {
 }
 
 MeetingPlace meeting_place(const std::filesystem::path& out) {
-  const std::uint64_t hash = fnv1a(std::filesystem::weakly_canonical(std::filesystem::absolute(out)).string());
+  const std::uint64_t hash =
+      fnv1a(std::filesystem::weakly_canonical(std::filesystem::absolute(out)).string());
   // The ports of domain d start at 7400 + 250 d; from 101 on they would reach into the ephemeral ones.
   return {static_cast<std::uint32_t>(1 + hash % 100), fmt::format("toryu-{:016x}", hash)};
 }
@@ -108,7 +109,9 @@ Node::Node(const MeetingPlace& place) : domain_(join_domain(place)) {
   require(waitset_, "waitset");
 }
 
-Node::~Node() { dds_delete(participant_); }
+Node::~Node() {
+  dds_delete(participant_);
+}
 
 dds_entity_t Node::make_topic(const dds_topic_descriptor_t& type, const std::string& topic) const {
   const dds_entity_t entity = dds_create_topic(participant_, &type, topic.c_str(), nullptr, nullptr);
@@ -153,9 +156,10 @@ void Node::check_quality() const {
       count = status.total_count, policy = status.last_policy_id;
     }
     if (count > 0)
-      throw PeerLost(fmt::format(
-          "another process speaks of '{}' with another quality of service (DDS policy {}): no message can pass",
-          endpoint.topic, policy));
+      throw PeerLost(
+          fmt::format("another process speaks of '{}' with another quality of service (DDS policy {}): no "
+                      "message can pass",
+                      endpoint.topic, policy));
   }
 }
 

@@ -65,17 +65,29 @@ class Node {
 template <class Message>
 const dds_topic_descriptor_t& descriptor();
 template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_Hello>() { return toryu_Hello_desc; }
+inline const dds_topic_descriptor_t& descriptor<toryu_Hello>() {
+  return toryu_Hello_desc;
+}
 template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_Session>() { return toryu_Session_desc; }
+inline const dds_topic_descriptor_t& descriptor<toryu_Session>() {
+  return toryu_Session_desc;
+}
 template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_Status>() { return toryu_Status_desc; }
+inline const dds_topic_descriptor_t& descriptor<toryu_Status>() {
+  return toryu_Status_desc;
+}
 template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_Interface>() { return toryu_Interface_desc; }
+inline const dds_topic_descriptor_t& descriptor<toryu_Interface>() {
+  return toryu_Interface_desc;
+}
 template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_Motion>() { return toryu_Motion_desc; }
+inline const dds_topic_descriptor_t& descriptor<toryu_Motion>() {
+  return toryu_Motion_desc;
+}
 template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_Load>() { return toryu_Load_desc; }
+inline const dds_topic_descriptor_t& descriptor<toryu_Load>() {
+  return toryu_Load_desc;
+}
 
 /// Throws PeerLost for a time-out and std::runtime_error for any other fault of a call on `topic`.
 void require(dds_return_t code, const std::string& topic);

@@ -59,13 +59,19 @@ void FluidLink::send(const InterfaceLoad& load, double time_step_limit, const He
   connection_->loads.write(message);
 }
 
-void FluidLink::count_step() { connection_->count_step(); }
-void FluidLink::leave(ExitCode code, const std::string& reason) noexcept { connection_->leave(code, reason); }
+void FluidLink::count_step() {
+  connection_->count_step();
+}
+void FluidLink::leave(ExitCode code, const std::string& reason) noexcept {
+  connection_->leave(code, reason);
+}
 void FluidLink::leave() noexcept {
   const auto [code, reason] = ending_of_exception();
   connection_->leave(code, reason);
 }
-double FluidLink::waiting_time() const { return connection_->waiting_time(); }
+double FluidLink::waiting_time() const {
+  return connection_->waiting_time();
+}
 
 struct SolidLink::Connection : toryu::Connection {
   explicit Connection(const LinkSettings& settings)
@@ -114,12 +120,18 @@ void SolidLink::send(const InterfaceMotion& motion_at_end, const Vec& impulse_ta
   connection_->motions.write(message);
 }
 
-void SolidLink::count_step() { connection_->count_step(); }
-void SolidLink::leave(ExitCode code, const std::string& reason) noexcept { connection_->leave(code, reason); }
+void SolidLink::count_step() {
+  connection_->count_step();
+}
+void SolidLink::leave(ExitCode code, const std::string& reason) noexcept {
+  connection_->leave(code, reason);
+}
 void SolidLink::leave() noexcept {
   const auto [code, reason] = ending_of_exception();
   connection_->leave(code, reason);
 }
-double SolidLink::waiting_time() const { return connection_->waiting_time(); }
+double SolidLink::waiting_time() const {
+  return connection_->waiting_time();
+}
 
 }  // namespace toryu

@@ -75,8 +75,8 @@ struct LinkSettings {
   std::string version;        ///< of the program
   std::filesystem::path out;  ///< the results folder names the run: its domain and tag follow from it
   std::uint64_t case_hash = 0;
-  double time_limit = 30;  ///< longest wait for the coupler to come [s]; from then on the case's counts
-  std::string used_case;   ///< this participant's sections with defaults, for used_case.toml
+  double time_limit = 30;      ///< longest wait for the coupler to come [s]; from then on the case's counts
+  std::string used_case = {};  ///< this participant's sections with defaults, for used_case.toml
 };
 
 class FluidLink {

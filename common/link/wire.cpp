@@ -21,7 +21,8 @@ std::vector<double> values(const dds_sequence_double& sequence) {
 void check_values(const std::vector<double>& values, std::size_t expected, const char* name,
                   const std::string& sender) {
   if (values.size() != expected)
-    throw PeerLost(fmt::format("{}: {} values of {} came, {} were awaited", sender, values.size(), name, expected));
+    throw PeerLost(
+        fmt::format("{}: {} values of {} came, {} were awaited", sender, values.size(), name, expected));
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isfinite(values[k]))
       throw PhysicsFailure(fmt::format("{}: {} of interface particle {} is {}", sender, name,
@@ -142,8 +143,8 @@ void check(const InterfaceLoad& load, std::size_t particles, const std::string& 
 
 void check(const toryu_WindowHead& window, const Window& expected, const std::string& sender) {
   if (window.number != expected.number || window.iteration != expected.iteration)
-    throw PeerLost(fmt::format("{} sent window {} iteration {} where window {} iteration {} was awaited", sender,
-                               window.number, window.iteration, expected.number, expected.iteration));
+    throw PeerLost(fmt::format("{} sent window {} iteration {} where window {} iteration {} was awaited",
+                               sender, window.number, window.iteration, expected.number, expected.iteration));
   if (!std::isfinite(window.time) || !(window.dt > 0) || !std::isfinite(window.dt))
     throw PhysicsFailure(
         fmt::format("{}: window {} at t = {} s is {} s long", sender, window.number, window.time, window.dt));

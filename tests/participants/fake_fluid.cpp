@@ -1,5 +1,5 @@
-/// A fluid that is no more than a given pressure history on the interface: a template for whoever puts another
-/// fluid model in the place of fluid_solver.
+/// A fluid that is no more than a given pressure history on the interface: a template for whoever puts
+/// another fluid model in the place of fluid_solver.
 ///
 ///     p(t) = peak sin^2(pi t / period)
 ///
@@ -38,10 +38,8 @@ InterfaceLoad load_at(double time, double dt, const Interface& interface) {
 ExitCode run(const Options& options) {
   // A real participant reads its sections here; the hash tells the coupler that both compute the same case.
   const CaseFile file(options.case_path, options.overrides);
-  FluidLink link({.role = "fake_fluid",
-                  .version = provenance(1).version,
-                  .out = options.out,
-                  .case_hash = file.hash()});
+  FluidLink link(
+      {.role = "fake_fluid", .version = provenance(1).version, .out = options.out, .case_hash = file.hash()});
   try {
     const Interface interface = link.join(reach, time_step_limit);
     while (const auto turn = link.next_window()) {
@@ -60,4 +58,6 @@ ExitCode run(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_program("fake_fluid", argc, argv, run); }
+int main(int argc, char** argv) {
+  return run_program("fake_fluid", argc, argv, run);
+}

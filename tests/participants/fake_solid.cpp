@@ -23,10 +23,10 @@ constexpr double spacing = 1e-3;    // [m]
 constexpr int rows = 40;
 constexpr int sub_steps = 10;  // in a window
 
-/// One column of particles of which both faces touch fluid only on the left, so that a pressure has a
-/// resultant.
+/// One column of particles that touches fluid on its left, so that a pressure has a resultant.
 Interface strip() {
-  Interface interface{.spacing = spacing};
+  Interface interface;
+  interface.spacing = spacing;
   for (int row = 0; row < rows; ++row) {
     interface.id.push_back(static_cast<std::uint32_t>(row));
     interface.position.insert(interface.position.end(), {0.1 + 0.5 * spacing, (row + 0.5) * spacing});
@@ -59,10 +59,8 @@ Vec sum_of(const InterfaceLoad& load) {
 ExitCode run(const Options& options) {
   // A real participant reads its sections here; the hash tells the coupler that both compute the same case.
   const CaseFile file(options.case_path, options.overrides);
-  SolidLink link({.role = "fake_solid",
-                  .version = provenance(1).version,
-                  .out = options.out,
-                  .case_hash = file.hash()});
+  SolidLink link(
+      {.role = "fake_solid", .version = provenance(1).version, .out = options.out, .case_hash = file.hash()});
   try {
     link.join();  // returns the fluid's reach, by which a real solid chooses its interface
     const Interface interface = strip();
@@ -84,4 +82,6 @@ ExitCode run(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_program("fake_solid", argc, argv, run); }
+int main(int argc, char** argv) {
+  return run_program("fake_solid", argc, argv, run);
+}
