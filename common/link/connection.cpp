@@ -87,6 +87,7 @@ void Connection::heed(const toryu_Session& session) {
     over_ = true;
     session_ = session.session_id;
     write_status(toryu_LEFT);  // so that the coupler knows that this side knows
+    status_.flush(1s);
     const auto code = static_cast<ExitCode>(session.exit_code);
     if (code != ExitCode::done) throw_ending({code, session.reason});
     return;
