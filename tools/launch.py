@@ -124,10 +124,10 @@ def sole_user(out):
         yield
 
 
-def report(options):
-    """Makes report.html and prints the summary; returns whether both could be done."""
-    made = subprocess.run([PYTHON, ROOT / "tools/report", options.out, "--case", options.case],
-                          stdout=subprocess.DEVNULL).returncode == 0
+def report(options, code, words):
+    """Makes report.html and prints the summary; returns whether the report could be made."""
+    made = subprocess.run([PYTHON, ROOT / "tools/report", options.out, "--case", options.case,
+                           f"--exit-code={code}", f"--words={words}"], stdout=subprocess.DEVNULL).returncode == 0
     print(summary_text.of_run(options.case, options.out))
     if made:
         print(f"report  {options.out / 'report.html'}")
@@ -156,7 +156,7 @@ def main(arguments):
         code, words = Run(commands, lead=next(iter(commands)), environment=environment)()
         if words:
             print(words, file=sys.stderr)
-        reported = report(options)
+        reported = report(options, code, words)
     return code or (DONE if reported else BUG)
 
 

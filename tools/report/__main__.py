@@ -1,1 +1,81 @@
+"""Makes `report.html` in a results folder: one page that needs no network and no other file.
+
+    /usr/bin/python3 tools/report OUT --case CASE
+"""
+
+import argparse
+import html
+import json
+import os
+import pathlib
+import re
+import string
 import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+
+import data  # noqa: E402
+import frames  # noqa: E402
+import results  # noqa: E402
+import tables  # noqa: E402
+
+
+def view_of(boxes, walls):
+    """The box that the picture shows at first: all particles and the walls."""
+    corners = [[*map(float, low), *map(float, high)] for low, high in boxes] + [wall["box"] for wall in walls]
+    if not corners:
+        return [0, 0, 1, 1]
+    return [min(c[0] for c in corners), min(c[1] for c in corners),
+            max(c[2] for c in corners), max(c[3] for c in corners)]
+
+
+def comparisons_of(case, out):
+    try:
+        return results.compare(case, out)
+    except (OSError, KeyError) as error:
+        print(f"report: the references cannot be read: {error!r}", file=sys.stderr)
+        return []
+
+
+def page(case_path, out, exit_code, words):
+    case, case_text = data.used_case(case_path, out)
+    summaries = results.read_summaries(out)
+    comparisons = comparisons_of(case_path, out)
+    bodies, boxes, step = frames.collect(out, case)
+    walls = data.wall_paths(case)
+    compared, others = data.charts(out, comparisons)
+    state = data.state(summaries, exit_code, words)
+    title = case.get("case", {}).get("title") or results.case_name(case_path)
+    content = {
+        "view": view_of(boxes, walls), "walls": walls, "bodies": bodies,
+        "compared": compared, "others": others,
+    }
+    return string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
+        title=html.escape(title), name=html.escape(results.case_name(case_path)),
+        style=(HERE / "style.css").read_text(encoding="utf-8"),
+        script="\n".join((HERE / f).read_text(encoding="utf-8") for f in ("chart.js", "particles.js", "page.js")),
+        data=re.sub("</", r"<\\/", json.dumps(content, separators=(",", ":"), allow_nan=False)),
+        state=tables.state(state), figures=tables.figures(out, summaries, comparisons, state),
+        frames_note=f"every {step}th frame is shown" if step > 1 else "",
+        times=tables.times(summaries), terms=tables.terms(summaries), particles=tables.particles(summaries),
+        numbers=tables.numbers(summaries), provenance=tables.provenance(summaries), case=html.escape(case_text),
+        log=html.escape(tables.log_tail(out)))
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="report", description="Makes report.html of the results in OUT.")
+    parser.add_argument("out", metavar="OUT", type=pathlib.Path)
+    parser.add_argument("--case", metavar="CASE", required=True, help="the case that was run, for its references")
+    parser.add_argument("--exit-code", type=int, help="of the run; default: as the participants left it")
+    parser.add_argument("--words", default="", help="why the run ended")
+    options = parser.parse_args()
+    text = page(options.case, options.out, options.exit_code, options.words)
+    part = options.out / "report.html.part"
+    part.write_text(text, encoding="utf-8")
+    os.replace(part, options.out / "report.html")
+    print(options.out / "report.html")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+"""The report of a made-up run in headless Chromium: it draws, the slider and the colours change the picture, the
+console stays empty. Debian's chromium, chromium-driver and python3-selenium."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select, WebDriverWait
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/unit/tools"))
+
+import made_up_run  # noqa: E402
+
+QUIET = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync"]
+# Opaque pixels of the canvas, and a sum over them that changes with any pixel.
+PICTURE = """
+const canvas = document.getElementById("particles");
+const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+let opaque = 0, sum = 0;
+for (let i = 0; i < pixels.length; i += 4) {
+  if (pixels[i + 3] > 200) ++opaque;
+  sum = (sum * 31 + pixels[i] + 3 * pixels[i + 1] + 7 * pixels[i + 2] + pixels[i + 3]) % 2147483647;
+}
+return {opaque: opaque / (canvas.width * canvas.height), sum};
+"""
+
+
+class ReportInBrowser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        options = Options()
+        for argument in QUIET + [f"--user-data-dir={cls.folder / 'browser'}", "--window-size=1280,1000"]:
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        cls.browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        cls.addClassCleanup(cls.browser.quit)
+
+    def open(self, name, sides=("fluid", "solid")):
+        case, out = self.folder / name / "gate", self.folder / name / "out"
+        if not out.exists():
+            made_up_run.make_case(case, sides)
+            made_up_run.make_results(out, sides, frames=11)
+            subprocess.run(["/usr/bin/python3", ROOT / "tools/report", out, "--case", case], check=True,
+                           stdout=subprocess.DEVNULL)
+        self.browser.get((out / "report.html").as_uri())
+        self.wait_for_frame(0)
+
+    def wait_for_frame(self, index):
+        canvas = self.browser.find_element(By.ID, "particles")
+        WebDriverWait(self.browser, 60).until(lambda _: canvas.get_attribute("data-frame") == str(index))
+
+    def picture(self):
+        return self.browser.execute_script(PICTURE)
+
+    def tearDown(self):
+        self.assertEqual(self.browser.get_log("browser"), [])
+
+    def test_it_draws(self):
+        self.open("coupled")
+        # The walls and the water cover a part of the canvas, not all of it.
+        self.assertGreater(self.picture()["opaque"], 0.2)
+        self.assertLess(self.picture()["opaque"], 0.9)
+        self.assertGreater(len(self.browser.find_elements(By.CSS_SELECTOR, "figure svg path.line")), 6)
+
+    def test_the_slider_moves_the_picture(self):
+        self.open("coupled")
+        before = self.picture()
+        slider = self.browser.find_element(By.ID, "time")
+        for _ in range(5):
+            slider.send_keys(Keys.ARROW_RIGHT)
+        self.wait_for_frame(5)
+        self.assertEqual(self.browser.find_element(By.ID, "now").text, "0.2000 s")
+        self.assertNotEqual(self.picture(), before)
+        slider.send_keys(Keys.HOME)
+        self.wait_for_frame(0)
+        self.assertEqual(self.picture(), before)
+
+    def test_the_choice_of_colour_changes_the_picture(self):
+        self.open("coupled")
+        self.browser.find_element(By.ID, "time").send_keys(*[Keys.ARROW_RIGHT] * 4)  # the plate is bent
+        self.wait_for_frame(4)
+        for body in ("fluid", "solid"):
+            before = self.picture()
+            select = Select(self.browser.find_element(By.CSS_SELECTOR, f"select[data-body={body}]"))
+            self.assertGreaterEqual(len(select.options), 3)
+            select.select_by_index(1)
+            WebDriverWait(self.browser, 60).until(lambda _: self.picture() != before)
+
+    def test_play_runs_to_the_end_and_stops(self):
+        self.open("coupled")
+        Select(self.browser.find_element(By.ID, "speed")).select_by_value("2")
+        play = self.browser.find_element(By.ID, "play")
+        play.click()
+        self.assertEqual(play.text, "Pause")
+        self.wait_for_frame(10)
+        WebDriverWait(self.browser, 60).until(lambda _: play.text == "Play")
+
+    def test_the_wheel_zooms_and_the_button_returns(self):
+        self.open("coupled")
+        before = self.picture()
+        canvas = self.browser.find_element(By.ID, "particles")
+        self.browser.execute_script(
+            "arguments[0].dispatchEvent(new WheelEvent('wheel', {deltaY: -400, clientX: 400, clientY: 500}))", canvas)
+        WebDriverWait(self.browser, 60).until(lambda _: self.picture() != before)
+        self.browser.find_element(By.ID, "whole").click()
+        WebDriverWait(self.browser, 60).until(lambda _: self.picture() == before)
+
+    def test_a_run_of_one_side(self):
+        for side in ("fluid", "solid"):
+            with self.subTest(side):
+                self.open(side, (side,))
+                self.assertGreater(self.picture()["opaque"], 0.02)
+                self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "select[data-body]")), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,167 @@
+"""The report page of made-up runs: what it says, and that its frames decode to the particles."""
+
+import base64
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+import h5py
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+REPORT = HERE.parents[2] / "tools/report"
+sys.path[:0] = [str(HERE), str(REPORT), str(REPORT.parent)]
+
+import data  # noqa: E402
+import made_up_run  # noqa: E402
+import tables  # noqa: E402
+
+
+class Page(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.case, self.out = pathlib.Path(folder.name) / "gate", pathlib.Path(folder.name) / "out"
+
+    def make(self, sides=("fluid", "solid"), **results):
+        made_up_run.make_case(self.case, sides)
+        made_up_run.make_results(self.out, sides, **results)
+
+    def page(self, *options):
+        subprocess.run(["/usr/bin/python3", REPORT, self.out, "--case", self.case, *options], check=True,
+                       stdout=subprocess.DEVNULL)
+        return (self.out / "report.html").read_text()
+
+    def content(self, page):
+        return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.S)[1])
+
+    def test_it_needs_no_other_file_and_no_network(self):
+        self.make(frames=2)
+        page = self.page()
+        self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', page), [])
+        self.assertEqual(re.findall(r"https?://(?!www\.w3\.org/2000/svg)", page), [])
+        self.assertNotIn("$", re.sub(r"<script.*?</script>", "", page, flags=re.S))
+        self.assertIn("<h1>A made-up gate &amp; its water</h1>", page)
+        self.assertIn("Monaghan 1992, eq. 4.1", page)
+
+    def test_frames_decode_to_the_particles(self):
+        self.make(frames=3)
+        fluid, solid = self.content(self.page())["bodies"]
+        self.assertEqual((fluid["name"], solid["name"]), ("fluid", "solid"))
+        self.assertEqual(fluid["times"], [0, 0.2, 0.4])
+        self.assertEqual([q["label"] for q in fluid["quantities"]], ["pressure", "speed", "density"])
+        planes = np.frombuffer(zlib.decompress(base64.b64decode(fluid["frames"][1])), np.uint8).reshape(2, -1)
+        codes = (planes[0] + 256.0 * planes[1]).reshape(5, -1)
+        with h5py.File(self.out / "frames/fluid_000001.hdf") as frame:
+            points = frame["VTKHDF/Points"][:]
+            pressure = frame["VTKHDF/PointData/pressure"][:]
+        x0, _, x1, _ = fluid["box"]
+        np.testing.assert_allclose(x0 + codes[0] / 65534 * (x1 - x0), points[:, 0], atol=(x1 - x0) / 65534)
+        quantity = fluid["quantities"][0]
+        self.assertEqual(quantity["unit"], "kPa")
+        decoded = quantity["low"] + codes[2] / 65534 * (quantity["high"] - quantity["low"])
+        inside = (1e-3 * pressure >= quantity["low"]) & (1e-3 * pressure <= quantity["high"])
+        self.assertGreater(inside.mean(), 0.95)
+        np.testing.assert_allclose(decoded[inside], 1e-3 * pressure[inside], atol=1e-4)
+
+    def test_a_value_that_is_not_finite_and_a_lost_particle_keep_the_page_whole(self):
+        self.make(frames=2)
+        with h5py.File(self.out / "frames/fluid_000001.hdf", "a") as frame:
+            frame["VTKHDF/Points"][0] = [np.nan, 0, 0]
+            frame["VTKHDF/Points"][1] = [1e30, 0, 0]
+            frame["VTKHDF/PointData/pressure"][2] = np.inf
+        fluid = self.content(self.page())["bodies"][0]
+        planes = np.frombuffer(zlib.decompress(base64.b64decode(fluid["frames"][1])), np.uint8).reshape(2, -1)
+        codes = (planes[0] + 256 * planes[1].astype(int)).reshape(5, -1)
+        self.assertEqual([codes[0, 0], codes[0, 1], codes[2, 2]], [65535, 65535, 65535])
+        self.assertLessEqual(fluid["box"][2], 0.9)  # the case's domain
+
+    def test_the_reference_is_drawn_over_the_run(self):
+        self.make(frames=2)
+        content = self.content(self.page())
+        lines = content["compared"][0]["lines"]
+        self.assertEqual([(line["label"], line["kind"]) for line in lines],
+                         [("this run", "line"), ("Somebody 2007", "points")])
+        self.assertEqual(content["compared"][0]["unit"], "mm")
+        self.assertAlmostEqual(max(v for _, v in lines[0]["points"]), 40, places=3)
+        self.assertEqual([chart["title"] for chart in content["others"]["solid"]],
+                         ["energy", "momentum", "displacement"])
+
+    def test_a_failed_run_says_so_with_its_last_words(self):
+        self.make(end=0.2, frames=2)
+        made_up_run.write_summary(self.out, "fluid", 3, "particle 7 left the <domain>")
+        page = self.page()
+        self.assertIn('<span class="badge bad">Physics failed</span>', page)
+        self.assertIn("<p>particle 7 left the &lt;domain&gt;</p>", page)
+        page = self.page("--exit-code=4", "--words=solid_solver was killed")
+        self.assertIn('<span class="badge bad">A process was lost</span>', page)
+        self.assertIn("<p>solid_solver was killed</p>", page)
+
+    def test_runs_of_one_side(self):
+        for side in ("fluid", "solid"):
+            with self.subTest(side):
+                self.setUp()
+                self.make((side,), frames=2)
+                content = self.content(self.page())
+                self.assertEqual([body["name"] for body in content["bodies"]], [side])
+                self.assertEqual(list(content["others"]), [side])
+
+    def test_a_run_that_left_nothing(self):
+        made_up_run.make_case(self.case)
+        self.out.mkdir()
+        page = self.page("--exit-code=1", "--words=coupler ended")
+        self.assertEqual(self.content(page)["bodies"], [])
+        self.assertIn("Ended by a bug", page)
+
+    def test_too_many_particles_are_shown_in_fewer_frames(self):
+        self.make(frames=9)
+        text = ("import sys, pathlib; sys.argv = ['report', *sys.argv[1:]]\n"
+                f"sys.path[:0] = [{str(REPORT)!r}, {str(REPORT.parent)!r}]\n"
+                "import frames, runpy; frames.SIZE_LIMIT = 1.2e5\n"
+                f"runpy.run_path({str(REPORT / '__main__.py')!r}, run_name='__main__')")
+        subprocess.run(["/usr/bin/python3", "-c", text, self.out, "--case", self.case], check=True,
+                       stdout=subprocess.DEVNULL)
+        page = (self.out / "report.html").read_text()
+        times = self.content(page)["bodies"][0]["times"]
+        self.assertLess(len(times), 9)
+        self.assertEqual((times[0], times[-1]), (0, 0.4))
+        self.assertIn("th frame is shown", page)
+
+
+class Pieces(unittest.TestCase):
+    def test_units(self):
+        self.assertEqual(data.pretty("kg/m3"), "kg/m³")
+        self.assertEqual(data.pretty("N.s/m"), "N·s/m")
+        self.assertEqual(data.scaled("m", 0.04), (1e3, "mm"))
+        self.assertEqual(data.scaled("Pa", 2.5e6), (1e-6, "MPa"))
+        self.assertEqual(data.scaled("kg/m3", 1000), (1.0, "kg/m³"))
+
+    def test_formulas(self):
+        self.assertEqual(tables.formula("-m_j Pi_ij grad_i W_ij < eta^2"),
+                         "-m<sub>j</sub> Π<sub>ij</sub> ∇<sub>i</sub> W<sub>ij</sub> &lt; η<sup>2</sup>")
+
+    def test_a_thinned_line_keeps_its_extremes(self):
+        ys = [0.0] * 10000
+        ys[4321], ys[7000] = 5.0, -3.0
+        points = data.thinned(list(range(10000)), ys)
+        self.assertLessEqual(len(points), data.MOST_POINTS + 2)
+        self.assertIn((4321, 5.0), points)
+        self.assertIn((7000, -3.0), points)
+
+    def test_a_wall_moves_by_the_integral_of_its_velocity(self):
+        wall, = data.wall_paths({"case": {"end_time": 2.0}, "wall": [
+            {"name": "w", "box": {"min": [0, 0], "max": [1, 1]},
+             "motion": {"velocity": [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]]}}]})
+        at = {round(t, 6): x for t, x, _ in wall["path"]}
+        self.assertAlmostEqual(at[0.5], 0.25)  # t^2
+        self.assertAlmostEqual(at[1.0], 1.0)
+        self.assertAlmostEqual(at[2.0], 3.0)  # the last velocity goes on
+
+
+if __name__ == "__main__":
+    unittest.main()

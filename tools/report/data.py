@@ -1,0 +1,145 @@
+"""What the page shows beside the particles: state, figures, charts, times; taken from the files of the run."""
+
+import math
+import re
+import tomllib
+
+import numpy as np
+
+import results
+
+MEANING = {0: "Done", 1: "Ended by a bug", 2: "Bad input", 3: "Physics failed", 4: "A process was lost",
+           130: "Interrupted"}
+CAUSE_FIRST = (2, 3, 1, 130, 4, 0)  # of the participants' exit codes, the run's is the first of these
+MOST_POINTS = 1500  # of a line in a chart: more than it has pixels
+
+
+def used_case(case, out):
+    """The case as it was run, else as it is written."""
+    for path in (out / "used_case.toml", results.case_file(case)):
+        if path.is_file():
+            text = path.read_text(encoding="utf-8")
+            return tomllib.loads(text), text
+    return {}, ""
+
+
+def state(summaries, exit_code, words):
+    """Exit code and last words of the run: as the launcher saw them, else as the participants left them."""
+    if exit_code is None:
+        left = [s["exit_code"] for s in summaries.values()]
+        exit_code = min(left, key=lambda c: CAUSE_FIRST.index(c) if c in CAUSE_FIRST else 0) if left else 1
+        words = words or "; ".join(dict.fromkeys(s["last_words"] for s in summaries.values()
+                                                 if s["exit_code"] == exit_code and s["last_words"]))
+        if not left:
+            words = "no participant left a summary"
+    return {"code": exit_code, "meaning": MEANING.get(exit_code, f"Exit code {exit_code}"), "words": words}
+
+
+# Units ---------------------------------------------------------------------------------------------------------------
+
+PREFIXED = {"m", "s", "Pa", "J/m", "N/m", "N.s/m", "m/s", "Pa.s", "J", "N"}
+PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
+
+def pretty(unit):
+    """N.s/m -> N·s/m, kg/m3 -> kg/m³; no unit for plain numbers."""
+    if unit in ("", "1"):
+        return ""
+    raised = re.sub(r"(?<=[a-zA-Z])-?\d", lambda found: found[0].translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")),
+                    unit)
+    return raised.replace(".", "·")
+
+
+def scaled(unit, largest):
+    """Factor and unit that bring `largest` near 1 to 1000."""
+    if unit not in PREFIXED or not math.isfinite(largest) or largest <= 0:
+        return 1.0, pretty(unit)
+    power = min(9, max(-9, 3 * math.floor(math.log10(largest * 1.001) / 3)))
+    return 10.0 ** -power, PREFIXES[power] + pretty(unit)
+
+
+# Charts --------------------------------------------------------------------------------------------------------------
+
+def thinned(xs, ys):
+    """At most MOST_POINTS points: of each stretch the smallest and the largest, in order."""
+    if len(xs) <= MOST_POINTS:
+        return list(zip(xs, ys))
+    stretch = math.ceil(2 * len(xs) / MOST_POINTS)
+    kept = {0, len(xs) - 1}
+    for start in range(0, len(xs), stretch):
+        part = [i for i in range(start, min(start + stretch, len(xs))) if math.isfinite(ys[i])]
+        if part:
+            kept |= {min(part, key=ys.__getitem__), max(part, key=ys.__getitem__)}
+    return [(xs[i], ys[i]) for i in sorted(kept)]
+
+
+def chart(title, unit, lines):
+    """`lines`: (label, times, values, kind), kind "line" or "points"."""
+    finite = [abs(v) for _, _, values, _ in lines for v in values if math.isfinite(v)]
+    factor, unit = scaled(unit, max(finite, default=0))
+    return {"title": title, "unit": unit, "lines": [
+        {"label": label, "kind": kind,
+         "points": [[t, v * factor] if math.isfinite(v) else [t, None] for t, v in thinned(times, values)]}
+        for label, times, values, kind in lines]}
+
+
+def readable(column):
+    return re.sub(r"\[.*\]$", "", column).replace("_", " ")
+
+
+def group_of(column):
+    """Columns of one group and unit share a chart."""
+    name = column.partition("[")[0]
+    for word in ("energy", "momentum", "impulse", "displacement"):
+        if word in name:
+            return word
+    return readable(column)
+
+
+def charts(out, comparisons):
+    """Charts of the comparisons with references, and of all other columns by participant."""
+    series = {name: results.read_series(out, name) for name in results.PARTICIPANTS}
+    compared, shown = [], set()
+    for comparison in comparisons:
+        key = (comparison.series, comparison.column)
+        values = series.get(comparison.series, {}).get(comparison.column)
+        same = [c for c in comparisons if (c.series, c.column) == key]
+        if key in shown or not values:
+            continue
+        shown.add(key)
+        lines = [("this run", series[comparison.series]["time[s]"], values, "line")]
+        lines += [(c.label, [t for t, _ in c.reference], [v for _, v in c.reference], "points") for c in same]
+        compared.append(chart(readable(comparison.column), comparison.unit, lines) | {
+            "notes": [f"{c.label}: root mean square distance {c.distance:.1%} of its peak"
+                      for c in same if math.isfinite(c.distance)]})
+    others = {}
+    for name, columns in series.items():
+        groups = {}
+        for column, values in columns.items():
+            if column != "time[s]" and (name, column) not in shown and any(map(math.isfinite, values)):
+                groups.setdefault((group_of(column), results.unit_of(column)), []).append((column, values))
+        if groups:
+            order = ["energy", "momentum"]
+            keys = sorted(groups, key=lambda k: order.index(k[0]) if k[0] in order else 9)
+            others[name] = [chart(group, unit, [(readable(c), columns["time[s]"], v, "line")
+                                                for c, v in groups[group, unit]]) for group, unit in keys]
+    return compared, others
+
+
+# Scene ---------------------------------------------------------------------------------------------------------------
+
+def wall_paths(case):
+    """Boxes of the rigid walls with their displacement over time [[t, x, y], ...], the integral of the velocity."""
+    walls = []
+    for wall in case.get("wall", []):
+        rows = np.array(wall.get("motion", {}).get("velocity", []))
+        path = []
+        if len(rows):
+            times = np.union1d(rows[:, 0], np.linspace(0, case["case"]["end_time"], 201))
+            velocity = np.column_stack([np.interp(times, rows[:, 0], rows[:, axis]) for axis in (1, 2)])
+            steps = np.diff(times)[:, None] * (velocity[1:] + velocity[:-1]) / 2
+            moved = np.vstack([[0, 0], np.cumsum(steps, axis=0)])
+            moved -= moved[np.searchsorted(times, 0)]
+            path = np.column_stack([times, moved]).tolist()
+        walls.append({"name": wall.get("name", ""), "box": [*wall["box"]["min"], *wall["box"]["max"]], "path": path})
+    return walls
