@@ -125,6 +125,7 @@ void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
   guest.time_step_limit = hello.time_step_limit;
   guest.id = hello.sender;
   guest.moved = Clock::now();
+  if (phase == toryu_OVER) return;
   compare(hello, guest);
   spdlog::info("{} {} joined as the {}", guest.partner.program, guest.partner.version, guest.part);
   if (fluid.joined() && solid.joined()) phase = toryu_RUNNING;
@@ -133,8 +134,9 @@ void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
 
 void CouplerLink::Connection::note(const toryu_Status& status) {
   Guest* guest = status.sender == fluid.id ? &fluid : status.sender == solid.id ? &solid : nullptr;
-  if (guest == nullptr || status.session_id != session)
-    return;  // of a refused participant, or of another run
+  // Of a refused participant, or of another run; 0 is of one that left before it knew ours.
+  if (guest == nullptr || (status.session_id != session && status.session_id != 0)) return;
+  return;  // of a refused participant, or of another run
   const bool moved = status.steps != guest->steps || status.window != guest->window;
   if (moved) guest->moved = Clock::now();
   guest->steps = status.steps;
@@ -279,14 +281,18 @@ void CouplerLink::stop(ExitCode code, const std::string& reason) noexcept {
   c.reason = reason;
   try {
     c.announce();
-    const auto gone = [](const Guest& guest) { return !guest.joined() || guest.left || guest.dead(); };
+    // Who is late to a run that was refused shall still hear why.
+    const auto gone = [&](const Guest& guest) {
+      return guest.joined() ? guest.left || guest.dead() : code != ExitCode::bad_input;
+    };
     const auto start = Clock::now();
     while (!(gone(c.fluid) && gone(c.solid)) && Clock::now() - start < farewell) {
       c.attend();
       c.node.wait(longest_sleep);
     }
-    if (!gone(c.fluid) || !gone(c.solid))
-      spdlog::warn("{} has not confirmed the end of the run", (gone(c.fluid) ? c.solid : c.fluid).name());
+    for (const Guest* guest : {&c.fluid, &c.solid})
+      if (guest->joined() && !gone(*guest))
+        spdlog::warn("{} has not confirmed the end of the run", guest->name());
   } catch (const std::exception& failure) {
     spdlog::warn("the participants could not be told of the end: {}", failure.what());
   }

@@ -18,15 +18,15 @@ std::vector<double> values(const dds_sequence_double& sequence) {
   return {sequence._buffer, sequence._buffer + sequence._length};
 }
 
-void check_values(const std::vector<double>& values, std::size_t expected, const char* name,
-                  const std::string& sender) {
-  if (values.size() != expected)
-    throw PeerLost(
-        fmt::format("{}: {} values of {} came, {} were awaited", sender, values.size(), name, expected));
+void check_values(const std::vector<double>& values, std::size_t particles, std::size_t components,
+                  const char* name, const std::string& sender) {
+  if (values.size() != particles * components)
+    throw PeerLost(fmt::format("{}: {} values of {} came, {} were awaited", sender, values.size(), name,
+                               particles * components));
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isfinite(values[k]))
-      throw PhysicsFailure(fmt::format("{}: {} of interface particle {} is {}", sender, name,
-                                       k / std::max<std::size_t>(1, expected / dim), values[k]));
+      throw PhysicsFailure(
+          fmt::format("{}: {} of interface particle {} is {}", sender, name, k / components, values[k]));
 }
 
 }  // namespace
@@ -119,24 +119,24 @@ InterfaceLoad load(const toryu_Load& message) {
 
 void check(const Interface& interface, const std::string& sender) {
   const std::size_t count = interface.size();
-  check_values(interface.position, dim * count, "reference position", sender);
-  check_values(interface.volume, count, "volume", sender);
-  check_values(interface.area_vector, dim * count, "area vector", sender);
+  check_values(interface.position, count, dim, "reference position", sender);
+  check_values(interface.volume, count, 1, "volume", sender);
+  check_values(interface.area_vector, count, dim, "area vector", sender);
   if (!(interface.spacing > 0))
     throw PeerLost(fmt::format("{}: spacing {} of the interface is not above 0", sender, interface.spacing));
 }
 
 void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender) {
-  check_values(motion.position, dim * particles, "position", sender);
-  check_values(motion.velocity, dim * particles, "velocity", sender);
-  check_values(motion.acceleration, dim * particles, "acceleration", sender);
+  check_values(motion.position, particles, dim, "position", sender);
+  check_values(motion.velocity, particles, dim, "velocity", sender);
+  check_values(motion.acceleration, particles, dim, "acceleration", sender);
 }
 
 void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender) {
-  check_values(load.pressure, particles, "pressure", sender);
-  check_values(load.force, dim * particles, "force", sender);
+  check_values(load.pressure, particles, 1, "pressure", sender);
+  check_values(load.force, particles, dim, "force", sender);
   if (!load.friction_force.empty())
-    check_values(load.friction_force, dim * particles, "friction force", sender);
+    check_values(load.friction_force, particles, dim, "friction force", sender);
   if (!load.impulse_on_fluid.allFinite())
     throw PhysicsFailure(fmt::format("{}: impulse on the fluid is not finite", sender));
 }

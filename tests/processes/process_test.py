@@ -1,0 +1,209 @@
+"""How three processes end together: death, hang, interruption, refusal, faults of one of them.
+
+    process_test.py BUILD/bin [unittest options]
+"""
+import os
+import pathlib
+import signal
+import sys
+import time
+import tomllib
+import unittest
+
+import trio
+
+LIMIT = 30  # seconds after which something that should have ended counts as hung
+PROGRAMS = {}
+NAMES = {"coupler": "coupler", "fluid": "fake_fluid", "solid": "fake_solid"}
+
+
+class ProcessTest(unittest.TestCase):
+    def run_of_three(self, fluid="fake_fluid", **settings):
+        programs = {role: PROGRAMS["bin"] / name for role, name in (NAMES | {"fluid": fluid}).items()}
+        return self.enterContext(trio.Trio(programs, **settings))
+
+    def assert_ending(self, run, name, code, *words):
+        found, text = run.ending_of(name, LIMIT)
+        self.assertEqual(found, code, f"{name}: {text}")
+        for word in words:
+            self.assertIn(word, text, name)
+
+    def assert_all_end(self, run, code, *words):
+        for role in trio.ROLES:
+            self.assert_ending(run, role, code, *words)
+
+    def others(self, role):
+        return [other for other in trio.ROLES if other != role]
+
+    def summary(self, run):
+        return tomllib.loads((run.out / "coupler_summary.toml").read_text())
+
+
+class GoodEnd(ProcessTest):
+    def test_impulse_given_is_impulse_taken(self):
+        run = self.run_of_three(end_time="0.05").start_all()
+        self.assert_all_end(run, trio.EXIT_DONE)
+        figures = self.summary(run)["figures"]
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+        self.assertGreater(figures["largest_impulse_error"], 0)  # sums in another order round differently
+
+    def test_two_runs_at_once_do_not_mix(self):
+        first = self.run_of_three(end_time="0.05").start_all()
+        second = self.run_of_three(end_time="0.03").start_all()
+        for run, end_time in ((first, 0.05), (second, 0.03)):
+            self.assert_all_end(run, trio.EXIT_DONE)
+            self.assertAlmostEqual(self.summary(run)["simulated_time"], end_time)
+
+    def test_the_same_run_twice_exchanges_the_same(self):
+        import h5py
+
+        records = []
+        for _ in range(2):
+            run = self.run_of_three(end_time="0.02").start_all()
+            self.assert_all_end(run, trio.EXIT_DONE)
+            with h5py.File(run.out / "interface.h5") as file:
+                records.append({name: file[name][:].tobytes() for name in file})
+        self.assertEqual(*records)
+
+
+class Death(ProcessTest):
+    def test_in_mid_run(self):
+        for role in trio.ROLES:
+            with self.subTest(role):
+                run = self.run_of_three().start_all().wait_until_running()
+                run.kill(role)
+                start = time.monotonic()
+                for other in self.others(role):
+                    self.assert_ending(run, other, trio.EXIT_PEER_LOST, NAMES[role], "killed or stopped")
+                print(f"{role} killed: the others ended after {time.monotonic() - start:.2f} s", end=" ")
+
+    def test_after_joining(self):
+        for role, other in (("fluid", "solid"), ("solid", "fluid")):
+            with self.subTest(role):
+                run = self.run_of_three().start("coupler").start(role)
+                run.wait_for_log(f"{NAMES[role]} .* joined", LIMIT)
+                run.kill(role)
+                run.start(other)
+                for name in ("coupler", other):
+                    self.assert_ending(run, name, trio.EXIT_PEER_LOST, NAMES[role])
+
+    def test_before_joining(self):
+        environment = os.environ | {"FAULT": "before joining"}
+        run = self.run_of_three(fluid="faulty_fluid", settings=["coupling.time_limit=2"])
+        run.start("coupler").start("solid").start("fluid", environment=environment)
+        self.assertEqual(run.wait("fluid", LIMIT), 0)
+        for name in ("coupler", "solid"):
+            self.assert_ending(run, name, trio.EXIT_PEER_LOST, "fluid participant did not join within 2 s")
+
+    def test_leaves_no_half_written_file_under_its_final_name(self):
+        run = self.run_of_three().start_all().wait_until_running()
+        run.kill("coupler")
+        for name in ("coupler.csv", "interface.h5", "coupler_summary.toml"):
+            self.assertFalse((run.out / name).exists(), name)
+        self.assertTrue((run.out / "interface.h5.part").exists())
+
+    def test_a_new_run_can_start_at_once(self):
+        run = self.run_of_three(end_time="1e6").start_all().wait_until_running()
+        run.kill("coupler")
+        leftover = {role: run.processes[role] for role in ("fluid", "solid")}
+        (run.out / "coupler.csv.part").unlink()
+        run.start_all().wait_until_running()
+        run.signal("coupler", signal.SIGINT)
+        self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+        for process in leftover.values():
+            self.assertEqual(process.wait(LIMIT), trio.EXIT_PEER_LOST)
+
+
+class Hang(ProcessTest):
+    def test_stopped_process(self):
+        for role in trio.ROLES:
+            with self.subTest(role):
+                run = self.run_of_three().start_all().wait_until_running()
+                run.signal(role, signal.SIGSTOP)
+                for other in self.others(role):
+                    self.assert_ending(run, other, trio.EXIT_PEER_LOST, NAMES[role])
+                run.signal(role, signal.SIGCONT)
+                self.assert_ending(run, role, trio.EXIT_PEER_LOST)
+
+    def test_short_stop_of_all_is_survived(self):
+        run = self.run_of_three().start_all().wait_until_running()
+        for number in (signal.SIGSTOP, signal.SIGCONT):
+            for role in trio.ROLES:
+                run.signal(role, number)
+            if number == signal.SIGSTOP:
+                time.sleep(2)  # longer than the leases
+        run.wait_until_running(beyond=run.windows())
+        run.signal("coupler", signal.SIGINT)
+        self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+
+    def test_endless_loop(self):
+        run = self.run_of_three(fluid="faulty_fluid", settings=["coupling.time_limit=2"])
+        run.start("coupler").start("solid").start("fluid", environment=os.environ | {"FAULT": "hang"})
+        for name in ("coupler", "solid"):
+            self.assert_ending(run, name, trio.EXIT_PEER_LOST, "faulty_fluid did not answer in window 51 within 2 s")
+
+    def test_nobody_else_comes(self):
+        run = self.run_of_three(settings=["coupling.time_limit=1"]).start("coupler")
+        self.assert_ending(run, "coupler", trio.EXIT_PEER_LOST, "fluid participant did not join within 1 s")
+
+
+class Interruption(ProcessTest):
+    def test_of_each(self):
+        for role in trio.ROLES:
+            with self.subTest(role):
+                run = self.run_of_three().start_all().wait_until_running()
+                run.signal(role, signal.SIGINT)
+                self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+                self.assertTrue((run.out / "interface.h5").exists())
+                self.assertEqual(self.summary(run)["exit_code"], trio.EXIT_INTERRUPTED)
+
+    def test_of_all_as_by_a_terminal(self):
+        run = self.run_of_three().start_all().wait_until_running()
+        for role in trio.ROLES:
+            run.signal(role, signal.SIGINT)
+        self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+
+    def test_at_the_start(self):
+        run = self.run_of_three().start("coupler").start("fluid")
+        run.wait_for_log("fake_fluid .* joined", LIMIT)
+        run.signal("coupler", signal.SIGINT)
+        for name in ("coupler", "fluid"):
+            self.assert_ending(run, name, trio.EXIT_INTERRUPTED)
+
+
+class Refusal(ProcessTest):
+    def test_second_run_in_the_same_folder(self):
+        run = self.run_of_three().start_all().wait_until_running()
+        run.start("coupler", name="second")
+        self.assert_ending(run, "second", trio.EXIT_BAD_INPUT, str(run.out), "another run")
+        run.wait_until_running(beyond=run.windows())  # the first goes on
+
+    def test_of_a_fault(self):
+        window = "faulty_fluid: window 51: "
+        expected = {
+            "physics": (trio.EXIT_PHYSICS_FAILED, "fluid particle 7 at t = 0.005 s: speed = 99 m/s, limit 10 m/s"),
+            "value": (trio.EXIT_PHYSICS_FAILED, window + "force of interface particle 39 is nan"),
+            "limit": (trio.EXIT_PHYSICS_FAILED, window + "time step limit is -1 s"),
+            "count": (trio.EXIT_PEER_LOST, window + "39 values of pressure came, 40 were awaited"),
+            "bug": (trio.EXIT_PEER_LOST, "faulty_fluid: index out of range"),
+            "vanish": (trio.EXIT_PEER_LOST, "faulty_fluid was killed or stopped"),
+        }
+        for fault, (code, text) in expected.items():
+            with self.subTest(fault):
+                run = self.run_of_three(fluid="faulty_fluid").start("coupler").start("solid")
+                run.start("fluid", environment=os.environ | {"FAULT": fault})
+                for name in ("coupler", "solid"):
+                    self.assert_ending(run, name, code, text)
+                run.wait("fluid", LIMIT)
+
+    def test_false_impulse_is_reported(self):
+        run = self.run_of_three(fluid="faulty_fluid", end_time="0.01").start("coupler").start("solid")
+        run.start("fluid", environment=os.environ | {"FAULT": "impulse"})
+        self.assert_ending(run, "coupler", trio.EXIT_DONE, "window 51", "impulse given and taken differ")
+        # All particles push alike, so the false part is 0.001 of F_x beside sqrt(2) F_x of the scale.
+        self.assertAlmostEqual(self.summary(run)["figures"]["largest_impulse_error"], 1e-3 / 2**0.5, places=9)
+
+
+if __name__ == "__main__":
+    PROGRAMS["bin"] = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main(verbosity=2)
