@@ -136,7 +136,6 @@ void CouplerLink::Connection::note(const toryu_Status& status) {
   Guest* guest = status.sender == fluid.id ? &fluid : status.sender == solid.id ? &solid : nullptr;
   // Of a refused participant, or of another run; 0 is of one that left before it knew ours.
   if (guest == nullptr || (status.session_id != session && status.session_id != 0)) return;
-  return;  // of a refused participant, or of another run
   const bool moved = status.steps != guest->steps || status.window != guest->window;
   if (moved) guest->moved = Clock::now();
   guest->steps = status.steps;
