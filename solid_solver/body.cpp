@@ -1,0 +1,159 @@
+#include "solid_solver/body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace toryu {
+
+namespace {
+
+/// How far a fitted spacing may be from the stated one.
+constexpr double largest_misfit = 0.1;
+
+/// Finds particles by place: squares of the lattice's size.
+class PlaceIndex {
+ public:
+  PlaceIndex(const std::vector<Vec>& X, double size) : X_(X), size_(size) {
+    for (std::size_t i = 0; i < X.size(); ++i) squares_[key(square(X[i][0]), square(X[i][1]))].push_back(i);
+  }
+  /// Whether a particle lies closer than `distance` (at most the size of a square) to `x`, in each direction.
+  bool occupied(const Vec& x, double distance) const {
+    for (long a = -1; a <= 1; ++a)
+      for (long b = -1; b <= 1; ++b) {
+        const auto found = squares_.find(key(square(x[0]) + a, square(x[1]) + b));
+        if (found == squares_.end()) continue;
+        for (const std::size_t j : found->second)
+          if ((X_[j] - x).lpNorm<Eigen::Infinity>() < distance) return true;
+      }
+    return false;
+  }
+
+ private:
+  long square(double x) const { return std::lround(x / size_); }
+  static std::int64_t key(long a, long b) { return (static_cast<std::int64_t>(a) << 32) ^ (b & 0xffffffff); }
+  const std::vector<Vec>& X_;
+  double size_;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> squares_;
+};
+
+/// Number of cells along a side; 0, told as a fault, if they do not fill it.
+long cells(const NamedBox& region, int axis, double spacing, const TellFault& tell_fault) {
+  const double side = region.box.max[axis] - region.box.min[axis];
+  const long n = std::lround(side / spacing);
+  if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit) return n;
+  tell_fault("solid.region",
+             fmt::format("region '{}' is {:.3g} spacings long along {}; rows of particles fill it only if that is "
+                         "within {:.0f} % of a whole number",
+                         region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit));
+  return 0;
+}
+
+void fill_region(const NamedBox& region, const SolidParameters& parameters, SolidBody& body,
+                 const TellFault& tell_fault) {
+  const long n_x = cells(region, 0, parameters.spacing, tell_fault);
+  const long n_y = cells(region, 1, parameters.spacing, tell_fault);
+  const Vec side = region.box.max - region.box.min;
+  const Vec cell(side[0] / static_cast<double>(n_x), side[1] / static_cast<double>(n_y));
+  for (long b = 0; b < n_y; ++b)
+    for (long a = 0; a < n_x; ++a) {
+      const Vec X = region.box.min + Vec((static_cast<double>(a) + 0.5) * cell[0], (static_cast<double>(b) + 0.5) * cell[1]);
+      const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
+                                   [&](const NamedBox& hole) { return hole.box.contains(X); });
+      if (cut) continue;
+      body.X.push_back(X);
+      body.cell.push_back(cell);
+    }
+}
+
+bool overlap(const Box& a, const Box& b, double tolerance) {
+  return ((a.max - b.min).array() > tolerance).all() && ((b.max - a.min).array() > tolerance).all();
+}
+
+void find_surface(SolidBody& body) {
+  const PlaceIndex places(body.X, body.spacing);
+  body.area_vector.assign(body.size(), Vec::Zero());
+  for (std::size_t i = 0; i < body.size(); ++i)
+    for (int axis = 0; axis < dim; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        const Vec normal = side * Vec::Unit(axis);
+        const Vec site = body.X[i] + body.cell[i][axis] * normal;
+        // Half a spacing and a little: where regions meet, their columns need not face each other.
+        if (places.occupied(site, 0.6 * body.spacing)) continue;
+        body.area_vector[i] += body.volume(i) / body.cell[i][axis] * normal;
+        body.outside.push_back(site);
+      }
+}
+
+}  // namespace
+
+double SolidBody::total_volume() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) sum += volume(i);
+  return sum;
+}
+
+Vec SolidBody::smallest_corner() const {
+  Vec corner = X.front();
+  for (std::size_t i = 0; i < size(); ++i) corner = corner.cwiseMin(X[i] - 0.5 * cell[i]);
+  return corner;
+}
+
+Vec SolidBody::largest_corner() const {
+  Vec corner = X.front();
+  for (std::size_t i = 0; i < size(); ++i) corner = corner.cwiseMax(X[i] + 0.5 * cell[i]);
+  return corner;
+}
+
+std::vector<std::uint32_t> SolidBody::inside(const Box& box) const {
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (box.contains(X[i])) found.push_back(static_cast<std::uint32_t>(i));
+  return found;
+}
+
+std::vector<std::uint32_t> SolidBody::near_surface(double reach) const {
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (std::any_of(outside.begin(), outside.end(), [&](const Vec& site) { return (site - X[i]).norm() <= reach; }))
+      found.push_back(static_cast<std::uint32_t>(i));
+  return found;
+}
+
+SolidBody build_body(const SolidParameters& parameters, const TellFault& tell_fault) {
+  SolidBody body;
+  body.spacing = parameters.spacing;
+  const auto& regions = parameters.regions;
+  for (std::size_t a = 0; a < regions.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b)
+      if (overlap(regions[a].box, regions[b].box, 1e-6 * parameters.spacing))
+        tell_fault("solid.region", fmt::format("region '{}' overlaps region '{}'; regions may touch only",
+                                               regions[a].name, regions[b].name));
+    const std::size_t before = body.size();
+    fill_region(regions[a], parameters, body, tell_fault);
+    body.counts.emplace_back("region " + regions[a].name, body.size() - before);
+  }
+  body.held.assign(body.size(), 0);
+  for (const auto& clamp : parameters.clamps) {
+    const auto particles = body.inside(clamp.box);
+    if (particles.empty())
+      tell_fault("solid.clamp", fmt::format("clamp '{}' holds no particle of the solid", clamp.name));
+    for (const auto i : particles) body.held[i] = 1;
+    body.counts.emplace_back("clamp " + clamp.name, particles.size());
+  }
+  for (const auto& load : parameters.loads)
+    if (body.inside(load.box).empty())
+      tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
+  for (const auto& observer : parameters.observers) try {
+      MaterialPoint(observer.point, body.X, 2.0 * parameters.h());
+    } catch (const std::invalid_argument& error) {
+      tell_fault("solid.observer", fmt::format("observer '{}': {}", observer.name, error.what()));
+    }
+  if (body.size() > 0) find_surface(body);
+  return body;
+}
+
+}  // namespace toryu

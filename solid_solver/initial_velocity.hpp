@@ -1,0 +1,28 @@
+/// How a solid moves at the start.
+#pragma once
+
+#include "common/case/parameter_table.hpp"
+#include "common/vector.hpp"
+
+namespace toryu {
+
+enum class VelocityProfile { uniform, cantilever_mode_1 };
+
+/// `uniform`: all particles move with `velocity`. `cantilever_mode_1`: the first bending mode of a beam that
+/// is held at `origin` and reaches `length` along x (Landau & Lifshitz 1970, as used by Gray et al. 2001),
+///
+///     v(x) = velocity F(x)/F(length),   k length = 1.8751041
+///     F(x) = (cos kL + cosh kL)(cosh kx - cos kx) + (sin kL - sinh kL)(sinh kx - sin kx)
+///
+/// with x from `origin`, and zero behind it.
+struct InitialVelocity {
+  VelocityProfile profile = VelocityProfile::uniform;
+  Vec velocity = Vec::Zero();  ///< of all particles, or of the tip [m/s]
+  Vec origin = Vec::Zero();    ///< [m]
+  double length = 1.0;         ///< [m]
+
+  Vec at(const Vec& X) const;
+};
+void describe(ParameterTable& table, InitialVelocity& v);
+
+}  // namespace toryu

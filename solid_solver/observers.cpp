@@ -1,0 +1,43 @@
+#include "solid_solver/observers.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <stdexcept>
+
+#include "common/sph/kernel.hpp"
+
+namespace toryu {
+
+void describe(ParameterTable& table, PointObserver& observer) {
+  table.text("name", observer.name, {.required = true, .help = "prefix of the columns"});
+  table.vector("point", observer.point, {.unit = "m", .required = true, .help = "in the unloaded body"});
+}
+
+MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach) {
+  using Basis = Eigen::Matrix<double, dim + 1, 1>;
+  const CubicSpline W(0.5 * reach);
+  Eigen::Matrix<double, dim + 1, dim + 1> moments = Eigen::Matrix<double, dim + 1, dim + 1>::Zero();
+  std::vector<Basis> bases;
+  for (std::size_t j = 0; j < X.size(); ++j) {
+    const Vec r = (X[j] - point) / reach;
+    if (r.norm() >= 1.0) continue;
+    Basis basis;
+    basis << 1.0, r;
+    const double weight = W.value(r.norm() * reach) / W.value(0.0);
+    moments += weight * basis * basis.transpose();
+    particles_.push_back(static_cast<std::uint32_t>(j));
+    bases.push_back(basis);
+    weights_.push_back(weight);
+  }
+  const Eigen::FullPivLU<decltype(moments)> solver(moments);
+  if (particles_.size() <= dim || !solver.isInvertible())
+    throw std::invalid_argument(
+        fmt::format("the point ({:g}, {:g}) is not in the solid: {} particles within {:g} m", point[0], point[1],
+                    particles_.size(), reach));
+  const Basis at_point = Basis::Unit(0);
+  const Basis solution = solver.solve(at_point);
+  for (std::size_t k = 0; k < weights_.size(); ++k) weights_[k] *= solution.dot(bases[k]);
+}
+
+}  // namespace toryu

@@ -1,0 +1,43 @@
+/// Points of the material whose displacement a run reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/case/parameter_table.hpp"
+#include "common/sph/points.hpp"
+
+namespace toryu {
+
+/// `name` becomes the columns NAME_displacement_x[m] and NAME_displacement_y[m].
+struct PointObserver {
+  std::string name;
+  Vec point = Vec::Zero();  ///< in the unloaded body [m]
+};
+void describe(ParameterTable& table, PointObserver& observer);
+
+/// A material point that lies anywhere in or on the body, as a weighted sum of particles: the linear function
+/// fitted by least squares, with the kernel as weight, to the particles about the point. Exact where the
+/// displacement is linear, also outside the outermost row of particles (a corner of the body, half a spacing
+/// away); where the body bends with curvature kappa, off by about kappa d0^2.
+class MaterialPoint {
+ public:
+  /// `X` [m] are the reference positions of the first `count` particles, numbered as they shall be asked for;
+  /// `reach` [m] is 2h. Throws std::invalid_argument if fewer than three particles, or only a row of them, lie
+  /// within reach.
+  MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach);
+
+  /// Value at the point of a field given per particle number.
+  template <class FieldOfParticle>
+  Vec value(const FieldOfParticle& field) const {
+    Vec sum = Vec::Zero();
+    for (std::size_t k = 0; k < particles_.size(); ++k) sum += weights_[k] * field(particles_[k]);
+    return sum;
+  }
+
+ private:
+  std::vector<std::uint32_t> particles_;
+  std::vector<double> weights_;
+};
+
+}  // namespace toryu

@@ -1,0 +1,68 @@
+/// The section [solid] of a case file. Optional models are absent by default and switched on by their
+/// sub-section.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.hpp"
+#include "solid_solver/initial_velocity.hpp"
+#include "solid_solver/material.hpp"
+#include "solid_solver/observers.hpp"
+#include "solid_solver/terms/artificial_stress.hpp"
+#include "solid_solver/terms/artificial_viscosity.hpp"
+#include "solid_solver/terms/damping.hpp"
+#include "solid_solver/terms/hourglass_penalty.hpp"
+#include "solid_solver/terms/wall_contact.hpp"
+
+namespace toryu {
+
+enum class Formulation { total_lagrangian, updated_lagrangian };
+enum class Gradients { plain, renormalised };
+
+/// A box that belongs to the solid, or that is cut out of it, or whose particles are held.
+struct NamedBox {
+  std::string name;
+  Box box;
+};
+void describe(ParameterTable& table, NamedBox& region);
+
+/// A constant force, shared equally by the particles of a box.
+struct BoxLoad {
+  std::string name;
+  Box box;
+  Vec force = Vec::Zero();  ///< [N per metre depth]
+};
+void describe(ParameterTable& table, BoxLoad& load);
+
+/// A value beyond these is no physics any more: the run stops.
+struct SolidLimits {
+  double speed = 0;    ///< [m/s]; 0: the longitudinal sound speed
+  double strain = 1.0; ///< largest relative change of density (updated) or of length (total Lagrangian)
+};
+void describe(ParameterTable& table, SolidLimits& limits);
+
+struct SolidParameters {
+  Formulation formulation = Formulation::total_lagrangian;
+  ElasticMaterial material{1000.0, 0.0, 0.0};
+  double spacing = 0;            ///< [m]
+  double smoothing_ratio = 1.3;  ///< h over the spacing
+  double time_step_share = 0.8;  ///< of the largest stable time step
+  Gradients gradients = Gradients::plain;
+  std::vector<NamedBox> regions, holes, clamps;
+  std::vector<BoxLoad> loads;
+  std::vector<PointObserver> observers;
+  std::optional<InitialVelocity> initial_velocity;
+  std::optional<HourglassPenalty> hourglass;
+  std::optional<ArtificialViscosity> artificial_viscosity;
+  std::optional<ArtificialStress> artificial_stress;
+  std::optional<Damping> damping;
+  std::optional<WallContact> wall_contact;
+  SolidLimits limits;
+
+  double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]
+};
+void describe(ParameterTable& table, SolidParameters& parameters);
+
+}  // namespace toryu

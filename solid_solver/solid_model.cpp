@@ -1,0 +1,229 @@
+#include "solid_solver/solid_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/run/failure.hpp"
+#include "common/sph/strip_order.hpp"
+
+namespace toryu {
+
+double Stress::von_mises() const {
+  const double a = xx - yy, b = yy - zz, c = zz - xx;
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * xy * xy);
+}
+
+SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body, const Scene& scene)
+    : parameters_(parameters), body_(body), gravity_(scene.gravity), domain_(scene.domain) {
+  const std::size_t count = body_.size(), size = padded(count);
+  for (auto* field : {&X_, &u_, &v_, &a_, &external_, &constant_}) resize(*field, size);
+  mobile_.resize(size, 0.0);
+
+  VecField X;
+  resize(X, size);
+  for (std::size_t i = 0; i < count; ++i) set(X, i, body_.X[i]);
+  number_ = StripOrder(strip_width()).sort(X[0], X[1], count);
+  find_slots();
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t i = number_[std::min(k, count - 1)];  // padding repeats the last particle, held
+    set(X_, k, body_.X[i]);
+    mobile_[k] = k < count && !body_.held[i] ? 1.0 : 0.0;
+    if (parameters_.initial_velocity) set(v_, k, mobile_[k] * parameters_.initial_velocity->at(body_.X[i]));
+    set(constant_, k, gravity_);
+  }
+  for (const auto& load : parameters_.loads) {
+    const auto particles = body_.inside(load.box);
+    for (const auto i : particles)
+      set(constant_, slot_[i],
+          at(constant_, slot_[i]) + load.force / (static_cast<double>(particles.size()) * mass(i)));
+  }
+  external_ = constant_;
+  for (const auto& observer : parameters_.observers)
+    observers_.emplace_back(observer.name, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h()));
+  first_energy_ = kinetic_energy();
+}
+
+void SolidModel::find_slots() {
+  slot_.resize(number_.size());
+  for (std::uint32_t k = 0; k < number_.size(); ++k) slot_[number_[k]] = k;
+}
+
+void SolidModel::fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
+                      const std::string& limit) const {
+  throw PhysicsFailure("solid", static_cast<long>(number_[slot]), time, quantity, value, limit);
+}
+
+void SolidModel::check(double time) const {
+  const double speed =
+      parameters_.limits.speed > 0 ? parameters_.limits.speed : parameters_.material.longitudinal_sound_speed();
+  const Lanes speed_2 = speed * speed;
+  for (std::size_t k = 0; k < particle_count(); k += lane_count) {
+    const VecLanes v = load(v_, k), u = load(u_, k), X = load(X_, k);
+    auto good = dot(v, v) <= speed_2;
+    for (int a = 0; a < dim; ++a)
+      good = good && X[a] + u[a] >= domain_.min[a] && X[a] + u[a] <= domain_.max[a];
+    if (stdx::all_of(good)) continue;
+    for (std::size_t i = k; i < std::min(k + lane_count, particle_count()); ++i) {
+      const Vec x = at(X_, i) + at(u_, i);
+      if (!(at(v_, i).norm() <= speed))
+        fail(i, time, "speed", fmt::format("{:.4g} m/s", at(v_, i).norm()), fmt::format("{:.4g} m/s", speed));
+      if (!(x.array() >= domain_.min.array()).all() || !(x.array() <= domain_.max.array()).all())
+        fail(i, time, "position", fmt::format("({:.4g}, {:.4g}) m", x[0], x[1]), "the domain of the case");
+    }
+  }
+  check_strain(time);
+}
+
+Interface SolidModel::interface(double reach) const {
+  Interface result;
+  result.id = body_.near_surface(reach);
+  result.spacing = body_.spacing;
+  for (const auto i : result.id) {
+    result.volume.push_back(body_.volume(i));
+    for (int a = 0; a < dim; ++a) {
+      result.position.push_back(body_.X[i][a]);
+      result.area_vector.push_back(body_.area_vector[i][a]);
+    }
+  }
+  return result;
+}
+
+Vec SolidModel::acceleration(std::size_t particle) const {
+  const std::size_t k = slot_[particle];
+  return mobile_[k] * (at(a_, k) + at(external_, k));
+}
+
+InterfaceMotion SolidModel::motion(const std::vector<std::uint32_t>& particles) const {
+  InterfaceMotion result;
+  for (const auto i : particles) {
+    const Vec x = body_.X[i] + displacement(i), v = velocity(i), a = acceleration(i);
+    result.position.insert(result.position.end(), x.begin(), x.end());
+    result.velocity.insert(result.velocity.end(), v.begin(), v.end());
+    result.acceleration.insert(result.acceleration.end(), a.begin(), a.end());
+  }
+  return result;
+}
+
+Vec SolidModel::set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load) {
+  past_work_ = interface_work();
+  loaded_ = particles;
+  load_.clear();
+  u_at_load_.clear();
+  Vec sum = Vec::Zero();
+  for (std::size_t n = 0; n < particles.size(); ++n) {
+    Vec force = Eigen::Map<const Vec>(&load.force[dim * n]);
+    if (!load.friction_force.empty()) force += Eigen::Map<const Vec>(&load.friction_force[dim * n]);
+    const std::size_t k = slot_[particles[n]];
+    set(external_, k, at(constant_, k) + force / mass(particles[n]));
+    load_.push_back(force);
+    u_at_load_.push_back(at(u_, k));
+    sum += force;
+  }
+  return sum;
+}
+
+double SolidModel::interface_work() const {
+  double work = past_work_;
+  for (std::size_t n = 0; n < loaded_.size(); ++n) work += load_[n].dot(displacement(loaded_[n]) - u_at_load_[n]);
+  return work;
+}
+
+PairViscosity SolidModel::pair_viscosity() const {
+  const ArtificialViscosity term = parameters_.artificial_viscosity.value_or(ArtificialViscosity{0.0, 0.0});
+  return {term.alpha * parameters_.material.bulk_sound_speed(), term.beta, parameters_.h(),
+          1.0 / parameters_.material.density};
+}
+
+double SolidModel::kinetic_energy() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < particle_count(); ++i) sum += 0.5 * mass(i) * velocity(i).squaredNorm();
+  return sum;
+}
+
+double SolidModel::potential_energy() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < particle_count(); ++i) sum -= mass(i) * at(constant_, slot_[i]).dot(displacement(i));
+  return sum;
+}
+
+Vec SolidModel::momentum() const {
+  Vec sum = Vec::Zero();
+  for (std::size_t i = 0; i < particle_count(); ++i) sum += mass(i) * velocity(i);
+  return sum;
+}
+
+Health SolidModel::health() const {
+  return {.kinetic_energy = kinetic_energy(), .potential_energy = potential_energy(), .momentum = momentum()};
+}
+
+std::vector<Observation> SolidModel::observe() const {
+  std::vector<Observation> row;
+  for (const auto& [name, point] : observers_) {
+    const Vec u = point.value([&](std::size_t i) { return displacement(i); });
+    row.push_back({name + "_displacement_x", "m", u[0]});
+    row.push_back({name + "_displacement_y", "m", u[1]});
+  }
+  const double kinetic = kinetic_energy(), potential = potential_energy(), work = interface_work();
+  row.push_back({"kinetic_energy", "J/m", kinetic});
+  double held = 0;
+  for (const auto& energy : internal_energies()) {
+    held += energy.value;
+    row.push_back(energy);
+  }
+  row.push_back({"potential_energy", "J/m", potential});
+  row.push_back({"interface_work", "J/m", work});
+  row.push_back({"dissipated_energy", "J/m", first_energy_ + work - kinetic - held - potential});
+  const Vec p = momentum();
+  row.push_back({"momentum_x", "N s/m", p[0]});
+  row.push_back({"momentum_y", "N s/m", p[1]});
+  return row;
+}
+
+Frame SolidModel::frame() const {
+  Frame frame;
+  FrameField displacement_field{"displacement", "m", "from the unloaded position", dim, {}};
+  FrameField velocity_field{"velocity", "m/s", "of the particle", dim, {}};
+  FrameField stress_field{"stress", "Pa", "Cauchy stress in the plane", dim * dim, {}};
+  FrameField von_mises_field{"von_mises_stress", "Pa", "sqrt(3/2 s:s), s the deviatoric stress", 1, {}};
+  FrameField pressure_field{"pressure", "Pa", "minus a third of the trace of the stress", 1, {}};
+  FrameField held_field{"held", "1", "1 where a clamp holds the particle", 1, {}};
+  const auto append = [](std::vector<double>& values, const Vec& value) {
+    values.insert(values.end(), value.begin(), value.end());
+  };
+  for (std::size_t i = 0; i < particle_count(); ++i) {
+    const Stress sigma = stress(i);
+    append(frame.positions, body_.X[i] + displacement(i));
+    append(displacement_field.values, displacement(i));
+    append(velocity_field.values, velocity(i));
+    stress_field.values.insert(stress_field.values.end(), {sigma.xx, sigma.xy, sigma.xy, sigma.yy});
+    von_mises_field.values.push_back(sigma.von_mises());
+    pressure_field.values.push_back(sigma.pressure());
+    held_field.values.push_back(body_.held[i]);
+  }
+  frame.fields = {std::move(velocity_field), std::move(displacement_field), std::move(stress_field),
+                  std::move(von_mises_field), std::move(pressure_field), std::move(held_field)};
+  return frame;
+}
+
+std::vector<ActiveTerm> SolidModel::active_terms() const {
+  std::vector<ActiveTerm> terms;
+  if (!gravity_.isZero())
+    terms.push_back({"gravity", "Dv/Dt = g", "", fmt::format("g = ({:g}, {:g}) m/s2", gravity_[0], gravity_[1])});
+  if (!parameters_.loads.empty())
+    terms.push_back({"constant loads", "f_i = F/N on the N particles of a box", "",
+                     fmt::format("{} boxes", parameters_.loads.size())});
+  if (parameters_.artificial_viscosity)
+    terms.push_back({"artificial viscosity", "Pi_ij = (-A c theta_ij + B theta_ij^2)/rho_0 where particles approach",
+                     "Monaghan 1992; thesis eq. 23-24",
+                     fmt::format("A {:g}, B {:g}, c {:.4g} m/s", parameters_.artificial_viscosity->alpha,
+                                 parameters_.artificial_viscosity->beta, parameters_.material.bulk_sound_speed())});
+  if (parameters_.damping)
+    terms.push_back({"damping", "dv/dt = -rate v", "dynamic relaxation: Otter 1965",
+                     fmt::format("rate {:g} 1/s", parameters_.damping->rate)});
+  return terms;
+}
+
+}  // namespace toryu

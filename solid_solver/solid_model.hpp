@@ -1,0 +1,91 @@
+/// What both formulations of the solid share: the particles' state, clamps, loads, energies, observers, frames.
+/// A formulation adds how the state advances, and its stress.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "common/link/participant.hpp"
+#include "common/run/solver.hpp"
+#include "common/run/timers.hpp"
+#include "common/sph/points.hpp"
+#include "solid_solver/body.hpp"
+#include "solid_solver/parameters.hpp"
+
+namespace toryu {
+
+/// Stress of plane strain [Pa].
+struct Stress {
+  double xx = 0, yy = 0, zz = 0, xy = 0;
+  double pressure() const { return -(xx + yy + zz) / 3.0; }
+  double von_mises() const;
+};
+
+class SolidModel : public Solver {
+ public:
+  SolidModel(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+
+  void check(double time) const override;
+  Frame frame() const override;
+  std::vector<Observation> observe() const override;
+  std::vector<ActiveTerm> active_terms() const override;
+  std::size_t particle_count() const override { return body_.size(); }
+
+  const SolidBody& body() const { return body_; }
+  /// The particles that a fluid which sees `reach` [m] deep can touch, unloaded.
+  Interface interface(double reach) const;
+  InterfaceMotion motion(const std::vector<std::uint32_t>& particles) const;
+  /// Sets the force on the interface [N per metre depth], which holds until the next call. Returns the sum that
+  /// the solid takes per second, clamps included [N per metre depth].
+  Vec set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load);
+  Health health() const;
+
+  Vec displacement(std::size_t particle) const { return at(u_, slot_[particle]); }  ///< [m]
+  Vec velocity(std::size_t particle) const { return at(v_, slot_[particle]); }      ///< [m/s]
+  Vec acceleration(std::size_t particle) const;                                     ///< [m/s2]
+  double mass(std::size_t particle) const { return parameters_.material.density * body_.volume(particle); }
+  virtual Stress stress(std::size_t particle) const = 0;  ///< Cauchy
+  /// Energies that the deformation holds [J per metre depth].
+  virtual std::vector<Observation> internal_energies() const = 0;
+  const Timers& timers() const { return timers_; }
+
+ protected:
+  /// Throws if the strain of a particle is beyond its limit.
+  virtual void check_strain(double time) const = 0;
+  [[noreturn]] void fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
+                         const std::string& limit) const;
+  void find_slots();  ///< after `number_` changed
+  double strip_width() const { return std::sqrt(static_cast<double>(lane_count)) * body_.spacing; }  ///< [m]
+  PairViscosity pair_viscosity() const;  ///< zero if the term is off
+  std::size_t clusters() const { return padded(particle_count()) / lane_count; }
+
+  SolidParameters parameters_;
+  SolidBody body_;
+  Vec gravity_;
+  Box domain_;
+  double time_ = 0;                    ///< [s]
+  std::vector<std::uint32_t> number_;  ///< of the particle stored in a slot
+  std::vector<std::uint32_t> slot_;    ///< of a particle
+  VecField X_;                         ///< reference position [m]
+  VecField u_, v_;                     ///< displacement [m], velocity [m/s]
+  VecField a_;                         ///< acceleration by stress, viscosity and contact [m/s2]
+  VecField external_;                  ///< acceleration by gravity and loads [m/s2]
+  Field mobile_;                       ///< 0 where a clamp holds, else 1
+  Timers timers_;
+
+ private:
+  double kinetic_energy() const;
+  double potential_energy() const;
+  double interface_work() const;
+  Vec momentum() const;
+
+  VecField constant_;               ///< gravity and constant loads [m/s2]
+  std::vector<std::uint32_t> loaded_;
+  std::vector<Vec> load_, u_at_load_;  ///< of the interface [N/m], [m]
+  double past_work_ = 0;               ///< of earlier interface loads [J/m]
+  double first_energy_ = 0;            ///< kinetic, of the start [J/m]
+  std::vector<std::pair<std::string, MaterialPoint>> observers_;
+};
+
+}  // namespace toryu

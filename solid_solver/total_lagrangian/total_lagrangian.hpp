@@ -1,0 +1,57 @@
+/// The solid in total Lagrangian form: the neighbours of the unloaded body are kept for ever.
+///
+///     H_i = sum_j V_j (u_j - u_i) (x) L_i gradW_ij(X),   P_i = P(I + H_i)          St. Venant-Kirchhoff
+///     rho_0 V_i Dv_i/Dt = sum_j V_i V_j (P_i L_i + P_j L_j) gradW_ij + penalty + loads
+///
+/// (Rabczuk, Belytschko & Xiao 2004; Ganzenmueller 2015.) The force is the exact gradient of the energies, so
+/// that with the leapfrog (kick, drift, kick; one evaluation a step) energy is kept but for oscillations of
+/// order dt^2, and momentum and angular momentum to rounding. It cannot tear.
+#pragma once
+
+#include <memory>
+
+#include "solid_solver/solid_model.hpp"
+#include "solid_solver/total_lagrangian/reference_pairs.hpp"
+
+namespace toryu {
+
+class TotalLagrangian final : public SolidModel {
+ public:
+  TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+
+  /// The exact limit of the leapfrog, 2/omega with the highest angular frequency of the unloaded body found by
+  /// power iteration, less what stretching (a stretch l stiffens by (3 l^2 - 1)/2) and viscosity take.
+  double time_step_limit() const override;
+  std::string_view time_step_rule() const override { return "acoustic"; }
+  void advance(double dt) override;
+  std::vector<ActiveTerm> active_terms() const override;
+  Stress stress(std::size_t particle) const override;
+  std::vector<Observation> internal_energies() const override;
+
+  /// Highest angular frequency of the unloaded body [1/s].
+  double highest_frequency() const { return highest_frequency_; }
+
+ protected:
+  void check_strain(double time) const override;
+
+ private:
+  void kick_and_drift(double dt);
+  void find_stresses();
+  void find_accelerations();
+  void kick(double dt);
+  /// All accelerations from u_ and v_, within a parallel region.
+  void evaluate();
+  void find_highest_frequency();
+  double largest_stretch_squared() const;
+  Tensor<double> gradient(std::size_t slot) const;
+
+  Field volume_;
+  std::unique_ptr<ReferencePairs> pairs_;
+  SaintVenantKirchhoff material_;
+  double penalty_;  ///< alpha E [Pa]
+  TensorField H_;   ///< displacement gradient
+  TensorField T_;   ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
+  double highest_frequency_ = 0;
+};
+
+}  // namespace toryu
