@@ -8,7 +8,6 @@
 
 #include "common/link/participant.hpp"
 #include "common/run/solver.hpp"
-#include "common/run/timers.hpp"
 #include "common/sph/points.hpp"
 #include "solid_solver/body.hpp"
 #include "solid_solver/parameters.hpp"
@@ -45,10 +44,10 @@ class SolidModel : public Solver {
   Vec velocity(std::size_t particle) const { return at(v_, slot_[particle]); }      ///< [m/s]
   Vec acceleration(std::size_t particle) const;                                     ///< [m/s2]
   double mass(std::size_t particle) const { return parameters_.material.density * body_.volume(particle); }
+  double total_mass() const { return parameters_.material.density * body_.total_volume(); }  ///< [kg/m]
   virtual Stress stress(std::size_t particle) const = 0;  ///< Cauchy
   /// Energies that the deformation holds [J per metre depth].
   virtual std::vector<Observation> internal_energies() const = 0;
-  const Timers& timers() const { return timers_; }
 
  protected:
   /// Throws if the strain of a particle is beyond its limit.
@@ -72,7 +71,6 @@ class SolidModel : public Solver {
   VecField a_;                         ///< acceleration by stress, viscosity and contact [m/s2]
   VecField external_;                  ///< acceleration by gravity and loads [m/s2]
   Field mobile_;                       ///< 0 where a clamp holds, else 1
-  Timers timers_;
 
  private:
   double kinetic_energy() const;

@@ -74,6 +74,11 @@ inline Lanes inverse_sqrt(const Lanes& a) {
 #endif
 }
 
+/// sqrt(a) likewise, exactly 0 for a = 0.
+inline Lanes square_root(const Lanes& a) {
+  return a * inverse_sqrt(stdx::max(a, Lanes(1e-300)));
+}
+
 /// 1/a, likewise.
 inline Lanes inverse(const Lanes& a) {
 #if defined(__AVX512F__)

@@ -31,12 +31,11 @@ struct SymmetricLanes {
 inline SymmetricLanes artificial_stress(const SymmetricLanes& sigma, const Lanes& inverse_rho_squared,
                                         double epsilon) {
   const Lanes mean = 0.5 * (sigma.xx + sigma.yy), difference = 0.5 * (sigma.xx - sigma.yy);
-  const Lanes D = stdx::sqrt(difference * difference + sigma.xy * sigma.xy);
+  const Lanes D = square_root(difference * difference + sigma.xy * sigma.xy);
   const Lanes scale = -epsilon * inverse_rho_squared;
   const Lanes R_1 = scale * positive_part(mean + D), R_2 = scale * positive_part(mean - D);
   const Lanes R_mean = 0.5 * (R_1 + R_2);
-  Lanes R_over_D = 0.5 * (R_1 - R_2);
-  where(D > 0.0, R_over_D) /= D;
+  const Lanes R_over_D = 0.5 * (R_1 - R_2) * inverse(stdx::max(D, Lanes(1e-300)));
   return {R_mean + R_over_D * difference, R_mean - R_over_D * difference, R_over_D * sigma.xy};
 }
 

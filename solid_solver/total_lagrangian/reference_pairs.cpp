@@ -22,8 +22,8 @@ ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size
     Lanes M_xx = 0.0, M_xy = 0.0, M_yy = 0.0;
     for (const std::uint32_t j : list_.sources(c)) {
       const VecLanes X_ij{X_i[0] - X[0][j], X_i[1] - X[1][j]};
-      const Lanes R = stdx::sqrt(dot(X_ij, X_ij));
-      Lanes weight = volume[j] * W.gradient_over_r(R, Lanes(1.0 / stdx::max(R, Lanes(1e-6 * h))));
+      const Lanes R = square_root(dot(X_ij, X_ij));
+      Lanes weight = volume[j] * W.gradient_over_r(R, inverse(stdx::max(R, Lanes(1e-6 * h))));
       where(R < 1e-6 * h, weight) = 0.0;
       store(weight, w);
       w += lane_count;

@@ -8,12 +8,18 @@ namespace toryu {
 
 namespace {
 
+using toryu::square_root;
+
+double square_root(double a) {
+  return std::sqrt(a);
+}
+
 /// Larger principal value of C = F^T F, the square of the largest stretch; `smaller` receives the other one.
 template <class T>
 T largest_principal(const Tensor<T>& H, T& smaller) {
   const Symmetric<T> E = green_lagrange_strain(H);
   const T mean = E.xx + E.yy, difference = E.xx - E.yy;
-  const T D = sqrt(T(difference * difference + 4.0 * E.xy * E.xy));
+  const T D = square_root(T(difference * difference + 4.0 * E.xy * E.xy));
   smaller = 1.0 + mean - D;
   return 1.0 + mean + D;
 }

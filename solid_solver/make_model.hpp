@@ -1,0 +1,12 @@
+/// Chooses the formulation of the solid that the case asks for.
+#pragma once
+
+#include <memory>
+
+#include "solid_solver/solid_model.hpp"
+
+namespace toryu {
+
+std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+
+}  // namespace toryu
