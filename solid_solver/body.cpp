@@ -45,10 +45,11 @@ long cells(const NamedBox& region, int axis, double spacing, const TellFault& te
   const double side = region.box.max[axis] - region.box.min[axis];
   const long n = std::lround(side / spacing);
   if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit) return n;
-  tell_fault("solid.region",
-             fmt::format("region '{}' is {:.3g} spacings long along {}; rows of particles fill it only if that is "
-                         "within {:.0f} % of a whole number",
-                         region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit));
+  tell_fault(
+      "solid.region",
+      fmt::format("region '{}' is {:.3g} spacings long along {}; rows of particles fill it only if that is "
+                  "within {:.0f} % of a whole number",
+                  region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit));
   return 0;
 }
 
@@ -60,7 +61,8 @@ void fill_region(const NamedBox& region, const SolidParameters& parameters, Soli
   const Vec cell(side[0] / static_cast<double>(n_x), side[1] / static_cast<double>(n_y));
   for (long b = 0; b < n_y; ++b)
     for (long a = 0; a < n_x; ++a) {
-      const Vec X = region.box.min + Vec((static_cast<double>(a) + 0.5) * cell[0], (static_cast<double>(b) + 0.5) * cell[1]);
+      const Vec X = region.box.min +
+                    Vec((static_cast<double>(a) + 0.5) * cell[0], (static_cast<double>(b) + 0.5) * cell[1]);
       const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
                                    [&](const NamedBox& hole) { return hole.box.contains(X); });
       if (cut) continue;
@@ -118,7 +120,8 @@ std::vector<std::uint32_t> SolidBody::inside(const Box& box) const {
 std::vector<std::uint32_t> SolidBody::near_surface(double reach) const {
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < size(); ++i)
-    if (std::any_of(outside.begin(), outside.end(), [&](const Vec& site) { return (site - X[i]).norm() <= reach; }))
+    if (std::any_of(outside.begin(), outside.end(),
+                    [&](const Vec& site) { return (site - X[i]).norm() <= reach; }))
       found.push_back(static_cast<std::uint32_t>(i));
   return found;
 }

@@ -16,12 +16,12 @@ namespace toryu {
 /// at (i + 1/2) spacings from its faces, and their volumes sum to its area. A clamp line that is the common
 /// face of two regions therefore lies between rows.
 struct SolidBody {
-  std::vector<Vec> X;             ///< positions [m]
-  std::vector<Vec> cell;          ///< sides of each particle's cell [m]
-  std::vector<char> held;         ///< by a clamp
-  std::vector<Vec> area_vector;   ///< outward faces of the surface [m per metre depth]; zero inside
-  std::vector<Vec> outside;       ///< empty lattice sites beyond the surface [m]
-  double spacing = 0;             ///< as stated [m]
+  std::vector<Vec> X;            ///< positions [m]
+  std::vector<Vec> cell;         ///< sides of each particle's cell [m]
+  std::vector<char> held;        ///< by a clamp
+  std::vector<Vec> area_vector;  ///< outward faces of the surface [m per metre depth]; zero inside
+  std::vector<Vec> outside;      ///< empty lattice sites beyond the surface [m]
+  double spacing = 0;            ///< as stated [m]
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log
 
   std::size_t size() const { return X.size(); }
@@ -30,16 +30,16 @@ struct SolidBody {
   Vec smallest_corner() const;
   Vec largest_corner() const;
   std::vector<std::uint32_t> inside(const Box& box) const;  ///< numbers of the particles in a box
-  /// Numbers of the particles that have an empty lattice site within `reach` [m]: those that a fluid with that
-  /// reach can touch.
+  /// Numbers of the particles that have an empty lattice site within `reach` [m]: those that a fluid with
+  /// that reach can touch.
   std::vector<std::uint32_t> near_surface(double reach) const;
 };
 
 /// Takes a fault of the input: the key of the case file it belongs to, and what is wrong.
 using TellFault = std::function<void(const std::string& key, const std::string& message)>;
 
-/// Tells as faults: a region that cannot be filled (a side shorter than a spacing, or not near a whole number of
-/// them), regions that overlap, a clamp or a load that holds no particle.
+/// Tells as faults: a region that cannot be filled (a side shorter than a spacing, or not near a whole number
+/// of them), regions that overlap, a clamp or a load that holds no particle.
 SolidBody build_body(const SolidParameters& parameters, const TellFault& tell_fault);
 
 }  // namespace toryu

@@ -18,7 +18,7 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
   write_atomically(options.out / "used_case.toml", file.used());
   SolidRun run(options, scene, model);
   try {
-    run_alone(scene, model, record);
+    run_alone(scene, run);
   } catch (...) {
     const Ending ending = ending_of_exception();
     run.finish(ending.code, ending.reason, 0);
@@ -35,7 +35,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .case_hash = file.hash(),
                   .used_case = file.used()});
   try {
-    run_coupled(link, model, record);
+    run_coupled(link, run);
   } catch (...) {
     link.leave();
     const Ending ending = ending_of_exception();
@@ -56,7 +56,9 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   file.throw_if_faulty();
-  const auto tell_fault = [&](const std::string& key, const std::string& message) { file.fault(key, message); };
+  const auto tell_fault = [&](const std::string& key, const std::string& message) {
+    file.fault(key, message);
+  };
   const SolidBody body = build_body(parameters, tell_fault);
   file.throw_if_faulty();
   if (options.check) return ExitCode::done;

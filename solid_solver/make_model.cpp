@@ -4,7 +4,8 @@
 
 namespace toryu {
 
-std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body, const Scene& scene) {
+std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body,
+                                       const Scene& scene) {
   return std::make_unique<TotalLagrangian>(parameters, body, scene);
 }
 

@@ -7,6 +7,7 @@
 
 namespace toryu {
 
-std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body,
+                                       const Scene& scene);
 
 }  // namespace toryu

@@ -23,8 +23,8 @@ void describe(ParameterTable& table, PointObserver& observer);
 class MaterialPoint {
  public:
   /// `X` [m] are the reference positions of the first `count` particles, numbered as they shall be asked for;
-  /// `reach` [m] is 2h. Throws std::invalid_argument if fewer than three particles, or only a row of them, lie
-  /// within reach.
+  /// `reach` [m] is 2h. Throws std::invalid_argument if fewer than three particles, or only a row of them,
+  /// lie within reach.
   MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach);
 
   /// Value at the point of a field given per particle number.

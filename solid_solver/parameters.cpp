@@ -14,8 +14,9 @@ void describe(ParameterTable& table, BoxLoad& load) {
 }
 
 void describe(ParameterTable& table, SolidLimits& limits) {
-  table.number("speed", limits.speed,
-               {.unit = "m/s", .minimum = 0, .help = "largest speed of a particle; 0: the longitudinal sound speed"});
+  table.number(
+      "speed", limits.speed,
+      {.unit = "m/s", .minimum = 0, .help = "largest speed of a particle; 0: the longitudinal sound speed"});
   table.number("strain", limits.strain,
                {.minimum = 0,
                 .above_minimum = true,
@@ -27,30 +28,41 @@ void describe(ParameterTable& table, SolidParameters& p) {
                {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
                         "right; updated: present neighbours, can tear"});
   table.number("density", p.material.density,
-               {.unit = "kg/m3", .minimum = 0, .above_minimum = true, .required = true, .help = "of the unloaded solid"});
+               {.unit = "kg/m3",
+                .minimum = 0,
+                .above_minimum = true,
+                .required = true,
+                .help = "of the unloaded solid"});
   table.number("youngs_modulus", p.material.youngs_modulus,
                {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = true, .help = "E"});
   table.number("poissons_ratio", p.material.poissons_ratio,
                {.minimum = -0.9, .maximum = 0.499, .required = true, .help = "nu; plane strain"});
   table.number("spacing", p.spacing,
-               {.unit = "m", .minimum = 0, .above_minimum = true, .required = true,
+               {.unit = "m",
+                .minimum = 0,
+                .above_minimum = true,
+                .required = true,
                 .help = "of the particles; each region takes the nearest that divides its sides"});
   table.number("smoothing_ratio", p.smoothing_ratio,
                {.minimum = 1.0, .maximum = 2.0, .help = "smoothing length over spacing, h/d0"});
-  table.number("time_step_share", p.time_step_share,
-               {.minimum = 0, .maximum = 1, .above_minimum = true, .help = "of the largest stable time step"});
-  table.choice("gradients", p.gradients, {"plain", "renormalised"},
-               {.help = "updated Lagrangian: whether velocity gradient and stress divergence are renormalised; "
-                        "total Lagrangian always does"});
+  table.number(
+      "time_step_share", p.time_step_share,
+      {.minimum = 0, .maximum = 1, .above_minimum = true, .help = "of the largest stable time step"});
+  table.choice(
+      "gradients", p.gradients, {"plain", "renormalised"},
+      {.help = "updated Lagrangian: whether velocity gradient and stress divergence are renormalised; "
+               "total Lagrangian always does"});
   table.list("region", p.regions, "boxes filled with the solid; they may touch but not overlap");
   table.list("hole", p.holes, "boxes cut out of the regions");
   table.list("clamp", p.clamps, "boxes whose particles are held in place");
   table.list("load", p.loads, "constant forces on the particles of a box");
   table.list("observer", p.observers, "material points whose displacement goes to solid.csv");
   table.optional("initial_velocity", p.initial_velocity, "velocity at the start; absent: at rest");
-  table.optional("hourglass", p.hourglass, "pair penalty on modes the strain does not see (total Lagrangian)");
+  table.optional("hourglass", p.hourglass,
+                 "pair penalty on modes the strain does not see (total Lagrangian)");
   table.optional("artificial_viscosity", p.artificial_viscosity, "damps approaching pairs");
-  table.optional("artificial_stress", p.artificial_stress, "keeps stretched particles apart (updated Lagrangian)");
+  table.optional("artificial_stress", p.artificial_stress,
+                 "keeps stretched particles apart (updated Lagrangian)");
   table.optional("damping", p.damping, "slows all motion down, to find a state of rest");
   table.optional("wall_contact", p.wall_contact, "rigid walls act on the solid");
   table.group("limits", p.limits, "bounds beyond which the run stops");

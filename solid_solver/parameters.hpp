@@ -38,8 +38,8 @@ void describe(ParameterTable& table, BoxLoad& load);
 
 /// A value beyond these is no physics any more: the run stops.
 struct SolidLimits {
-  double speed = 0;    ///< [m/s]; 0: the longitudinal sound speed
-  double strain = 1.0; ///< largest relative change of density (updated) or of length (total Lagrangian)
+  double speed = 0;     ///< [m/s]; 0: the longitudinal sound speed
+  double strain = 1.0;  ///< largest relative change of density (updated) or of length (total Lagrangian)
 };
 void describe(ParameterTable& table, SolidLimits& limits);
 

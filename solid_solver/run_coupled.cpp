@@ -10,7 +10,8 @@ void run_coupled(SolidLink& link, SolidRun& run) {
   SolidModel& model = run.model();
   const double reach = link.join();
   const Interface interface = model.interface(reach);
-  spdlog::info("solid: {} particles can be touched by a fluid that sees {:g} m deep", interface.size(), reach);
+  spdlog::info("solid: {} particles can be touched by a fluid that sees {:g} m deep", interface.size(),
+               reach);
   link.register_interface(interface, model.motion(interface.id));
   run.at(0);
   while (const auto turn = link.next_window()) {

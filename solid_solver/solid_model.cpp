@@ -57,8 +57,8 @@ void SolidModel::fail(std::size_t slot, double time, const std::string& quantity
 }
 
 void SolidModel::check(double time) const {
-  const double speed =
-      parameters_.limits.speed > 0 ? parameters_.limits.speed : parameters_.material.longitudinal_sound_speed();
+  const double speed = parameters_.limits.speed > 0 ? parameters_.limits.speed
+                                                    : parameters_.material.longitudinal_sound_speed();
   const Lanes speed_2 = speed * speed;
   for (std::size_t k = 0; k < particle_count(); k += lane_count) {
     const VecLanes v = load(v_, k), u = load(u_, k), X = load(X_, k);
@@ -127,7 +127,8 @@ Vec SolidModel::set_interface_load(const std::vector<std::uint32_t>& particles, 
 
 double SolidModel::interface_work() const {
   double work = past_work_;
-  for (std::size_t n = 0; n < loaded_.size(); ++n) work += load_[n].dot(displacement(loaded_[n]) - u_at_load_[n]);
+  for (std::size_t n = 0; n < loaded_.size(); ++n)
+    work += load_[n].dot(displacement(loaded_[n]) - u_at_load_[n]);
   return work;
 }
 
@@ -145,7 +146,8 @@ double SolidModel::kinetic_energy() const {
 
 double SolidModel::potential_energy() const {
   double sum = 0;
-  for (std::size_t i = 0; i < particle_count(); ++i) sum -= mass(i) * at(constant_, slot_[i]).dot(displacement(i));
+  for (std::size_t i = 0; i < particle_count(); ++i)
+    sum -= mass(i) * at(constant_, slot_[i]).dot(displacement(i));
   return sum;
 }
 
@@ -156,7 +158,9 @@ Vec SolidModel::momentum() const {
 }
 
 Health SolidModel::health() const {
-  return {.kinetic_energy = kinetic_energy(), .potential_energy = potential_energy(), .momentum = momentum()};
+  double stored = potential_energy();
+  for (const auto& energy : internal_energies()) stored += energy.value;
+  return {.kinetic_energy = kinetic_energy(), .potential_energy = stored, .momentum = momentum()};
 }
 
 std::vector<Observation> SolidModel::observe() const {
@@ -203,23 +207,25 @@ Frame SolidModel::frame() const {
     pressure_field.values.push_back(sigma.pressure());
     held_field.values.push_back(body_.held[i]);
   }
-  frame.fields = {std::move(velocity_field), std::move(displacement_field), std::move(stress_field),
-                  std::move(von_mises_field), std::move(pressure_field), std::move(held_field)};
+  frame.fields = {std::move(velocity_field),  std::move(displacement_field), std::move(stress_field),
+                  std::move(von_mises_field), std::move(pressure_field),     std::move(held_field)};
   return frame;
 }
 
 std::vector<ActiveTerm> SolidModel::active_terms() const {
   std::vector<ActiveTerm> terms;
   if (!gravity_.isZero())
-    terms.push_back({"gravity", "Dv/Dt = g", "", fmt::format("g = ({:g}, {:g}) m/s2", gravity_[0], gravity_[1])});
+    terms.push_back(
+        {"gravity", "Dv/Dt = g", "", fmt::format("g = ({:g}, {:g}) m/s2", gravity_[0], gravity_[1])});
   if (!parameters_.loads.empty())
     terms.push_back({"constant loads", "f_i = F/N on the N particles of a box", "",
                      fmt::format("{} boxes", parameters_.loads.size())});
   if (parameters_.artificial_viscosity)
-    terms.push_back({"artificial viscosity", "Pi_ij = (-A c theta_ij + B theta_ij^2)/rho_0 where particles approach",
-                     "Monaghan 1992; thesis eq. 23-24",
-                     fmt::format("A {:g}, B {:g}, c {:.4g} m/s", parameters_.artificial_viscosity->alpha,
-                                 parameters_.artificial_viscosity->beta, parameters_.material.bulk_sound_speed())});
+    terms.push_back(
+        {"artificial viscosity", "Pi_ij = (-A c theta_ij + B theta_ij^2)/rho_0 where particles approach",
+         "Monaghan 1992; thesis eq. 23-24",
+         fmt::format("A {:g}, B {:g}, c {:.4g} m/s", parameters_.artificial_viscosity->alpha,
+                     parameters_.artificial_viscosity->beta, parameters_.material.bulk_sound_speed())});
   if (parameters_.damping)
     terms.push_back({"damping", "dv/dt = -rate v", "dynamic relaxation: Otter 1965",
                      fmt::format("rate {:g} 1/s", parameters_.damping->rate)});

@@ -1,5 +1,5 @@
-/// What both formulations of the solid share: the particles' state, clamps, loads, energies, observers, frames.
-/// A formulation adds how the state advances, and its stress.
+/// What both formulations of the solid share: the particles' state, clamps, loads, energies, observers,
+/// frames. A formulation adds how the state advances, and its stress.
 #pragma once
 
 #include <cmath>
@@ -35,8 +35,8 @@ class SolidModel : public Solver {
   /// The particles that a fluid which sees `reach` [m] deep can touch, unloaded.
   Interface interface(double reach) const;
   InterfaceMotion motion(const std::vector<std::uint32_t>& particles) const;
-  /// Sets the force on the interface [N per metre depth], which holds until the next call. Returns the sum that
-  /// the solid takes per second, clamps included [N per metre depth].
+  /// Sets the force on the interface [N per metre depth], which holds until the next call. Returns the sum
+  /// that the solid takes per second, clamps included [N per metre depth].
   Vec set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load);
   Health health() const;
 
@@ -45,7 +45,7 @@ class SolidModel : public Solver {
   Vec acceleration(std::size_t particle) const;                                     ///< [m/s2]
   double mass(std::size_t particle) const { return parameters_.material.density * body_.volume(particle); }
   double total_mass() const { return parameters_.material.density * body_.total_volume(); }  ///< [kg/m]
-  virtual Stress stress(std::size_t particle) const = 0;  ///< Cauchy
+  virtual Stress stress(std::size_t particle) const = 0;                                     ///< Cauchy
   /// Energies that the deformation holds [J per metre depth].
   virtual std::vector<Observation> internal_energies() const = 0;
 
@@ -78,7 +78,7 @@ class SolidModel : public Solver {
   double interface_work() const;
   Vec momentum() const;
 
-  VecField constant_;               ///< gravity and constant loads [m/s2]
+  VecField constant_;  ///< gravity and constant loads [m/s2]
   std::vector<std::uint32_t> loaded_;
   std::vector<Vec> load_, u_at_load_;  ///< of the interface [N/m], [m]
   double past_work_ = 0;               ///< of earlier interface loads [J/m]

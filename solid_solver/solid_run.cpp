@@ -33,12 +33,13 @@ SolidRun::SolidRun(const Options& options, const Scene& scene, SolidModel& model
     summary_.particles.emplace_back(name, static_cast<long>(count));
     spdlog::info("solid: {} has {} particles", name, count);
   }
-  spdlog::info("solid: {} particles of spacing {:g} m, area {:.6g} m2, mass {:.6g} kg/m", model.particle_count(),
-               model.body().spacing, model.body().total_volume(), model.total_mass());
+  spdlog::info("solid: {} particles of spacing {:g} m, area {:.6g} m2, mass {:.6g} kg/m",
+               model.particle_count(), model.body().spacing, model.body().total_volume(), model.total_mass());
   summary_.terms = model.active_terms();
   for (const auto& term : summary_.terms)
     spdlog::info("solid: term {}: {}; {} [{}]", term.name, term.formula, term.parameters, term.source);
-  spdlog::info("solid: largest time step {:.4g} s ({} limit)", model.time_step_limit(), model.time_step_rule());
+  spdlog::info("solid: largest time step {:.4g} s ({} limit)", model.time_step_limit(),
+               model.time_step_rule());
 }
 
 void SolidRun::at(double time) {

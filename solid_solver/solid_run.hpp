@@ -1,5 +1,5 @@
-/// What a run of the solid leaves behind, alone or coupled: frames and series at their intervals, and at the end
-/// a summary, whatever the end is.
+/// What a run of the solid leaves behind, alone or coupled: frames and series at their intervals, and at the
+/// end a summary, whatever the end is.
 #pragma once
 
 #include <chrono>
@@ -38,7 +38,8 @@ class SolidRun {
 
   /// Checks the state at `time` [s], and writes what is due.
   void at(double time);
-  /// Advances by `length` [s] in equal sub-steps, as few as stability allows, and takes at most `most` of them.
+  /// Advances by `length` [s] in equal sub-steps, as few as stability allows, and takes at most `most` of
+  /// them.
   SubSteps advance(double length, long most = std::numeric_limits<long>::max());
   SolidModel& model() { return model_; }
   bool writes_every_step() const { return every_step_; }

@@ -16,7 +16,8 @@ struct ArtificialStress {
   int exponent = 4;  ///< n
 };
 inline void describe(ParameterTable& table, ArtificialStress& p) {
-  table.number("epsilon", p.epsilon, {.minimum = 0, .maximum = 1, .help = "share of a tensile principal stress"});
+  table.number("epsilon", p.epsilon,
+               {.minimum = 0, .maximum = 1, .help = "share of a tensile principal stress"});
   table.integer("exponent", p.exponent, {.minimum = 1, .maximum = 10, .help = "n of F^n"});
 }
 

@@ -22,7 +22,7 @@ inline void describe(ParameterTable& table, ArtificialViscosity& p) {
 
 /// The term as the pair loop needs it.
 struct PairViscosity {
-  double alpha_c;      ///< alpha times the sound speed [m/s]
+  double alpha_c;  ///< alpha times the sound speed [m/s]
   double beta;
   double h;            ///< [m]
   double inverse_rho;  ///< of the unloaded solid [m3/kg]

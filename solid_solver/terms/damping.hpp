@@ -14,8 +14,9 @@ struct Damping {
   double factor(double time) const { return std::exp(-rate * time); }
 };
 inline void describe(ParameterTable& table, Damping& p) {
-  table.number("rate", p.rate,
-               {.unit = "1/s", .minimum = 0, .required = true, .help = "share of the velocity lost in a second"});
+  table.number(
+      "rate", p.rate,
+      {.unit = "1/s", .minimum = 0, .required = true, .help = "share of the velocity lost in a second"});
 }
 
 }  // namespace toryu

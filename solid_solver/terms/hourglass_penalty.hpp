@@ -22,7 +22,9 @@ struct HourglassPenalty {
 };
 inline void describe(ParameterTable& table, HourglassPenalty& p) {
   table.number("coefficient", p.coefficient,
-               {.minimum = 0, .maximum = 10, .help = "alpha; 1.5 makes plates of 4 rows and more as stiff as they are"});
+               {.minimum = 0,
+                .maximum = 10,
+                .help = "alpha; 1.5 makes plates of 4 rows and more as stiff as they are"});
 }
 
 }  // namespace toryu

@@ -18,7 +18,8 @@ using Tensor = std::array<T, 4>;
 
 template <class T>
 Tensor<T> product(const Tensor<T>& a, const Tensor<T>& b) {
-  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3]};
+  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
+          a[2] * b[1] + a[3] * b[3]};
 }
 
 /// A symmetric tensor of the plane.

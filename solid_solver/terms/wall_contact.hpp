@@ -1,13 +1,13 @@
-/// Rigid walls acting on the solid, in the present configuration and alike in both formulations. In the manner
-/// of Adami et al. (2012) the walls are particles whose pressure is extrapolated from the solid:
+/// Rigid walls acting on the solid, in the present configuration and alike in both formulations. In the
+/// manner of Adami et al. (2012) the walls are particles whose pressure is extrapolated from the solid:
 ///
 ///     p_i = stiffness K max(0, sum_w V_w W_iw/S_0 - 1)         contact pressure of solid particle i
 ///     p_w = sum_i p_i W_wi/sum_i W_wi
 ///     Dv_i/Dt += -1/rho_0 sum_w V_w (p_i + p_w) gradW_iw
 ///
-/// S_0 is the sum of a particle half a spacing off a plane wall, where solid and wall touch: walls push but do
-/// not pull, and there is no friction. The walls' lattice has the solid's spacing. Penetration under a pressure
-/// p is about p/(3 K) spacings.
+/// S_0 is the sum of a particle half a spacing off a plane wall, where solid and wall touch: walls push but
+/// do not pull, and there is no friction. The walls' lattice has the solid's spacing. Penetration under a
+/// pressure p is about p/(3 K) spacings.
 #pragma once
 
 #include "common/scene/scene.hpp"
@@ -21,15 +21,17 @@ struct WallContact {
   double stiffness = 1.0;  ///< contact pressure of doubled overlap, over the bulk modulus
 };
 inline void describe(ParameterTable& table, WallContact& p) {
-  table.number("stiffness", p.stiffness,
-               {.minimum = 0, .maximum = 10, .above_minimum = true, .help = "of the contact, over the bulk modulus"});
+  table.number(
+      "stiffness", p.stiffness,
+      {.minimum = 0, .maximum = 10, .above_minimum = true, .help = "of the contact, over the bulk modulus"});
 }
 
 /// The walls of a scene as particles, and the force of their contact.
 class ContactWalls {
  public:
   /// `pressure_scale` [Pa] is stiffness times K, `spacing` and `h` [m] the solid's, `density` [kg/m3] too.
-  ContactWalls(const std::vector<Wall>& walls, double spacing, double h, double pressure_scale, double density);
+  ContactWalls(const std::vector<Wall>& walls, double spacing, double h, double pressure_scale,
+               double density);
 
   /// Puts the walls where they are at `time` [s].
   void move(double time);

@@ -1,5 +1,5 @@
-/// The pairs of the unloaded body, found once: weights, shapes, and the two sums over pairs of which the total
-/// Lagrangian form consists. Nothing here knows a material.
+/// The pairs of the unloaded body, found once: weights, shapes, and the two sums over pairs of which the
+/// total Lagrangian form consists. Nothing here knows a material.
 #pragma once
 
 #include "common/sph/cluster_list.hpp"
@@ -29,7 +29,8 @@ class ReferencePairs {
 
   /// sum_j V_j g(x_ij, v_ij) x_ij W'_ij/R_ij: central forces between present positions, for viscosity.
   template <class Central>
-  VecLanes central_force_density(const VecField& u, const VecField& v, std::size_t cluster, Central&& g) const;
+  VecLanes central_force_density(const VecField& u, const VecField& v, std::size_t cluster,
+                                 Central&& g) const;
 
   /// sum_j V_j |u_ij - H_i X_ij|^2 (-W'_ij/R_ij) [1]: twice the square of what H_i does not see.
   Lanes unseen_motion(const VecField& u, const TensorField& H, std::size_t cluster) const;

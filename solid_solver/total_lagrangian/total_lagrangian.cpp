@@ -29,10 +29,12 @@ T largest_principal(const Tensor<T>& H, T& smaller) {
 TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
       material_{parameters.material.lame_lambda(), parameters.material.shear_modulus()},
-      penalty_(parameters.hourglass ? parameters.hourglass->coefficient * parameters.material.youngs_modulus : 0.0) {
+      penalty_(parameters.hourglass ? parameters.hourglass->coefficient * parameters.material.youngs_modulus
+                                    : 0.0) {
   const std::size_t size = padded(particle_count());
   volume_.resize(size);
-  for (std::size_t k = 0; k < size; ++k) volume_[k] = body_.volume(number_[std::min(k, particle_count() - 1)]);
+  for (std::size_t k = 0; k < size; ++k)
+    volume_[k] = body_.volume(number_[std::min(k, particle_count() - 1)]);
   pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width());
   for (std::size_t n = 0; n < H_.size(); ++n) {
     H_[n].resize(size, 0.0);
@@ -148,7 +150,9 @@ double TotalLagrangian::largest_stretch_squared() const {
   Lanes largest = 1.0;
   for (std::size_t i = 0; i < padded(particle_count()); i += lane_count) {
     Lanes smaller;
-    largest = stdx::max(largest, largest_principal<Lanes>({load(H_[0], i), load(H_[1], i), load(H_[2], i), load(H_[3], i)}, smaller));
+    largest = stdx::max(
+        largest,
+        largest_principal<Lanes>({load(H_[0], i), load(H_[1], i), load(H_[2], i), load(H_[3], i)}, smaller));
   }
   return stdx::hmax(largest);
 }
@@ -156,7 +160,8 @@ double TotalLagrangian::largest_stretch_squared() const {
 double TotalLagrangian::time_step_limit() const {
   if (highest_frequency_ == 0) return 1.0;  // all held: nothing moves
   const double stiffening = std::sqrt(1.5 * largest_stretch_squared() - 0.5);
-  const double damping = parameters_.artificial_viscosity ? 1.0 + parameters_.artificial_viscosity->alpha : 1.0;
+  const double damping =
+      parameters_.artificial_viscosity ? 1.0 + parameters_.artificial_viscosity->alpha : 1.0;
   return parameters_.time_step_share * 2.0 / (highest_frequency_ * stiffening * damping);
 }
 
@@ -165,7 +170,8 @@ Tensor<double> TotalLagrangian::gradient(std::size_t slot) const {
 }
 
 void TotalLagrangian::check_strain(double time) const {
-  const double longest = 1.0 + parameters_.limits.strain, shortest = std::max(1.0 - parameters_.limits.strain, 0.0);
+  const double longest = 1.0 + parameters_.limits.strain,
+               shortest = std::max(1.0 - parameters_.limits.strain, 0.0);
   for (std::size_t i = 0; i < particle_count(); i += lane_count) {
     Lanes smaller;
     const Tensor<Lanes> H{load(H_[0], i), load(H_[1], i), load(H_[2], i), load(H_[3], i)};
@@ -178,7 +184,8 @@ void TotalLagrangian::check_strain(double time) const {
       const double most = largest_principal(H_k, least);
       const double J_k = (1.0 + H_k[0]) * (1.0 + H_k[3]) - H_k[1] * H_k[2];
       if (!(most <= longest * longest && least >= shortest * shortest && J_k > 0.0))
-        fail(k, time, "stretch", fmt::format("{:.4g} to {:.4g}, volume ratio {:.4g}", std::sqrt(least), std::sqrt(most), J_k),
+        fail(k, time, "stretch",
+             fmt::format("{:.4g} to {:.4g}, volume ratio {:.4g}", std::sqrt(least), std::sqrt(most), J_k),
              fmt::format("{:.4g} to {:.4g}, above 0", shortest, longest));
     }
   }
@@ -209,16 +216,19 @@ std::vector<Observation> TotalLagrangian::internal_energies() const {
 std::vector<ActiveTerm> TotalLagrangian::active_terms() const {
   const auto& material = parameters_.material;
   std::vector<ActiveTerm> terms;
-  terms.push_back({"total Lagrangian stress", "rho_0 V_i Dv_i/Dt = sum_j V_i V_j (P_i L_i + P_j L_j) gradW_ij",
-                   "Rabczuk, Belytschko & Xiao 2004; L: Randles & Libersky 1996",
-                   fmt::format("h {:g} m, leapfrog, highest frequency {:.4g} 1/s", parameters_.h(), highest_frequency_)});
+  terms.push_back(
+      {"total Lagrangian stress", "rho_0 V_i Dv_i/Dt = sum_j V_i V_j (P_i L_i + P_j L_j) gradW_ij",
+       "Rabczuk, Belytschko & Xiao 2004; L: Randles & Libersky 1996",
+       fmt::format("h {:g} m, leapfrog, highest frequency {:.4g} 1/s", parameters_.h(), highest_frequency_)});
   terms.push_back({"St. Venant-Kirchhoff", "S = lambda tr(E) I + 2 G E, plane strain", "",
-                   fmt::format("E {:g} Pa, nu {:g}: K {:.4g} Pa, G {:.4g} Pa, c_L {:.4g} m/s", material.youngs_modulus,
-                               material.poissons_ratio, material.bulk_modulus(), material.shear_modulus(),
-                               material.longitudinal_sound_speed())});
+                   fmt::format("E {:g} Pa, nu {:g}: K {:.4g} Pa, G {:.4g} Pa, c_L {:.4g} m/s",
+                               material.youngs_modulus, material.poissons_ratio, material.bulk_modulus(),
+                               material.shear_modulus(), material.longitudinal_sound_speed())});
   if (parameters_.hourglass)
-    terms.push_back({"hourglass penalty", "f_i = -(alpha E/2) V_i sum_j V_j k_ij (2 x_ij - (F_i + F_j) X_ij), k_ij = -W'/R_ij",
-                     "after Ganzenmueller 2015", fmt::format("alpha {:g}", parameters_.hourglass->coefficient)});
+    terms.push_back({"hourglass penalty",
+                     "f_i = -(alpha E/2) V_i sum_j V_j k_ij (2 x_ij - (F_i + F_j) X_ij), k_ij = -W'/R_ij",
+                     "after Ganzenmueller 2015",
+                     fmt::format("alpha {:g}", parameters_.hourglass->coefficient)});
   for (auto& term : SolidModel::active_terms()) terms.push_back(std::move(term));
   return terms;
 }

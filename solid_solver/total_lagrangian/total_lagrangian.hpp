@@ -19,8 +19,8 @@ class TotalLagrangian final : public SolidModel {
  public:
   TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
 
-  /// The exact limit of the leapfrog, 2/omega with the highest angular frequency of the unloaded body found by
-  /// power iteration, less what stretching (a stretch l stiffens by (3 l^2 - 1)/2) and viscosity take.
+  /// The exact limit of the leapfrog, 2/omega with the highest angular frequency of the unloaded body found
+  /// by power iteration, less what stretching (a stretch l stiffens by (3 l^2 - 1)/2) and viscosity take.
   double time_step_limit() const override;
   std::string_view time_step_rule() const override { return "acoustic"; }
   void advance(double dt) override;
