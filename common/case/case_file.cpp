@@ -22,8 +22,11 @@ struct CaseFile::Content {
   toml::source_region start;  ///< of the file, where a missing section is reported
   std::vector<InputError> faults;
   std::vector<std::pair<std::string, InputError>> override_faults;  ///< by top-level section
-  std::vector<std::string> read_sections, left_sections;
-  std::string used, description;
+  std::vector<std::string> left_sections;
+  struct Section {
+    std::string name, used, description;
+  };
+  std::vector<Section> sections;  ///< in the order in which they were read
 };
 
 namespace {
@@ -81,15 +84,11 @@ void CaseFile::visit(const std::function<void(ParameterTable&)>& description) {
   // In this order: the description shows the defaults, the used case what has been read.
   DescribeTable described;
   description(described);
-  content_->description += described.text();
-
   ReadTable read(&content_->root, "", "", content_->start, content_->faults);
   description(read);
-  for (const auto& section : read.known()) content_->read_sections.push_back(section);
-
   WriteTable written;
   description(written);
-  content_->used += written.text();
+  content_->sections.push_back({read.known().front(), written.text(), described.text()});
 }
 
 void CaseFile::leave_to_others(const std::vector<std::string>& sections) {
@@ -106,7 +105,8 @@ void CaseFile::throw_if_faulty() const {
   for (const auto& [section, fault] : c.override_faults)
     if (!contains(c.left_sections, section)) faults.push_back(fault);
 
-  std::vector<std::string> known = c.read_sections;
+  std::vector<std::string> known;
+  for (const auto& section : c.sections) known.push_back(section.name);
   known.insert(known.end(), c.left_sections.begin(), c.left_sections.end());
   for (const auto& [key, node] : c.root) {
     const std::string name(key.str());
@@ -130,13 +130,21 @@ void CaseFile::throw_if_faulty() const {
 }
 
 std::string CaseFile::used() const {
-  const auto first = content_->used.find_first_not_of('\n');
-  return first == std::string::npos ? "" : content_->used.substr(first);
+  std::string text;
+  for (const auto& section : content_->sections) text += section.used;
+  return text;
+}
+
+std::string CaseFile::used(const std::string& name) const {
+  for (const auto& section : content_->sections)
+    if (section.name == name) return section.used;
+  return "";
 }
 
 std::string CaseFile::description() const {
-  const auto first = content_->description.find_first_not_of('\n');
-  return first == std::string::npos ? "" : content_->description.substr(first);
+  std::string text;
+  for (const auto& section : content_->sections) text += section.description;
+  return text;
 }
 
 std::uint64_t CaseFile::hash() const {

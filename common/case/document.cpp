@@ -44,16 +44,17 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
-toml::node* item_of(toml::array& array, const std::string& part) {
-  std::size_t index = 0;
+std::optional<std::size_t> item_index(const toml::array& array, const std::string& part) {
+  std::size_t number = 0;
   const auto end = part.data() + part.size();
-  const auto [rest, error] = std::from_chars(part.data(), end, index);
-  if (error == std::errc() && rest == end) return array.get(index);
-  for (auto& item : array) {
-    const toml::table* table = item.as_table();
-    if (table && table->get("name") && (*table)["name"].value<std::string>() == part) return &item;
+  const auto [rest, error] = std::from_chars(part.data(), end, number);
+  if (error == std::errc() && rest == end)
+    return number < array.size() ? std::optional(number) : std::nullopt;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const toml::table* table = array.get(i)->as_table();
+    if (table && (*table)["name"].value<std::string>() == part) return i;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 toml::source_region place_of(const toml::table& table, const std::string& path,
@@ -67,8 +68,9 @@ toml::source_region place_of(const toml::table& table, const std::string& path,
       place = entry->first.source();
       node = &entry->second;
     } else if (const toml::array* items = node->as_array()) {
-      node = item_of(const_cast<toml::array&>(*items), part);
-      if (!node) break;
+      const auto index = item_index(*items, part);
+      if (!index) break;
+      node = items->get(*index);
       if (node->source().path) place = node->source();
     } else {
       break;

@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ toml::source_region place_of(const toml::table& table, const std::string& path,
 /// The parts of a dotted path.
 std::vector<std::string> split_path(const std::string& path);
 
-/// The item of an array of tables that `part` means: a number from 0, or the item's `name`. Null if none.
-toml::node* item_of(toml::array& array, const std::string& part);
+/// The index of the item of an array of tables that `part` means: a number from 0, or the item's `name`.
+std::optional<std::size_t> item_index(const toml::array& array, const std::string& part);
 
 /// What a node is, for a user: `the text "abc"`, `the number 0.5`, `a section`.
 std::string found(const toml::node& node);

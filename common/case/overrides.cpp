@@ -52,14 +52,10 @@ std::string store(toml::node* node, const std::vector<std::string>& parts, toml:
       else
         node = inner && !taken_away ? inner : put(*table, part, toml::table(), place);
     } else if (toml::array* array = node->as_array()) {
-      toml::node* item = item_of(*array, part);
-      if (!item) return no_such_item(*array, part, path);
-      if (last) {
-        auto position = array->cbegin();
-        while (&*position != item) ++position;
-        array->replace(position, std::move(value));
-      }
-      node = item;
+      const auto index = item_index(*array, part);
+      if (!index) return no_such_item(*array, part, path);
+      if (last) array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(*index), std::move(value));
+      node = array->get(*index);
     } else {
       return fmt::format("'{}' is {}, not a section with a key '{}'", path, found(*node), part);
     }

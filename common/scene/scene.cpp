@@ -30,9 +30,12 @@ void check_walls(CaseFile& file, const Scene& scene) {
 void check_references(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.references.size(); ++i) {
     const std::string& name = scene.references[i].file;
-    if (!name.empty() && !std::filesystem::is_regular_file(file.folder() / name))
-      file.fault(fmt::format("reference.{}.file", i),
-                 fmt::format("no file '{}' in the folder of the case", name));
+    const std::string key = fmt::format("reference.{}.file", i);
+    if (name.empty()) continue;
+    if (std::filesystem::path(name).is_absolute() || name.find("..") != std::string::npos)
+      file.fault(key, fmt::format("'{}' must lie in the folder of the case", name));
+    else if (!std::filesystem::is_regular_file(file.folder() / name))
+      file.fault(key, fmt::format("no file '{}' in the folder of the case", name));
   }
 }
 
@@ -93,6 +96,15 @@ Scene read_scene(CaseFile& file) {
   check_walls(file, scene);
   check_references(file, scene);
   return scene;
+}
+
+void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out) {
+  for (const auto& reference : scene.references) {
+    const auto source = file.folder() / reference.file, target = out / reference.file;
+    std::filesystem::create_directories(target.parent_path());
+    if (std::filesystem::exists(target) && std::filesystem::equivalent(source, target)) continue;
+    std::filesystem::copy_file(source, target, std::filesystem::copy_options::overwrite_existing);
+  }
 }
 
 }  // namespace toryu

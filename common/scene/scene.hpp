@@ -65,6 +65,8 @@ void describe(ParameterTable& table, Scene& scene);
 /// Reads [case], [[wall]] and [[reference]], and checks that names of walls differ, that walls lie within the
 /// domain and that the files of references are there. Faults are collected in `file`.
 Scene read_scene(CaseFile& file);
+/// Copies the files of the references to `out`, so that the case written there finds them as well.
+void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out);
 
 /// Points of the lattice origin + (i + 1/2) spacing that lie in some of `boxes` and in none of `holes`, row
 /// by row. `origin` is the smallest corner of `boxes`, so that a box whose sides are whole multiples of the

@@ -249,6 +249,13 @@ TEST(SceneFaults, MotionWithoutRows) {
             "case.toml:8:12: error: 'velocity' needs at least one row");
 }
 
+TEST(SceneFaults, ReferenceElsewhere) {
+  EXPECT_EQ(
+      CaseText(sound_scene + "[[reference]]\nlabel = 'a'\nfile = '../b/a.csv'\nseries = 's'\ncolumn = 'x'\n")
+          .scene_faults(),
+      "case.toml:10:1: error: '../b/a.csv' must lie in the folder of the case");
+}
+
 TEST(SceneFaults, ReferenceWithoutFile) {
   EXPECT_EQ(
       CaseText(sound_scene + "[[reference]]\nlabel = 'a'\nfile = 'none.csv'\nseries = 's'\ncolumn = 'x'\n")

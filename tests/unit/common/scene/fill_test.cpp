@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include "common/scene/scene.hpp"
+
+namespace toryu {
+namespace {
+
+Box box(double x0, double y0, double x1, double y1) {
+  return {Vec(x0, y0), Vec(x1, y1)};
+}
+
+TEST(Fill, PutsRowsHalfASpacingFromTheFaces) {
+  const auto points = fill({box(1, 2, 1.3, 2.2)}, {}, 0.1);
+  ASSERT_EQ(points.size(), 6u);
+  EXPECT_TRUE(points[0].isApprox(Vec(1.05, 2.05)));
+  EXPECT_TRUE(points[1].isApprox(Vec(1.15, 2.05)));
+  EXPECT_TRUE(points[2].isApprox(Vec(1.25, 2.05)));
+  EXPECT_TRUE(points[3].isApprox(Vec(1.05, 2.15)));
+}
+
+TEST(Fill, IsExactForWholeMultiplesWhateverTheRounding) {
+  // Decimal sides and spacings, none of them a binary number, and boxes far from the origin.
+  for (const double spacing : {0.000625, 0.00125, 0.0025, 0.1, 0.3, 1e-7, 1.0 / 3})
+    for (int nx = 1; nx < 90; ++nx)
+      for (const double shift : {0.0, 0.1, -0.079, 12.3}) {
+        const double side = std::stod(fmt::format("{:.10g}", nx * spacing));
+        const double height = std::stod(fmt::format("{:.10g}", 2 * spacing));
+        const auto points = fill({box(shift, -shift, shift + side, -shift + height)}, {}, spacing);
+        ASSERT_EQ(points.size(), 2u * static_cast<unsigned>(nx)) << spacing << " " << nx << " " << shift;
+      }
+}
+
+TEST(Fill, OfTheGateHasEightRows) {
+  const double spacing = 0.000625;
+  const auto points = fill({box(0.1, 0, 0.105, 0.079)}, {}, spacing);
+  // 0.079 / 0.000625 = 126.4: 126 centres are inside.
+  EXPECT_EQ(points.size(), 8u * 126u);
+  EXPECT_NEAR(points.front().x(), 0.1 + spacing / 2, 1e-15);
+  EXPECT_NEAR(points.back().x(), 0.105 - spacing / 2, 1e-15);
+}
+
+TEST(Fill, KeepsCentresThatAreInsideWhereASideIsNoMultiple) {
+  EXPECT_EQ(fill({box(0, 0, 0.079, 0.00125)}, {}, 0.00125).size(), 63u);   // 63.2
+  EXPECT_EQ(fill({box(0, 0, 0.0794, 0.00125)}, {}, 0.00125).size(), 64u);  // 63.52
+  EXPECT_EQ(fill({box(0, 0, 1.4, 1)}, {}, 1).size(), 1u);
+  EXPECT_EQ(fill({box(0, 0, 0.4, 1)}, {}, 1).size(), 0u);
+}
+
+TEST(Fill, GivesACentreOnACommonEdgeToOneBox) {
+  // The edge runs through centres, as exactly as rounding lets it.
+  for (const double spacing : {0.1, 0.3, 0.00125})
+    for (int column = 1; column < 40; ++column) {
+      const double edge = (column + 0.5) * spacing, end = 50 * spacing;
+      const Box whole = box(0, 0, end, spacing), left = box(0, 0, edge, spacing);
+      const Box right = box(edge, 0, end, spacing);
+      EXPECT_EQ(fill({whole}, {left}, spacing).size(), 50u - static_cast<unsigned>(column));
+      EXPECT_EQ(fill({whole}, {right}, spacing).size(), static_cast<unsigned>(column));
+      EXPECT_EQ(fill({left, right}, {}, spacing).size(), 50u);
+    }
+}
+
+TEST(Fill, CountsOverlapsOnceAndLeavesHolesOut) {
+  EXPECT_EQ(fill({box(0, 0, 3, 3), box(2, 2, 4, 4)}, {}, 1).size(), 12u);
+  EXPECT_EQ(fill({box(0, 0, 3, 3)}, {box(1, 1, 2, 2)}, 1).size(), 8u);
+  EXPECT_EQ(fill({box(0, 0, 3, 3)}, {box(-1, -1, 5, 5)}, 1).size(), 0u);
+  EXPECT_EQ(fill({}, {}, 1).size(), 0u);
+}
+
+TEST(Fill, SharesOneLatticeAmongBoxes) {
+  const auto points = fill({box(5, 0, 6, 1), box(-0.25, 0.5, 1, 2)}, {}, 1);
+  // The origin is (-0.25, 0): the first box has its centre column at 5.25.
+  ASSERT_FALSE(points.empty());
+  for (const auto& x : points) {
+    EXPECT_DOUBLE_EQ(std::remainder(x.x() - 0.25, 1), 0);
+    EXPECT_DOUBLE_EQ(std::remainder(x.y() - 0.5, 1), 0);
+  }
+}
+
+}  // namespace
+}  // namespace toryu

@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include "common/scene/scene.hpp"
+
+namespace toryu {
+namespace {
+
+// At rest until 1 s, up to 2 m/s at 2 s, then sideways at 3.
+const Motion piston{{{1, 0, 0}, {2, 0, 2}, {3, 4, 2}}};
+
+TEST(Motion, IsLinearBetweenRowsAndConstantBeyond) {
+  EXPECT_EQ(piston.velocity_at(-1), Vec(0, 0));
+  EXPECT_EQ(piston.velocity_at(1.5), Vec(0, 1));
+  EXPECT_EQ(piston.velocity_at(2), Vec(0, 2));
+  EXPECT_EQ(piston.velocity_at(2.25), Vec(1, 2));
+  EXPECT_EQ(piston.velocity_at(7), Vec(4, 2));
+}
+
+TEST(Motion, AccelerationIsTheSlopeToTheRight) {
+  EXPECT_EQ(piston.acceleration_at(0.5), Vec(0, 0));
+  EXPECT_EQ(piston.acceleration_at(1), Vec(0, 2));
+  EXPECT_EQ(piston.acceleration_at(1.9), Vec(0, 2));
+  EXPECT_EQ(piston.acceleration_at(2), Vec(4, 0));
+  EXPECT_EQ(piston.acceleration_at(3), Vec(0, 0));
+}
+
+TEST(Motion, DisplacementIsTheExactIntegral) {
+  EXPECT_EQ(piston.displacement_at(0), Vec(0, 0));
+  EXPECT_EQ(piston.displacement_at(1.5), Vec(0, 0.25));
+  EXPECT_EQ(piston.displacement_at(2), Vec(0, 1));
+  EXPECT_EQ(piston.displacement_at(2.5), Vec(0.5, 2));
+  EXPECT_EQ(piston.displacement_at(5), Vec(2 + 8, 1 + 2 + 4));
+}
+
+TEST(Motion, DisplacementCountsFromZeroWhereverTheTableStarts) {
+  const Motion early{{{-2, 1, 0}, {-1, 3, 0}}};
+  EXPECT_EQ(early.displacement_at(0), Vec(0, 0));
+  EXPECT_EQ(early.displacement_at(2), Vec(6, 0));
+  EXPECT_EQ(early.displacement_at(-1), Vec(-3, 0));
+  EXPECT_EQ(early.displacement_at(-2), Vec(-5, 0));
+  const Motion late{{{1, 1, 0}, {2, 3, 0}}};
+  EXPECT_EQ(late.displacement_at(1), Vec(1, 0));
+  EXPECT_EQ(late.displacement_at(2), Vec(3, 0));
+  EXPECT_EQ(late.displacement_at(-1), Vec(-1, 0));
+}
+
+TEST(Motion, OfOneRowIsConstant) {
+  const Motion steady{{{5, 1, -2}}};
+  EXPECT_EQ(steady.velocity_at(0), Vec(1, -2));
+  EXPECT_EQ(steady.velocity_at(9), Vec(1, -2));
+  EXPECT_EQ(steady.displacement_at(3), Vec(3, -6));
+  EXPECT_EQ(steady.acceleration_at(5), Vec(0, 0));
+}
+
+}  // namespace
+}  // namespace toryu
