@@ -135,12 +135,6 @@ std::string CaseFile::used() const {
   return text;
 }
 
-std::string CaseFile::used(const std::string& name) const {
-  for (const auto& section : content_->sections)
-    if (section.name == name) return section.used;
-  return "";
-}
-
 std::string CaseFile::description() const {
   std::string text;
   for (const auto& section : content_->sections) text += section.description;

@@ -51,8 +51,6 @@ class CaseFile {
 
   /// The sections read so far with every value, defaults included, as TOML that repeats the run.
   std::string used() const;
-  /// One of these sections; empty if it has not been read.
-  std::string used(const std::string& section) const;
   /// The sections read so far as a table of key, unit, default, range and help.
   std::string description() const;
 

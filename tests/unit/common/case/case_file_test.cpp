@@ -146,8 +146,6 @@ history = []
 coefficient = 1.0
 )";
   EXPECT_EQ(file.used(), expected);
-  EXPECT_EQ(file.used("medium"), expected);
-  EXPECT_EQ(file.used("other"), "");
 }
 
 struct Unbounded {
