@@ -22,6 +22,7 @@ std::string merge_used_cases(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     std::set<std::string> here;
     bool skip = false;
+    if (!merged.empty()) merged += '\n';
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
       if (const std::string section = top_level_section(line); !section.empty()) {

@@ -1,0 +1,207 @@
+/// The coupler's end of the link against a fluid that is written on the bare messages, so that it can say
+/// what the participant interface would not: the wrong session, a stale window, other units.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <string>
+
+#include "common/link/coupler_link.hpp"
+#include "common/link/dds.hpp"
+#include "common/link/wire.hpp"
+
+namespace toryu {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr std::size_t particles = 3;
+constexpr double time_limit = 20;  // [s], generous: no test waits for it but the one that says so
+
+InterfaceMotion still() {
+  const std::vector<double> zero(dim * particles, 0.0);
+  return {zero, zero, zero};
+}
+
+Interface three_particles() {
+  return {{4, 5, 6},
+          std::vector<double>(dim * particles, 0.5),
+          {1, 1, 1},
+          std::vector<double>(dim * particles, 1.0),
+          0.1};
+}
+
+/// Speaks the fluid's messages without the link's checks.
+class RawFluid {
+ public:
+  explicit RawFluid(const std::filesystem::path& out) : node_(dds::meeting_place(out)) {}
+
+  void say_hello(std::uint32_t protocol = wire::protocol, std::string units = wire::units,
+                 std::uint32_t dimension = dim) {
+    std::string program = "raw_fluid", nothing;
+    toryu_Hello hello{};
+    hello.sender = id_;
+    hello.role = toryu_FLUID;
+    hello.program = program.data();
+    hello.version = nothing.data();
+    hello.protocol = protocol;
+    hello.case_hash = 42;
+    hello.units = units.data();
+    hello.dimension = dimension;
+    hello.reach = 0.25;
+    hello.time_step_limit = 1;
+    hello.used_case = nothing.data();
+    hello_.write(hello);
+  }
+
+  void leave() {
+    std::string nothing;
+    toryu_Status status{};
+    status.sender = id_;
+    status.activity = toryu_LEFT;
+    status.reason = nothing.data();
+    statuses_.write(status);
+  }
+
+  /// Waits for the grant of a window and returns its head.
+  toryu_WindowHead await_window() {
+    toryu_WindowHead head{};
+    while (!motions_.take([&](const toryu_Motion& motion) { head = motion.window; })) node_.wait(50ms);
+    return head;
+  }
+
+  void answer(const toryu_WindowHead& head) {
+    const InterfaceLoad load{
+        std::vector<double>(particles, 1.0), std::vector<double>(dim * particles, 1.0), {}, Vec::Zero()};
+    toryu_Load message = wire::load(head, load);
+    message.time_step_limit = 1;
+    loads_.write(message);
+  }
+
+ private:
+  std::uint64_t id_ = dds::random_id();
+  dds::Node node_;
+  dds::Writer<toryu_Hello> hello_{node_, wire::hello};
+  dds::Writer<toryu_Status> statuses_{node_, wire::status};
+  dds::Reader<toryu_Motion> motions_{node_, wire::motion_to_fluid};
+  dds::Writer<toryu_Load> loads_{node_, wire::load_from_fluid};
+};
+
+class LinkTest : public testing::Test {
+ protected:
+  LinkTest() { settings_.role = "coupler"; }
+  ~LinkTest() override { end(ExitCode::interrupted, "end of the test"); }
+
+  void end(ExitCode code, const std::string& reason) {
+    fluid_.leave();
+    coupler_.stop(code, reason);
+  }
+
+  static LinkSettings settings_for(const std::string& role) {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    LinkSettings settings;
+    settings.role = role;
+    settings.out =
+        std::filesystem::temp_directory_path() / fmt::format("toryu_{}_{}", test->name(), getpid());
+    settings.case_hash = 42;
+    settings.time_limit = time_limit;
+    return settings;
+  }
+
+  /// A solid that joins, answers every window with rest, and ends as the coupler says.
+  std::future<void> start_solid() {
+    return std::async(std::launch::async, [settings = settings_for("solid")] {
+      SolidLink link(settings);
+      EXPECT_EQ(link.join(), 0.25);
+      link.register_interface(three_particles(), still());
+      while (link.next_window()) link.send(still(), Vec::Zero(), {});
+    });
+  }
+
+  LinkSettings settings_ = settings_for("coupler");
+  CouplerLink coupler_{settings_};
+  RawFluid fluid_{settings_.out};
+};
+
+TEST_F(LinkTest, HandshakeCarriesTheInterface) {
+  auto solid = start_solid();
+  fluid_.say_hello();
+  const auto start = coupler_.gather();
+  EXPECT_EQ(start.fluid.program, "raw_fluid");
+  EXPECT_EQ(start.solid.program, "solid");
+  EXPECT_EQ(start.reach, 0.25);
+  EXPECT_EQ(start.interface.id, three_particles().id);
+  EXPECT_EQ(start.interface.area_vector, three_particles().area_vector);
+  EXPECT_EQ(start.motion.position, still().position);
+  end(ExitCode::physics_failed, "told reason");
+  EXPECT_THAT([&] { solid.get(); }, ThrowsMessage<PhysicsFailure>("told reason"));
+}
+
+TEST_F(LinkTest, AnswerToAStaleWindowIsRefused) {
+  auto solid = start_solid();
+  fluid_.say_hello();
+  const auto start = coupler_.gather();
+  const auto fluid = std::async(std::launch::async, [this] {
+    auto head = fluid_.await_window();
+    --head.number;
+    fluid_.answer(head);
+  });
+  EXPECT_THAT([&] { coupler_.ask_fluid({.number = 1, .iteration = 0, .time = 0, .dt = 1}, start.motion); },
+              ThrowsMessage<PeerLost>(HasSubstr("raw_fluid sent window 0 iteration 0 where window 1")));
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
+  auto solid = start_solid();
+  fluid_.say_hello();
+  const auto start = coupler_.gather();
+  std::atomic<bool> answered_rightly = false;
+  const auto fluid = std::async(std::launch::async, [&] {
+    const auto head = fluid_.await_window();
+    auto of_another_run = head;
+    of_another_run.session_id += 1;
+    fluid_.answer(of_another_run);
+    std::this_thread::sleep_for(300ms);  // so that the coupler has met the wrong one
+    answered_rightly = true;
+    fluid_.answer(head);
+  });
+  coupler_.ask_fluid({.number = 1, .iteration = 0, .time = 0, .dt = 1}, start.motion);
+  EXPECT_TRUE(answered_rightly);
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
+  fluid_.say_hello(wire::protocol + 1, "CGS", 3);
+  EXPECT_THAT([&] { coupler_.gather(); },
+              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 2, the coupler's is 1\n"
+                                      "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
+                                      "raw_fluid: error: dimension is 3, the coupler's is 2"));
+}
+
+TEST_F(LinkTest, ASilentFluidIsNamed) {
+  LinkSettings impatient = settings_for("coupler");
+  impatient.out += "_impatient";
+  impatient.time_limit = 0.3;
+  CouplerLink coupler(impatient);
+  EXPECT_THAT([&] { coupler.gather(); },
+              ThrowsMessage<PeerLost>("fluid participant did not join within 0.3 s"));
+}
+
+TEST_F(LinkTest, AMissingCouplerIsNamed) {
+  LinkSettings alone = settings_for("solid");
+  alone.out += "_alone";
+  alone.time_limit = 0.3;
+  SolidLink link(alone);
+  EXPECT_THAT([&] { link.join(); }, ThrowsMessage<PeerLost>("coupler did not come within 0.3 s"));
+}
+
+}  // namespace
+}  // namespace toryu

@@ -1,0 +1,123 @@
+/// The parts of the coupler: schedule, audit, record, lock, used case.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "common/output/hdf5_file.hpp"
+#include "coupler/coupled_run.hpp"
+#include "coupler/exchange_audit.hpp"
+#include "coupler/interface_record.hpp"
+#include "coupler/run_lock.hpp"
+#include "coupler/used_case.hpp"
+
+namespace toryu {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path fresh_folder() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const fs::path folder = fs::temp_directory_path() / fmt::format("toryu_{}_{}", test->name(), getpid());
+  fs::create_directories(folder);
+  return folder;
+}
+
+TEST(WindowLength, FillsTheTimeLeftWithoutASplinter) {
+  EXPECT_EQ(window_length(10, 1, 1), 1);
+  EXPECT_EQ(window_length(10, 4, 1), 4);
+  EXPECT_EQ(window_length(5, 4, 1), 2.5);  // 2.5 and 2.5 rather than 4 and 1
+  EXPECT_EQ(window_length(2.5, 4, 1), 2.5);
+}
+
+TEST(Due, ComesOnceAnInterval) {
+  Due due(0.1);
+  EXPECT_FALSE(due.at(0.05));
+  EXPECT_TRUE(due.at(0.12));
+  EXPECT_FALSE(due.at(0.19));
+  EXPECT_TRUE(due.at(0.2));
+  EXPECT_TRUE(due.at(0.55));  // one row for the intervals that a long window passed over
+  EXPECT_FALSE(due.at(0.58));
+  EXPECT_TRUE(due.at(0.6));
+}
+
+TEST(Due, IsDueAlwaysWithoutInterval) {
+  Due due(0);
+  EXPECT_TRUE(due.at(0.1));
+  EXPECT_TRUE(due.at(0.1));
+}
+
+/// Two particles under opposite forces: the sum is small beside what was summed.
+InterfaceLoad opposite_forces() {
+  return {{0, 0}, {3, 4, -3, -4}, {}, Vec::Zero()};
+}
+
+TEST(ExchangeAudit, IsRelativeToTheForcesAndNotToTheirSum) {
+  ExchangeAudit audit;
+  const auto load = opposite_forces();
+  EXPECT_EQ(audit.compare(load, load, Vec::Zero(), 0.1), 0);
+  // The lengths are 5 and 5, so the scale is 10 x 0.1 s.
+  EXPECT_DOUBLE_EQ(audit.compare(load, load, Vec(0.002, 0), 0.1), 0.002);
+  EXPECT_EQ(audit.compare(load, load, Vec::Zero(), 0.1), 0);
+  EXPECT_DOUBLE_EQ(audit.largest(), 0.002);
+}
+
+TEST(ExchangeAudit, SeesBothSides) {
+  ExchangeAudit audit;
+  InterfaceLoad given{{0}, {2, 0}, {0, 1}, Vec(-0.2, -0.1)};
+  InterfaceLoad felt = given;
+  felt.force = {0, 0};  // the case lets the solid feel friction alone
+  EXPECT_NEAR(audit.compare(given, felt, Vec(0, 0.1), 0.1), 0, 1e-15);
+  given.impulse_on_fluid.x() = -0.23;
+  EXPECT_NEAR(audit.compare(given, felt, Vec(0, 0.1), 0.1), 0.1, 1e-12);
+}
+
+TEST(ExchangeAudit, ImpulseFromNowhereIsInfinite) {
+  ExchangeAudit audit;
+  const InterfaceLoad none{{0}, {0, 0}, {}, Vec::Zero()};
+  EXPECT_EQ(audit.compare(none, none, Vec(1e-9, 0), 0.1), std::numeric_limits<double>::infinity());
+}
+
+TEST(UsedCase, TakesEachSectionOnce) {
+  EXPECT_EQ(merge_used_cases({"[case]\nend_time = 1\n\n[[wall]]\nname = \"floor\"\n\n[coupling]\nn = 1\n",
+                              "[case]\nend_time = 1\n\n[fluid]\nc = 2\n\n[[fluid.region]]\nx = [[1], [2]]\n",
+                              "[[wall]]\nname = \"floor\"\n\n[solid]\nE = 3\n"}),
+            "[case]\nend_time = 1\n\n[[wall]]\nname = \"floor\"\n\n[coupling]\nn = 1\n\n"
+            "[fluid]\nc = 2\n\n[[fluid.region]]\nx = [[1], [2]]\n\n[solid]\nE = 3\n");
+}
+
+TEST(RunLock, RefusesASecondRunUntilTheFirstEnds) {
+  const fs::path folder = fresh_folder();
+  {
+    const RunLock lock(folder);
+    EXPECT_THAT([&] { RunLock second(folder); },
+                testing::ThrowsMessage<BadInput>(testing::HasSubstr("another run writes its results here")));
+  }
+  EXPECT_NO_THROW(RunLock{folder});
+}
+
+TEST(InterfaceRecord, GrowsByRowsAndGetsItsNameAtTheEnd) {
+  const fs::path folder = fresh_folder();
+  const fs::path path = folder / "interface.h5";
+  const Interface interface { {7, 8}, {0, 0, 1, 0}, {1, 1}, {0, 1, 0, 1}, 1.0 };
+  {
+    InterfaceRecord record(folder, interface);
+    record.write(0.0, {{0, 0, 1, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}, {});
+    record.write(0.5, {{0, 1, 1, 2}, {3, 4, 5, 6}, {0, 0, 0, 0}}, {{10, 20}, {1, 2, 3, 4}, {}, Vec::Zero()});
+    EXPECT_FALSE(fs::exists(path));
+  }
+  const HdfHandle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "file");
+  const HdfHandle force(H5Dopen2(file, "force", H5P_DEFAULT), H5Dclose, "force");
+  const HdfHandle space(H5Dget_space(force), H5Sclose, "space");
+  hsize_t shape[3] = {};
+  ASSERT_EQ(H5Sget_simple_extent_dims(space, shape, nullptr), 3);
+  EXPECT_THAT(shape, testing::ElementsAre(2, 2, 2));
+  double values[8] = {};
+  H5Dread(force, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  EXPECT_THAT(values, testing::ElementsAre(0, 0, 0, 0, 1, 2, 3, 4));
+}
+
+}  // namespace
+}  // namespace toryu
