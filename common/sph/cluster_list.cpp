@@ -12,11 +12,11 @@ constexpr std::size_t clusters_per_block = 64;
 void collect(const VecField& targets, std::size_t first, const VecField& sources, const StripOrder& strips,
              double reach, std::vector<std::uint32_t>& found) {
   const Lanes x_i = load(targets[0], first), y_i = load(targets[1], first);
-  strips.in_box(sources[1], stdx::hmin(x_i) - reach, stdx::hmax(x_i) + reach, stdx::hmin(y_i) - reach,
-                stdx::hmax(y_i) + reach, [&](std::size_t begin, std::size_t end) {
+  strips.in_box(sources[1], smallest_of(x_i) - reach, largest_of(x_i) + reach, smallest_of(y_i) - reach,
+                largest_of(y_i) + reach, [&](std::size_t begin, std::size_t end) {
                   for (std::size_t j = begin; j < end; ++j) {
                     const Lanes x_ij = x_i - sources[0][j], y_ij = y_i - sources[1][j];
-                    if (stdx::any_of(x_ij * x_ij + y_ij * y_ij < reach * reach))
+                    if (any_of(x_ij * x_ij + y_ij * y_ij < reach * reach))
                       found.push_back(static_cast<std::uint32_t>(j));
                   }
                 });

@@ -25,27 +25,27 @@ class CubicSpline {
 
   /// W [1/m2] at distance r [m].
   template <class T>
-  T value(const T& r) const {
+  TORYU_INLINE T value(T r) const {
     const T q_2 = outer(r), q_1 = inner(r);
     return value_factor_ * (q_2 * q_2 * q_2 - 4.0 * (q_1 * q_1 * q_1));
   }
   /// dW/dr / r [1/m4], given r and 1/r: gradW_ij = x_ij times this.
   template <class T>
-  T gradient_over_r(const T& r, const T& inverse_r) const {
+  TORYU_INLINE T gradient_over_r(T r, T inverse_r) const {
     const T q_2 = outer(r), q_1 = inner(r);
     return gradient_factor_ * (q_2 * q_2 - 4.0 * (q_1 * q_1)) * inverse_r;
   }
 
  private:
-  static double positive(double a) { return a > 0.0 ? a : 0.0; }
-  static Lanes positive(const Lanes& a) { return positive_part(a); }
+  TORYU_INLINE static double positive(double a) { return a > 0.0 ? a : 0.0; }
+  TORYU_INLINE static Lanes positive(Lanes a) { return positive_part(a); }
   template <class T>
-  T outer(const T& r) const {
-    return positive(T(2.0 - r * inverse_h_));
+  TORYU_INLINE T outer(T r) const {
+    return positive(2.0 - r * inverse_h_);
   }
   template <class T>
-  T inner(const T& r) const {
-    return positive(T(1.0 - r * inverse_h_));
+  TORYU_INLINE T inner(T r) const {
+    return positive(1.0 - r * inverse_h_);
   }
 
   double h_, inverse_h_, value_factor_, gradient_factor_;

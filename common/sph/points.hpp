@@ -11,12 +11,12 @@ namespace toryu {
 using VecField = std::array<Field, dim>;
 using VecLanes = std::array<Lanes, dim>;
 
-inline VecLanes load(const VecField& field, std::size_t first) {
+TORYU_INLINE VecLanes load(const VecField& field, std::size_t first) {
   VecLanes value;
   for (int a = 0; a < dim; ++a) value[a] = load(field[a], first);
   return value;
 }
-inline void store(const VecLanes& value, VecField& field, std::size_t first) {
+TORYU_INLINE void store(const VecLanes& value, VecField& field, std::size_t first) {
   for (int a = 0; a < dim; ++a) store(value[a], field[a], first);
 }
 inline void resize(VecField& field, std::size_t size, double value = 0.0) {
@@ -31,7 +31,13 @@ inline void set(VecField& field, std::size_t i, const Vec& value) {
   for (int a = 0; a < dim; ++a) field[a][i] = value[a];
 }
 
-inline Lanes dot(const VecLanes& a, const VecLanes& b) {
+TORYU_INLINE VecLanes zero_vector() {
+  VecLanes zero;
+  for (auto& component : zero) component = 0.0;
+  return zero;
+}
+
+TORYU_INLINE Lanes dot(const VecLanes& a, const VecLanes& b) {
   Lanes sum = a[0] * b[0];
   for (int k = 1; k < dim; ++k) sum += a[k] * b[k];
   return sum;

@@ -1,0 +1,20 @@
+/// The time loop of a solver without a partner, and the sub-steps that it shares with the coupled one.
+#pragma once
+
+#include "common/loop/run_record.hpp"
+
+namespace toryu {
+
+/// Advances over `length` [s] in equal sub-steps, as few as stability allows but at most `most`; returns how
+/// many were taken of how many that length needs.
+struct SubSteps {
+  long taken, needed;
+  double dt;
+};
+SubSteps advance_by(Solver& solver, double length, long most = std::numeric_limits<long>::max());
+
+/// Runs to the end time of the scene; no messages, no other process. The time-step limit and the state are
+/// looked at anew every `steps_between_checks`.
+void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks);
+
+}  // namespace toryu

@@ -1,0 +1,79 @@
+#include "fluid_solver/boundary.hpp"
+
+#include <numeric>
+
+namespace toryu::fluid {
+
+void Boundary::place(const std::vector<Vec>& positions, const std::vector<double>& volumes,
+                     double rest_density, double strip_width) {
+  count = positions.size();
+  const std::size_t size = padded(count);
+  id.resize(count);
+  std::iota(id.begin(), id.end(), 0u);
+  for (auto* field : {&x, &v, &acceleration, &v_viscous, &force}) resize(*field, size);
+  for (auto* field : {&V, &m, &rho, &p, &p_rho2}) field->assign(size, 0.0);
+  for (std::size_t k = 0; k < count; ++k) {
+    set(x, k, positions[k]);
+    V[k] = volumes[k];
+    m[k] = rest_density * volumes[k];
+    rho[k] = rest_density;
+  }
+  strips = StripOrder(strip_width);
+  sort();
+}
+
+void Boundary::sort() {
+  const auto order = strips.sort(x[0], x[1], count);
+  Field scratch;
+  for (auto* field : {&x, &v, &acceleration, &v_viscous, &force})
+    for (auto& component : *field) reorder(component, order, scratch);
+  for (auto* field : {&V, &m, &rho, &p, &p_rho2}) reorder(*field, order, scratch);
+  std::vector<std::uint32_t> sorted_id(count);
+  for (std::size_t k = 0; k < count; ++k) sorted_id[k] = id[order[k]];
+  id.swap(sorted_id);
+  strips.index(x[0], count);
+}
+
+namespace {
+
+void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel,
+                            const Vec& gravity, std::size_t cluster) {
+  const double smallest_sum = 1e-9 * kernel.value(0.0);  // below it no fluid is in reach
+  const std::size_t first = cluster * lane_count;
+  const VecLanes x_w = load(boundary.x, first);
+  Lanes sum_W = 0.0, sum_p = 0.0;
+  VecLanes sum_v = zero_vector(), sum_rho_x = zero_vector();
+  for (const std::uint32_t i : boundary.fluid_near.sources(cluster)) {
+    const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
+    const Lanes r2 = max(dot(x_wi, x_wi), 1e-300);
+    const Lanes W = kernel.value(r2 * inverse_sqrt(r2));
+    sum_W += W;
+    sum_p += fluid.p[i] * W;
+    for (int a = 0; a < dim; ++a) {
+      sum_v[a] += fluid.v[a][i] * W;
+      sum_rho_x[a] += (fluid.rho[i] * W) * x_wi[a];
+    }
+  }
+  const Lanes share = inverse(max(sum_W, smallest_sum));
+  const VecLanes a_w = load(boundary.acceleration, first), v_w = load(boundary.v, first);
+  Lanes p_w = sum_p;
+  for (int a = 0; a < dim; ++a) {
+    p_w += (gravity[a] - a_w[a]) * sum_rho_x[a];
+    store(2.0 * v_w[a] - sum_v[a] * share, boundary.v_viscous[a], first);
+  }
+  p_w *= share;
+  const Lanes inverse_rho = inverse(load(boundary.rho, first));
+  store(p_w, boundary.p, first);
+  store(p_w * inverse_rho * inverse_rho, boundary.p_rho2, first);
+}
+
+}  // namespace
+
+void extrapolate(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel, const Vec& gravity) {
+  const auto& active = boundary.fluid_near.active();
+#pragma omp for schedule(dynamic, 4)
+  for (std::size_t k = 0; k < active.size(); ++k)
+    extrapolate_to_cluster(boundary, fluid, kernel, gravity, active[k]);
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,61 @@
+/// The rates of change of the fluid: where the model is composed of its terms. Terms that a case does not ask
+/// for are not in the compiled loop at all.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "common/run/solver.hpp"
+#include "common/run/timers.hpp"
+#include "fluid_solver/boundary.hpp"
+#include "fluid_solver/parameters.hpp"
+#include "fluid_solver/terms/artificial_viscosity.hpp"
+#include "fluid_solver/terms/continuity.hpp"
+#include "fluid_solver/terms/density_diffusion.hpp"
+#include "fluid_solver/terms/equation_of_state.hpp"
+#include "fluid_solver/terms/laminar_viscosity.hpp"
+#include "fluid_solver/terms/pressure.hpp"
+
+namespace toryu::fluid {
+
+/// A term that a case does without.
+struct Absent {};
+
+/// What a boundary gave the fluid in one evaluation.
+struct Given {
+  std::vector<Vec> by_cluster;  ///< force on each cluster of the fluid [N per metre depth]
+  Vec force() const;
+};
+
+class Dynamics {
+ public:
+  Dynamics(const Parameters& parameters, const Vec& gravity);
+
+  /// Fills p, V, the boundaries' extrapolated values and the rates a, drho of `fluid` from its state.
+  /// `given[b]` becomes the force that boundary b exerted on the fluid.
+  void evaluate(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries,
+                std::vector<Given>& given, Timers& timers) const;
+
+  /// Fills `boundary.force`, the exact reaction to what the boundary did to the fluid in the last evaluation,
+  /// gathered pair by pair on the boundary's side.
+  void react(const Particles& fluid, Boundary& boundary) const;
+
+  const CubicSpline& kernel() const { return kernel_; }
+  const EquationOfState& equation_of_state() const { return state_; }
+  std::vector<ActiveTerm> active_terms() const;
+
+ private:
+  void pressures(Particles& fluid) const;
+  void wall_densities(Boundary& boundary) const;
+  bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
+
+  Parameters parameters_;
+  Vec gravity_;
+  CubicSpline kernel_;
+  EquationOfState state_;
+  std::variant<Absent, DensityDiffusionTerm<false>, DensityDiffusionTerm<true>> diffusion_;
+  std::variant<Absent, ArtificialViscosityTerm> artificial_;
+  std::variant<Absent, LaminarViscosityTerm> laminar_;
+};
+
+}  // namespace toryu::fluid

@@ -1,0 +1,204 @@
+#include "fluid_solver/fluid_solver.hpp"
+
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace toryu::fluid {
+
+namespace {
+
+// Shares of the limits, Monaghan 1992 and thesis section 5.
+constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.25;
+
+struct StepLimits {
+  double acoustic, viscous, force;
+};
+
+StepLimits step_limits(const Parameters& p, double speed, double acceleration) {
+  const double h = p.h(), never = std::numeric_limits<double>::infinity();
+  double nu = 0;
+  if (p.laminar_viscosity) nu += p.laminar_viscosity->dynamic_viscosity / p.density;
+  if (p.artificial_viscosity)
+    nu += effective_kinematic_viscosity(p.artificial_viscosity->alpha, h, p.sound_speed);
+  return {acoustic_share * h / (p.sound_speed + speed), nu > 0 ? viscous_share * h * h / nu : never,
+          acceleration > 0 ? force_share * std::sqrt(h / acceleration) : never};
+}
+
+double strip_width(const Parameters& p) {
+  return std::sqrt(static_cast<double>(lane_count)) * p.spacing;
+}
+
+}  // namespace
+
+/// The state at the start of a step.
+struct FluidSolver::Step {
+  VecField x, v;
+  Field rho;
+};
+
+FluidSolver::FluidSolver(const Parameters& parameters, const Scene& scene)
+    : parameters_(parameters),
+      scene_(scene),
+      dynamics_(parameters, scene.gravity),
+      neighbours_(2 * parameters.h(), parameters.neighbour_skin * 2 * parameters.h(),
+                  strip_width(parameters)) {
+  fill_regions();
+  fill_walls();
+  check_overlaps();
+  note_extremes();
+}
+
+void FluidSolver::fill_regions() {
+  std::vector<Box> boxes;
+  for (const auto& region : parameters_.regions) boxes.push_back(region.box);
+  const auto points = fill(boxes, parameters_.holes, parameters_.spacing);
+  if (points.empty())
+    throw BadInput({{"[fluid.region]", 0, 0, "the regions hold no particle at this spacing"}});
+
+  auto& f = fluid_;
+  f.count = points.size();
+  const std::size_t size = padded(f.count);
+  f.id.resize(f.count);
+  std::iota(f.id.begin(), f.id.end(), 0u);
+  for (auto* field : {&f.x, &f.v, &f.a}) resize(*field, size);
+  for (auto* field : {&f.rho, &f.m, &f.V, &f.p, &f.p_rho2, &f.drho}) field->assign(size, 0.0);
+  const auto& diffusion = parameters_.density_diffusion;
+  if (diffusion && diffusion->gradient == DiffusionGradient::renormalised) resize(f.grad_rho, size);
+
+  const auto& state = dynamics_.equation_of_state();
+  const double volume = std::pow(parameters_.spacing, dim), g = scene_.gravity.norm();
+  for (std::size_t i = 0; i < f.count; ++i) {
+    set(f.x, i, points[i]);
+    for (const auto& region : parameters_.regions)
+      if (region.box.contains(points[i])) set(f.v, i, region.velocity);
+    f.rho[i] = parameters_.density;
+    if (const auto& start = parameters_.hydrostatic_start; start && g > 0) {
+      // weight of a column whose density follows from its own pressure, equations of the hydrostatic tank
+      const double depth = start->surface_level + scene_.gravity.dot(points[i]) / g;
+      const double c_02 = state.c_0 * state.c_0, n = state.gamma - 1.0;
+      f.rho[i] *= n > 0 ? std::pow(1.0 + n * g * depth / c_02, 1.0 / n) : std::exp(g * depth / c_02);
+    }
+    f.m[i] = f.rho[i] * volume;
+  }
+}
+
+void FluidSolver::fill_walls() {
+  std::vector<Vec> still;
+  const double volume = std::pow(parameters_.spacing, dim);
+  const auto add = [&](const std::string& name, const std::vector<Vec>& points, const Wall* wall) {
+    Boundary& boundary = boundaries_.emplace_back();
+    boundary.name = name;
+    boundary.moves = wall != nullptr;
+    boundary.place(points, std::vector<double>(points.size(), volume), parameters_.density,
+                   strip_width(parameters_));
+    moving_walls_.push_back(wall);
+    wall_start_.push_back(wall ? points : std::vector<Vec>{});
+  };
+  for (const auto& wall : scene_.walls) {
+    const auto points = fill({wall.box}, {}, parameters_.spacing);
+    if (wall.motion)
+      add(wall.name, points, &wall);
+    else
+      still.insert(still.end(), points.begin(), points.end());
+  }
+  if (!still.empty()) add("walls", still, nullptr);
+  move_boundaries(0.0);
+}
+
+void FluidSolver::check_overlaps() const {
+  // a particle nearer than this to another body's was placed twice
+  const double nearest = 0.5 * parameters_.spacing;
+  StripOrder strips(strip_width(parameters_));
+  const auto order = strips.sort(fluid_.x[0], fluid_.x[1], fluid_.count);
+  VecField x = fluid_.x;
+  Field scratch;
+  for (auto& component : x) reorder(component, order, scratch);
+  strips.index(x[0], fluid_.count);
+  for (const auto& boundary : boundaries_) {
+    ClusterList touching;
+    touching.build(boundary.x, boundary.count, x, strips, nearest);
+    if (touching.active().empty()) continue;
+    const Vec place = at(x, touching.sources(touching.active().front()).front());
+    throw BadInput(
+        {{"[fluid.region]", 0, 0,
+          fmt::format("overlaps a wall near ({:.6g}, {:.6g}) m: fluid and wall particles must be at least "
+                      "half a spacing apart",
+                      place[0], place[1])}});
+  }
+}
+
+void FluidSolver::attach(const Interface& interface) {
+  interface_boundary_ = boundaries_.size();
+  moving_walls_.push_back(nullptr);
+  wall_start_.emplace_back();
+  interface_.attach(interface, boundaries_.emplace_back(), parameters_.density, strip_width(parameters_));
+  check_overlaps();
+}
+
+double FluidSolver::time_step_limit() const {
+  const auto limits = step_limits(parameters_, largest_speed_, largest_acceleration_);
+  return parameters_.time_step_share * std::min({limits.acoustic, limits.viscous, limits.force});
+}
+
+std::string_view FluidSolver::time_step_rule() const {
+  const auto limits = step_limits(parameters_, largest_speed_, largest_acceleration_);
+  if (limits.acoustic <= std::min(limits.viscous, limits.force)) return "acoustic";
+  return limits.viscous < limits.force ? "viscous" : "force";
+}
+
+void FluidSolver::move_boundaries(double time) {
+  for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+    if (b == interface_boundary_) {
+      interface_.move(boundaries_[b], time);
+    } else if (moving_walls_[b]) {
+      const Motion& motion = *moving_walls_[b]->motion;
+      const Vec shift = motion.displacement_at(time), v = motion.velocity_at(time),
+                a = motion.acceleration_at(time);
+      boundaries_[b].move([&](std::uint32_t k) { return Kinematics{wall_start_[b][k] + shift, v, a}; });
+    }
+  }
+}
+
+void FluidSolver::advance_from(const Step& start, double dt) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t c = 0; c < fluid_.clusters(); ++c) {
+    const std::size_t first = c * lane_count;
+    for (int a = 0; a < dim; ++a) {
+      // x before v: its rate is the velocity of the evaluation, not the new one
+      store(load(start.x[a], first) + dt * load(fluid_.v[a], first), fluid_.x[a], first);
+      store(load(start.v[a], first) + dt * load(fluid_.a[a], first), fluid_.v[a], first);
+    }
+    store(load(start.rho, first) + dt * load(fluid_.drho, first), fluid_.rho, first);
+  }
+}
+
+void FluidSolver::advance(double dt) {
+  {
+    const auto timer = timers_.measure("neighbours");
+    neighbours_.update(fluid_, boundaries_, dt);
+  }
+  const Step start{fluid_.x, fluid_.v, fluid_.rho};
+  dynamics_.evaluate(fluid_, neighbours_.of_fluid(), boundaries_, given_, timers_);
+  advance_from(start, 0.5 * dt);
+  move_boundaries(time_ + 0.5 * dt);
+  dynamics_.evaluate(fluid_, neighbours_.of_fluid(), boundaries_, given_, timers_);
+  if (interface_boundary_) {
+    const auto timer = timers_.measure("reaction on the interface");
+    auto& boundary = boundaries_[*interface_boundary_];
+    dynamics_.react(fluid_, boundary);
+    interface_.add_load(boundary, given_[*interface_boundary_].force(), dt);
+  }
+  const auto timer = timers_.measure("step");
+  advance_from(start, dt);
+  time_ += dt;
+  move_boundaries(time_);
+  note_extremes();
+}
+
+void FluidSolver::note_extremes() {
+  largest_speed_ = largest_norm(fluid_.v, fluid_.count);
+  largest_acceleration_ = largest_norm(fluid_.a, fluid_.count);
+}
+
+}  // namespace toryu::fluid

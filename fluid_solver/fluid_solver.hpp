@@ -1,0 +1,76 @@
+/// The weakly compressible delta-SPH fluid: state, boundaries and the midpoint step.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "common/run/solver.hpp"
+#include "common/run/timers.hpp"
+#include "fluid_solver/dynamics.hpp"
+#include "fluid_solver/interface.hpp"
+#include "fluid_solver/neighbours.hpp"
+
+namespace toryu::fluid {
+
+class FluidSolver : public Solver {
+ public:
+  /// Fills the regions and the walls of the scene. Throws BadInput if bodies overlap or nothing is filled.
+  FluidSolver(const Parameters& parameters, const Scene& scene);
+
+  double time_step_limit() const override;
+  std::string_view time_step_rule() const override;
+  /// Midpoint step (31)-(32): two evaluations.
+  void advance(double dt) override;
+  void check(double time) const override;
+  Frame frame() const override;
+  std::vector<Observation> observe() const override;
+  std::vector<ActiveTerm> active_terms() const override { return dynamics_.active_terms(); }
+  std::size_t particle_count() const override { return fluid_.count; }
+
+  // the coupled run's side
+  /// How far the kernel sees [m].
+  double reach() const { return dynamics_.kernel().support(); }
+  void attach(const Interface& interface);
+  void begin_window(const InterfaceMotion& motion, double dt) { interface_.begin_window(motion, time_, dt); }
+  InterfaceLoad take_load() { return interface_.take_load(); }
+
+  double time() const { return time_; }
+  double kinetic_energy() const;
+  double potential_energy() const;  ///< against gravity [J per metre]
+  double elastic_energy() const;    ///< of compression [J per metre]
+  Vec momentum() const;
+  const Particles& particles() const { return fluid_; }
+  const std::vector<Boundary>& boundaries() const { return boundaries_; }
+  Timers& timers() { return timers_; }
+  long list_builds() const { return neighbours_.builds(); }
+
+ private:
+  struct Step;
+  void fill_regions();
+  void fill_walls();
+  void check_overlaps() const;
+  void move_boundaries(double time);
+  void advance_from(const Step& start, double dt);
+  void note_extremes();
+  double pressure_at(const Vec& point) const;
+  [[noreturn]] void fail(std::size_t particle, double time, const std::string& quantity, double value,
+                         const std::string& limit) const;
+
+  Parameters parameters_;
+  Scene scene_;
+  Dynamics dynamics_;
+  Neighbours neighbours_;
+  Particles fluid_;
+  std::vector<Boundary> boundaries_;
+  std::vector<const Wall*> moving_walls_;     ///< boundary b's, null where it stands still
+  std::vector<std::vector<Vec>> wall_start_;  ///< where moving walls' particles began
+  std::vector<Given> given_;
+  std::optional<std::size_t> interface_boundary_;
+  MovingInterface interface_;
+  std::vector<Vec> region_velocity_;
+  double time_ = 0;
+  double largest_speed_ = 0, largest_acceleration_ = 0;
+  Timers timers_;
+};
+
+}  // namespace toryu::fluid

@@ -1,0 +1,70 @@
+#include "fluid_solver/interface.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+Vec item(const std::vector<double>& values, std::size_t k) {
+  return Vec(Eigen::Map<const Vec>(values.data() + dim * k));
+}
+}  // namespace
+
+void MovingInterface::attach(const Interface& interface, Boundary& boundary, double rest_density,
+                             double strip_width) {
+  count_ = interface.size();
+  std::vector<Vec> positions(count_);
+  for (std::size_t k = 0; k < count_; ++k) positions[k] = item(interface.position, k);
+  boundary.name = "interface";
+  boundary.moves = true;
+  boundary.place(positions, interface.volume, rest_density, strip_width);
+  start_ = reported_ = positions;
+  velocity_.assign(count_, Vec::Zero());
+  acceleration_ = mean_velocity_ = velocity_;
+  take_load();
+}
+
+void MovingInterface::begin_window(const InterfaceMotion& motion, double time, double dt) {
+  const bool first = last_dt_ == 0;
+  for (std::size_t k = 0; k < count_; ++k) {
+    const Vec now = item(motion.position, k);
+    const Vec here = first ? now : Vec(start_[k] + velocity_[k] * last_dt_);
+    const Vec mean = first ? item(motion.velocity, k) : Vec((now - reported_[k]) / last_dt_);
+    acceleration_[k] = first ? item(motion.acceleration, k) : Vec((mean - mean_velocity_[k]) / last_dt_);
+    velocity_[k] = (now + mean * dt - here) / dt;
+    start_[k] = here;
+    reported_[k] = now;
+    mean_velocity_[k] = mean;
+  }
+  window_start_ = time;
+  last_dt_ = dt;
+}
+
+void MovingInterface::move(Boundary& boundary, double time) const {
+  const double since = time - window_start_;
+  boundary.move([&](std::uint32_t k) {
+    return Kinematics{start_[k] + velocity_[k] * since, velocity_[k], acceleration_[k]};
+  });
+}
+
+void MovingInterface::add_load(const Boundary& boundary, const Vec& received, double dt) {
+  for (std::size_t k = 0; k < boundary.count; ++k) {
+    const std::size_t n = boundary.id[k];
+    sum_.pressure[n] += boundary.p[k] * dt;
+    for (int a = 0; a < dim; ++a)
+      sum_.force[dim * n + static_cast<std::size_t>(a)] += boundary.force[a][k] * dt;
+  }
+  sum_.impulse_on_fluid += received * dt;
+  load_time_ += dt;
+}
+
+InterfaceLoad MovingInterface::take_load() {
+  InterfaceLoad mean = std::move(sum_);
+  for (auto* values : {&mean.pressure, &mean.force})
+    for (double& value : *values) value /= load_time_;
+  sum_ = InterfaceLoad{};
+  sum_.pressure.assign(count_, 0.0);
+  sum_.force.assign(dim * count_, 0.0);
+  load_time_ = 0;
+  return mean;
+}
+
+}  // namespace toryu::fluid

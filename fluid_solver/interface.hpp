@@ -1,0 +1,37 @@
+/// The elastic solid's interface as the fluid holds it: wall particles whose motion comes from the solid, and
+/// the load that they bear.
+#pragma once
+
+#include "common/link/participant.hpp"
+#include "fluid_solver/boundary.hpp"
+
+namespace toryu::fluid {
+
+class MovingInterface {
+ public:
+  /// `interface` as the solid registered it; the boundary takes its places.
+  void attach(const Interface& interface, Boundary& boundary, double rest_density, double strip_width);
+
+  /// Begins a window of `dt` [s] at `time` [s] with the solid's motion at that time. Over the window each
+  /// particle goes in a straight line from where the fluid has it to where the solid's mean velocity of the
+  /// last window leads it, so that displacement and velocity agree exactly and no position ever jumps.
+  void begin_window(const InterfaceMotion& motion, double time, double dt);
+  /// Moves the boundary's particles to where they are at `time`.
+  void move(Boundary& boundary, double time) const;
+
+  /// Adds the boundary's force over `dt` [s] to the load; `received` is the force that the fluid got from it.
+  void add_load(const Boundary& boundary, const Vec& received, double dt);
+  /// The mean load since the last call.
+  InterfaceLoad take_load();
+
+ private:
+  std::size_t count_ = 0;
+  double window_start_ = 0, last_dt_ = 0;
+  std::vector<Vec> start_, velocity_, acceleration_;  ///< over the present window
+  std::vector<Vec> reported_,
+      mean_velocity_;  ///< the solid's last position, its velocity over the last window
+  double load_time_ = 0;
+  InterfaceLoad sum_;
+};
+
+}  // namespace toryu::fluid

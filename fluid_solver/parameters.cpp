@@ -1,0 +1,102 @@
+#include "fluid_solver/parameters.hpp"
+
+namespace toryu::fluid {
+
+void describe(ParameterTable& table, Region& region) {
+  table.text("name", region.name, {.required = true, .help = "name in the log"});
+  table.group("box", region.box, "filled with fluid at the start");
+  table.vector("velocity", region.velocity, {.unit = "m/s", .help = "velocity at the start"});
+}
+
+void describe(ParameterTable& table, HydrostaticStart& start) {
+  table.number("surface_level", start.surface_level,
+               {.unit = "m", .required = true, .help = "height of the free surface, against gravity"});
+}
+
+void describe(ParameterTable& table, DensityDiffusion& diffusion) {
+  table.number("delta", diffusion.delta,
+               {.minimum = 0, .maximum = 1, .help = "coefficient of (18); Marrone et al. 2011 take 0.1"});
+  table.choice(
+      "gradient", diffusion.gradient, {"renormalised", "none"},
+      {.help =
+           "linear part left alone: renormalised (Marrone et al. 2011) or none (Molteni & Colagrossi 2009)"});
+}
+
+void describe(ParameterTable& table, ArtificialViscosity& viscosity) {
+  table.number("alpha", viscosity.alpha,
+               {.minimum = 0,
+                .maximum = 10,
+                .help = "linear coefficient A of (23); 0.02 in delta-SPH, 1 in the thesis"});
+  table.number("beta", viscosity.beta,
+               {.minimum = 0, .maximum = 10, .help = "quadratic coefficient B of (23)"});
+}
+
+void describe(ParameterTable& table, LaminarViscosity& viscosity) {
+  table.number("dynamic_viscosity", viscosity.dynamic_viscosity,
+               {.unit = "Pa s", .minimum = 0, .required = true, .help = "mu of (4)"});
+}
+
+void describe(ParameterTable& table, WallModel& model) {
+  table.choice("slip", model.slip, {"no_slip", "free_slip"},
+               {.help = "whether viscous terms act at walls (28)"});
+  table.choice(
+      "density", model.density, {"rest", "from_pressure"},
+      {.help = "density of wall particles: the rest density (thesis), or (3) inverted (Adami et al. 2012)"});
+}
+
+void describe(ParameterTable& table, Limits& limits) {
+  table.number(
+      "largest_speed", limits.largest_speed,
+      {.unit = "m/s", .minimum = 0, .help = "a faster particle stops the run; 0: the speed of sound"});
+  table.number("largest_density_change", limits.largest_density_change,
+               {.minimum = 0,
+                .maximum = 1,
+                .above_minimum = true,
+                .help = "a particle whose |rho/rho_0 - 1| is larger stops the run"});
+}
+
+void describe(ParameterTable& table, Observer& observer) {
+  table.text("name", observer.name, {.required = true, .help = "name of the column in fluid.csv"});
+  table.choice(
+      "quantity", observer.quantity, {"front_x", "pressure"},
+      {.required = true, .help = "front_x: largest x of the fluid; pressure: kernel mean about `point`"});
+  table.vector("point", observer.point, {.unit = "m", .help = "where the pressure is probed"});
+}
+
+void describe(ParameterTable& table, Parameters& p) {
+  table.number(
+      "density", p.density,
+      {.unit = "kg/m3", .minimum = 0, .above_minimum = true, .required = true, .help = "rest density rho_0"});
+  table.number("sound_speed", p.sound_speed,
+               {.unit = "m/s",
+                .minimum = 0,
+                .above_minimum = true,
+                .required = true,
+                .help = "c_0 of (3), at least ten times the largest speed"});
+  table.integer("stiffness_exponent", p.stiffness_exponent,
+                {.minimum = 1, .maximum = 7, .help = "gamma of (3)"});
+  table.number(
+      "spacing", p.spacing,
+      {.unit = "m", .minimum = 0, .above_minimum = true, .required = true, .help = "particle spacing d_0"});
+  table.number("smoothing_ratio", p.smoothing_ratio, {.minimum = 1.0, .maximum = 2.0, .help = "h/d_0"});
+  table.number("time_step_share", p.time_step_share,
+               {.minimum = 0,
+                .maximum = 2,
+                .above_minimum = true,
+                .help = "share of the stable time step that is taken"});
+  table.number(
+      "neighbour_skin", p.neighbour_skin,
+      {.minimum = 0.01, .maximum = 1, .help = "margin of the neighbour lists over the kernel's support"});
+  table.list("region", p.regions, "where there is fluid at the start");
+  table.list("hole", p.holes, "cut out of the regions");
+  table.optional("hydrostatic_start", p.hydrostatic_start, "start at rest under gravity");
+  table.optional("density_diffusion", p.density_diffusion, "delta-SPH, (18)-(21)");
+  table.optional("artificial_viscosity", p.artificial_viscosity, "(23)-(24)");
+  table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of the medium");
+  table.group("wall_model", p.wall_model, "how walls act on the fluid, (27)-(29)");
+  table.group("limits", p.limits, "bounds of physics");
+  table.list("observer", p.observers, "numbers reported over time in fluid.csv");
+  table.require(!p.regions.empty(), "region", "a fluid needs at least one [[fluid.region]]");
+}
+
+}  // namespace toryu::fluid

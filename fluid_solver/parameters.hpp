@@ -1,0 +1,92 @@
+/// The `[fluid]` section of a case file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/case/parameter_table.hpp"
+#include "common/scene/scene.hpp"
+
+namespace toryu::fluid {
+
+/// A box filled with fluid at the start.
+struct Region {
+  std::string name;
+  Box box;
+  Vec velocity = Vec::Zero();  ///< at the start [m/s]
+};
+void describe(ParameterTable& table, Region& region);
+
+/// Start at rest under gravity: density from the equation of state for the weight of the fluid above.
+struct HydrostaticStart {
+  double surface_level = 0;  ///< height of the free surface against gravity [m]
+};
+void describe(ParameterTable& table, HydrostaticStart& start);
+
+/// What the linear part of the density is taken from before it is diffused.
+enum class DiffusionGradient { renormalised, none };
+struct DensityDiffusion {
+  double delta = 0.1;
+  DiffusionGradient gradient = DiffusionGradient::renormalised;
+};
+void describe(ParameterTable& table, DensityDiffusion& diffusion);
+
+struct ArtificialViscosity {
+  double alpha = 0.02;
+  double beta = 0.0;
+};
+void describe(ParameterTable& table, ArtificialViscosity& viscosity);
+
+struct LaminarViscosity {
+  double dynamic_viscosity = 1e-3;  ///< [Pa s]
+};
+void describe(ParameterTable& table, LaminarViscosity& viscosity);
+
+enum class WallSlip { no_slip, free_slip };
+enum class WallDensity { rest, from_pressure };
+struct WallModel {
+  WallSlip slip = WallSlip::no_slip;
+  WallDensity density = WallDensity::rest;
+};
+void describe(ParameterTable& table, WallModel& model);
+
+/// Bounds beyond which a run is stopped as unphysical.
+struct Limits {
+  double largest_speed = 0;             ///< [m/s]; 0: the speed of sound
+  double largest_density_change = 0.3;  ///< |rho/rho_0 - 1|
+};
+void describe(ParameterTable& table, Limits& limits);
+
+enum class Quantity { front_x, pressure };
+/// A number that the run reports over time.
+struct Observer {
+  std::string name;
+  Quantity quantity = Quantity::pressure;
+  Vec point = Vec::Zero();  ///< [m], of a pressure probe
+};
+void describe(ParameterTable& table, Observer& observer);
+
+struct Parameters {
+  double density = 1000.0;       ///< rho_0 [kg/m3]
+  double sound_speed = 0;        ///< c_0 [m/s]
+  int stiffness_exponent = 7;    ///< gamma of (3)
+  double spacing = 0;            ///< d_0 [m]
+  double smoothing_ratio = 1.3;  ///< h/d_0
+  double time_step_share = 1.0;  ///< share of the stable step that is taken
+  double neighbour_skin = 0.12;  ///< margin of the neighbour lists, as a share of the kernel's support
+  std::vector<Region> regions;
+  std::vector<Box> holes;
+  std::optional<HydrostaticStart> hydrostatic_start;
+  std::optional<DensityDiffusion> density_diffusion;
+  std::optional<ArtificialViscosity> artificial_viscosity;
+  std::optional<LaminarViscosity> laminar_viscosity;
+  WallModel wall_model;
+  Limits limits;
+  std::vector<Observer> observers;
+
+  double h() const { return smoothing_ratio * spacing; }
+};
+void describe(ParameterTable& table, Parameters& parameters);
+
+}  // namespace toryu::fluid

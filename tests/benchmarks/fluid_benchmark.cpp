@@ -1,0 +1,51 @@
+/// Time of one evaluation of the fluid's rates: delta-SPH with renormalised gradient, artificial viscosity, walls.
+/// The counter `ns_per_particle` is what the README quotes.
+
+#include <benchmark/benchmark.h>
+#include <omp.h>
+
+#include <cmath>
+
+#include "fluid_solver/fluid_solver.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+/// A tank of n x n particles at rest under gravity, walls on three sides.
+std::pair<Parameters, Scene> tank(int n) {
+  Parameters p;
+  p.spacing = 1.0 / n;
+  p.sound_speed = 30.0;
+  p.regions.push_back({"water", {Vec(0, 0), Vec(1, 1)}, Vec::Zero()});
+  p.hydrostatic_start = HydrostaticStart{1.0};
+  p.density_diffusion = DensityDiffusion{};
+  p.artificial_viscosity = ArtificialViscosity{};
+  Scene scene;
+  scene.gravity = Vec(0, -9.81);
+  scene.domain = {Vec(-1, -1), Vec(2, 2)};
+  const double w = 3 * p.spacing;
+  scene.walls = {{"left", {Vec(-w, -w), Vec(0, 1.2)}, {}},
+                 {"right", {Vec(1, -w), Vec(1 + w, 1.2)}, {}},
+                 {"floor", {Vec(0, -w), Vec(1, 0)}, {}}};
+  return {p, scene};
+}
+
+/// Whole steps, neighbour lists and everything else included: two evaluations each.
+void step(benchmark::State& state) {
+  omp_set_num_threads(static_cast<int>(state.range(1)));
+  const auto [parameters, scene] = tank(static_cast<int>(state.range(0)));
+  FluidSolver fluid(parameters, scene);
+  double evaluations = 0;
+  for (auto _ : state) {
+    fluid.advance(fluid.time_step_limit());
+    evaluations += 2;
+  }
+  const auto n = static_cast<double>(fluid.particle_count());
+  state.counters["particles"] = n;
+  state.counters["ns_per_particle"] =
+      benchmark::Counter(n * evaluations * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(step)->Args({100, 1})->Args({100, 2})->Args({316, 1})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace toryu::fluid
