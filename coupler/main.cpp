@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "common/link/coupler_link.hpp"
-#include "common/link/ending.hpp"
+#include "common/run/ending.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
 #include "common/run/program.hpp"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "common/link/ending.hpp"
+#include "common/run/ending.hpp"
 #include "common/run/program.hpp"
 
 namespace toryu {

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "common/link/dds.hpp"
-#include "common/link/ending.hpp"
+#include "common/run/ending.hpp"
 #include "common/link/wire.hpp"
 #include "common/run/program.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/run/ending.hpp"
 #include "common/run/program.hpp"
 #include "common/run/progress.hpp"
 
@@ -28,6 +29,20 @@ void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps
     record.at(time);
     progress.update(time, record.steps());
   }
+}
+
+void run_recorded(RunRecord& record, const std::function<void()>& body, const std::function<void()>& leave,
+                  const std::function<double()>& waiting_time) {
+  const auto waited = [&] { return waiting_time ? waiting_time() : 0.0; };
+  try {
+    body();
+  } catch (...) {
+    if (leave) leave();
+    const Ending ending = ending_of_exception();
+    record.finish(ending.code, ending.reason, waited());
+    throw;
+  }
+  record.finish(ExitCode::done, "", waited());
 }
 
 }  // namespace toryu

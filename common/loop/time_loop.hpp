@@ -1,6 +1,8 @@
 /// The time loop of a solver without a partner, and the sub-steps that it shares with the coupled one.
 #pragma once
 
+#include <functional>
+
 #include "common/loop/run_record.hpp"
 
 namespace toryu {
@@ -16,5 +18,11 @@ SubSteps advance_by(Solver& solver, double length, long most = std::numeric_limi
 /// Runs to the end time of the scene; no messages, no other process. The time-step limit and the state are
 /// looked at anew every `steps_between_checks`.
 void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks);
+
+/// Runs `body` and finishes `record` whatever the end is: the end of the body, or the exception that it
+/// throws, which is told to `leave` (if any) and thrown on. `waiting_time` gives the time spent waiting for
+/// partners [s].
+void run_recorded(RunRecord& record, const std::function<void()>& body,
+                  const std::function<void()>& leave = {}, const std::function<double()>& waiting_time = {});
 
 }  // namespace toryu

@@ -1,4 +1,4 @@
-#include "common/link/ending.hpp"
+#include "common/run/ending.hpp"
 
 namespace toryu {
 

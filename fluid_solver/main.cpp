@@ -1,0 +1,95 @@
+/// The fluid participant: computes the fluid of a case, alone or in turn with a solid.
+#include <fmt/format.h>
+#include <omp.h>
+#include <spdlog/spdlog.h>
+
+#include "common/link/participant.hpp"
+#include "common/loop/time_loop.hpp"
+#include "common/output/atomic_file.hpp"
+#include "fluid_solver/fluid_solver.hpp"
+
+namespace {
+
+using namespace toryu;
+using fluid::FluidSolver;
+
+RunRecord::Counts particle_counts(const FluidSolver& solver) {
+  RunRecord::Counts counts{{"fluid", static_cast<long>(solver.particle_count())}};
+  for (const auto& boundary : solver.boundaries())
+    counts.emplace_back(boundary.name, static_cast<long>(boundary.count));
+  return counts;
+}
+
+void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
+  write_atomically(options.out / "used_case.toml", file.used());
+  RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
+  run_recorded(record, [&] { run_alone(scene, solver, record, 1); });
+}
+
+/// Takes turns with the solid until the coupler ends the run.
+void take_turns(FluidLink& link, FluidSolver& solver, RunRecord& record) {
+  record.at(0);
+  while (const auto turn = link.next_window()) {
+    throw_if_interrupted();
+    solver.begin_window(turn->motion, turn->dt);
+    for (double left = turn->dt; left > 1e-9 * turn->dt;) {
+      const SubSteps steps = advance_by(solver, left, 1);
+      left -= steps.dt;
+      record.count_steps(1, steps.dt);
+      link.count_step();
+    }
+    record.at(turn->time + turn->dt);
+    link.send(solver.take_load(), solver.time_step_limit(),
+              {.kinetic_energy = solver.kinetic_energy(),
+               .potential_energy = solver.potential_energy(),
+               .momentum = solver.momentum()});
+  }
+}
+
+void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
+  FluidLink link({.role = "fluid_solver",
+                  .version = provenance(1).version,
+                  .out = options.out,
+                  .case_hash = file.hash(),
+                  .used_case = file.used()});
+  try {
+    const Interface interface = link.join(solver.reach(), solver.time_step_limit());
+    spdlog::info("the solid's interface has {} particles of spacing {:g} m", interface.size(),
+                 interface.spacing);
+    solver.attach(interface);
+  } catch (...) {
+    link.leave();
+    throw;
+  }
+  RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
+  run_recorded(
+      record, [&] { take_turns(link, solver, record); }, [&] { link.leave(); },
+      [&] { return link.waiting_time(); });
+}
+
+ExitCode solve(const Options& options) {
+  CaseFile file(options.case_path, options.overrides);
+  const Scene scene = read_scene(file);
+  fluid::Parameters parameters;
+  file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
+  file.leave_to_others({"solid", "coupling"});
+  if (options.describe) {
+    fmt::print("{}", file.description());
+    return ExitCode::done;
+  }
+  file.throw_if_faulty();
+  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs());
+  FluidSolver solver(parameters, scene);
+  if (options.check) return ExitCode::done;
+  if (file.has("solid"))
+    compute_coupled(options, file, scene, solver);
+  else
+    compute_alone(options, file, scene, solver);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return toryu::run_program("fluid_solver", argc, argv, solve);
+}
