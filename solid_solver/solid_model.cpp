@@ -65,7 +65,7 @@ void SolidModel::check(double time) const {
     auto good = dot(v, v) <= speed_2;
     for (int a = 0; a < dim; ++a)
       good = good && X[a] + u[a] >= domain_.min[a] && X[a] + u[a] <= domain_.max[a];
-    if (stdx::all_of(good)) continue;
+    if (all_of(good)) continue;
     for (std::size_t i = k; i < std::min(k + lane_count, particle_count()); ++i) {
       const Vec x = at(X_, i) + at(u_, i);
       if (!(at(v_, i).norm() <= speed))

@@ -51,6 +51,8 @@ struct Lanes {
 
   TORYU_INLINE friend Mask operator<(Lanes a, Lanes b) { return a.value < b.value; }
   TORYU_INLINE friend Mask operator>(Lanes a, Lanes b) { return a.value > b.value; }
+  TORYU_INLINE friend Mask operator<=(Lanes a, Lanes b) { return a.value <= b.value; }
+  TORYU_INLINE friend Mask operator>=(Lanes a, Lanes b) { return a.value >= b.value; }
 
   Vector value;
 };
@@ -76,6 +78,11 @@ TORYU_INLINE bool any_of(Lanes::Mask mask) {
   long long any = 0;
   for (std::size_t lane = 0; lane < lane_count; ++lane) any |= mask[lane];
   return any != 0;
+}
+TORYU_INLINE bool all_of(Lanes::Mask mask) {
+  long long all = -1;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) all &= mask[lane];
+  return all != 0;
 }
 TORYU_INLINE double sum_of(Lanes a) {
   double sum = 0;
@@ -104,6 +111,11 @@ TORYU_INLINE Lanes inverse_sqrt(Lanes a) {
   for (std::size_t lane = 0; lane < lane_count; ++lane) root.value[lane] = std::sqrt(a[lane]);
   return 1.0 / root;
 #endif
+}
+
+/// sqrt(a) likewise, exactly 0 for a = 0.
+TORYU_INLINE Lanes square_root(Lanes a) {
+  return a * inverse_sqrt(max(a, 1e-300));
 }
 
 /// 1/a, likewise.

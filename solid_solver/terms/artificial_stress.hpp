@@ -36,7 +36,7 @@ inline SymmetricLanes artificial_stress(const SymmetricLanes& sigma, const Lanes
   const Lanes scale = -epsilon * inverse_rho_squared;
   const Lanes R_1 = scale * positive_part(mean + D), R_2 = scale * positive_part(mean - D);
   const Lanes R_mean = 0.5 * (R_1 + R_2);
-  const Lanes R_over_D = 0.5 * (R_1 - R_2) * inverse(stdx::max(D, Lanes(1e-300)));
+  const Lanes R_over_D = 0.5 * (R_1 - R_2) * inverse(max(D, Lanes(1e-300)));
   return {R_mean + R_over_D * difference, R_mean - R_over_D * difference, R_over_D * sigma.xy};
 }
 

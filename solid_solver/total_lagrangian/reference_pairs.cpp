@@ -23,8 +23,8 @@ ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size
     for (const std::uint32_t j : list_.sources(c)) {
       const VecLanes X_ij{X_i[0] - X[0][j], X_i[1] - X[1][j]};
       const Lanes R = square_root(dot(X_ij, X_ij));
-      Lanes weight = volume[j] * W.gradient_over_r(R, inverse(stdx::max(R, Lanes(1e-6 * h))));
-      where(R < 1e-6 * h, weight) = 0.0;
+      Lanes weight = volume[j] * W.gradient_over_r(R, inverse(max(R, Lanes(1e-6 * h))));
+      weight = select(R < 1e-6 * h, 0.0, weight);
       store(weight, w);
       w += lane_count;
       M_xx -= weight * X_ij[0] * X_ij[0];

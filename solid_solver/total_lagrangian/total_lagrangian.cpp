@@ -150,11 +150,11 @@ double TotalLagrangian::largest_stretch_squared() const {
   Lanes largest = 1.0;
   for (std::size_t i = 0; i < padded(particle_count()); i += lane_count) {
     Lanes smaller;
-    largest = stdx::max(
+    largest = max(
         largest,
         largest_principal<Lanes>({load(H_[0], i), load(H_[1], i), load(H_[2], i), load(H_[3], i)}, smaller));
   }
-  return stdx::hmax(largest);
+  return largest_of(largest);
 }
 
 double TotalLagrangian::time_step_limit() const {
@@ -177,7 +177,7 @@ void TotalLagrangian::check_strain(double time) const {
     const Tensor<Lanes> H{load(H_[0], i), load(H_[1], i), load(H_[2], i), load(H_[3], i)};
     const Lanes larger = largest_principal(H, smaller);
     const Lanes J = (1.0 + H[0]) * (1.0 + H[3]) - H[1] * H[2];
-    if (stdx::all_of(larger <= longest * longest && smaller >= shortest * shortest && J > 0.0)) continue;
+    if (all_of((larger <= longest * longest) & (smaller >= shortest * shortest) & (J > 0.0))) continue;
     for (std::size_t k = i; k < std::min(i + lane_count, particle_count()); ++k) {
       double least;
       const Tensor<double> H_k = gradient(k);
