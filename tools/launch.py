@@ -114,13 +114,17 @@ def describe(commands):
 
 @contextlib.contextmanager
 def sole_user(out):
-    """Holds the results folder for this run: two runs in one folder would mix."""
+    """Holds the results folder for this run: two runs in one folder would mix. A coupler that was started by hand
+    holds it by its own lock."""
     out.mkdir(parents=True, exist_ok=True)
-    with open(out / ".run.lock", "w") as lock:
+    with open(out / "launch.lock", "w") as lock, open(out / "coupler.lock", "a") as lock_of_coupler:
         try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            for file in (lock, lock_of_coupler):
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise SystemExit(complain(f"--out {out}: error: another run is writing there; name another folder"))
+            raise SystemExit(complain(f"{out}: error: another run writes its results here; wait for it or give --out "
+                                      "another folder"))
+        fcntl.flock(lock_of_coupler, fcntl.LOCK_UN)
         yield
 
 

@@ -38,4 +38,5 @@ def times(summaries):
         text = f"{wall:.1f} s"
         if waiting > 0 and wall > 0:
             text += f", {waiting / wall:.0%} of it waiting"
-        yield f"wall time {name}", f"{text}; {summary['steps']} steps, {summary['processor_time']:.1f} s of processor"
+        counted = "windows" if participant == "coupler" else "steps"
+        yield f"wall time {name}", f"{text}; {summary['steps']} {counted}, {summary['processor_time']:.1f} s of processor"

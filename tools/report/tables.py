@@ -84,12 +84,14 @@ def figures(out, summaries, comparisons, run):
 
 
 def parts_of(summary):
-    """(name, seconds, kind) of the wall time: waiting, the longest parts, the rest."""
+    """(name, seconds, kind) of the wall time: the longest parts, the rest, waiting (which parts may hold already)."""
     wall, waiting = summary["wall_time"], summary["waiting_time"]
     parts = sorted(summary.get("part", []), key=lambda p: -p["seconds"])
     named = [(p["name"], p["seconds"], "part") for p in parts[:MOST_PARTS] if p["seconds"] > 0.003 * wall]
-    rest = wall - waiting - sum(seconds for _, seconds, _ in named)
-    return named + ([("other", rest, "other")] if rest > 0.003 * wall else []) + [("waiting", waiting, "waiting")]
+    rest = max(0.0, wall - sum(seconds for _, seconds, _ in named))
+    waiting = min(waiting, rest)
+    unnamed = [("other", rest - waiting, "other"), ("waiting", waiting, "waiting")]
+    return named + [piece for piece in unnamed if piece[1] > 0.003 * wall]
 
 
 def times(summaries):

@@ -114,7 +114,8 @@ class WhatIsStarted(Launch):
             second = self.launch()
             self.assertEqual(second.returncode, 2)
             self.assertEqual(second.stderr,
-                             f"--out {self.out}: error: another run is writing there; name another folder\n")
+                             f"{self.out}: error: another run writes its results here; wait for it or give --out "
+                             "another folder\n")
         finally:
             first.terminate()
             first.wait(30)
