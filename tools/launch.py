@@ -56,9 +56,6 @@ def programs(options):
     path = results.case_file(options.case)
     executables = {"coupler": options.bin / "coupler", "fluid_solver": options.fluid or options.bin / "fluid_solver",
                    "solid_solver": options.solid or options.bin / "solid_solver"}
-    for name, executable in executables.items():
-        if not shutil.which(executable):
-            raise SystemExit(complain(f"{executable}: error: no such program, needed as {name}"))
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -67,6 +64,9 @@ def programs(options):
     if not needed:
         raise SystemExit(complain(f"{path}: error: no section [fluid] and no section [solid]: nothing to compute"))
     names = ["coupler", *needed.values()] if len(needed) == 2 else list(needed.values())
+    for name in names:
+        if not shutil.which(executables[name]):
+            raise SystemExit(complain(f"{executables[name]}: error: no such program, needed as {name}"))
     return {name: executables[name] for name in names}
 
 
@@ -117,14 +117,15 @@ def sole_user(out):
     """Holds the results folder for this run: two runs in one folder would mix. A coupler that was started by hand
     holds it by its own lock."""
     out.mkdir(parents=True, exist_ok=True)
-    with open(out / "launch.lock", "w") as lock, open(out / "coupler.lock", "a") as lock_of_coupler:
+    with open(out / "launch.lock", "w") as lock:
         try:
-            for file in (lock, lock_of_coupler):
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if (out / "coupler.lock").exists():
+                with open(out / "coupler.lock") as lock_of_coupler:
+                    fcntl.flock(lock_of_coupler, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise SystemExit(complain(f"{out}: error: another run writes its results here; wait for it or give --out "
                                       "another folder"))
-        fcntl.flock(lock_of_coupler, fcntl.LOCK_UN)
         yield
 
 

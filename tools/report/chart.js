@@ -38,7 +38,7 @@ function text(value, step) {
 function range(values) {
   let low = Infinity, high = -Infinity;
   for (const v of values) if (v !== null) { low = Math.min(low, v); high = Math.max(high, v); }
-  if (low > high) return [0, 1];
+  if (low > high || (low === 0 && high === 0)) return [0, 1];
   if (low > 0 && low < 0.6 * high) low = 0;
   if (high < 0 && high > 0.6 * low) high = 0;
   const margin = (high - low || Math.abs(high) || 1) * 0.05;

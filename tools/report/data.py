@@ -90,7 +90,9 @@ def readable(column):
 def group_of(column):
     """Columns of one group and unit share a chart."""
     name = column.partition("[")[0]
-    for word in ("energy", "momentum", "impulse", "displacement"):
+    if results.unit_of(column) == "J/m":
+        return "energy and work"
+    for word in ("momentum", "impulse", "displacement"):
         if word in name:
             return word
     return readable(column)
@@ -119,7 +121,7 @@ def charts(out, comparisons):
             if column != "time[s]" and (name, column) not in shown and any(map(math.isfinite, values)):
                 groups.setdefault((group_of(column), results.unit_of(column)), []).append((column, values))
         if groups:
-            order = ["energy", "momentum"]
+            order = ["energy and work", "momentum"]
             keys = sorted(groups, key=lambda k: order.index(k[0]) if k[0] in order else 9)
             others[name] = [chart(group, unit, [(readable(c), columns["time[s]"], v, "line")
                                                 for c, v in groups[group, unit]]) for group, unit in keys]

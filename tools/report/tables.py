@@ -32,7 +32,7 @@ SYMBOLS = {"alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon":
 
 def formula(text):
     """Plain text of a formula as HTML: Greek letters, subscripts, superscripts."""
-    text = re.sub(r"(?<![A-Za-z])([A-Za-z]+)(?![A-Za-z])", lambda found: SYMBOLS.get(found[0], found[0]), text)
+    text = re.sub(r"(?<![A-Za-z])(grad(?=W)|[A-Za-z]+(?![A-Za-z]))", lambda found: SYMBOLS.get(found[0], found[0]), text)
     text = re.sub(r"_\{?([A-Za-z0-9αβ]+)\}?", r"<sub>\1</sub>", html.escape(text))
     return re.sub(r"\^\(?(-?[A-Za-z0-9/]+)\)?", r"<sup>\1</sup>", text).replace(" - ", " − ")
 
@@ -109,7 +109,7 @@ def times(summaries):
             colour = f"{kind} p{i}" if kind == "part" else kind
             pieces.append(f'<span class="{colour}" style="width:{share:.4%}" title="{html.escape(label)}">'
                           f"{html.escape(name) if share > 0.08 else ''}</span>")
-        share = f"{summary['waiting_time'] / wall:.0%} waiting" if wall > 0 else ""
+        share = f"{summary['waiting_time'] / wall:.0%} waiting" if summary["waiting_time"] > 0 else ""
         bars.append(f'<div class="process"><div class="who">{html.escape(program(participant))}</div>'
                     f'<div class="bar">{"".join(pieces)}</div>'
                     f'<div class="sum">{wall:.1f} s<br><small>{share}</small></div></div>')
@@ -148,8 +148,8 @@ def numbers(summaries):
         rows.append([program(p), "steps", f"{s['steps']:,}".replace(",", " ")])
         if s["steps"] and 0 < s["smallest_time_step"] < math.inf:
             rule = f" ({s['time_step_rule']})" if s["time_step_rule"] else ""
-            rows.append(["", f"time step{rule}", f"{number(s['smallest_time_step'])} to "
-                                                 f"{number(s['largest_time_step'])} s"])
+            bounds = dict.fromkeys(number(s[f"{bound}_time_step"]) for bound in ("smallest", "largest"))
+            rows.append(["", f"time step{rule}", f"{' to '.join(bounds)} s"])
         rows += [["", name.replace("_", " "), number(value)] for name, value in s.get("figures", {}).items()]
     return table(["process", "figure", "value"], rows, (2,))
 

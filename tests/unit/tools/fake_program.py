@@ -35,6 +35,9 @@ class Plan:
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: sys.exit(int(code)))
 
+    def ready(self):
+        (out / f"{me.name}.ready").touch()
+
     def end(self, code):
         sys.exit(int(code))
 

@@ -148,7 +148,7 @@ def make_results(out, sides=("fluid", "solid"), end=0.4, frames=21):
         write_frames(out, side, body, np.linspace(0, end, frames))
         columns = {"time[s]": times, "kinetic_energy[J/m]": 3 * np.sin(8 * times) ** 2,
                    "potential_energy[J/m]": 9 - 3 * np.sin(8 * times) ** 2, "momentum_x[N.s/m]": 2 * np.sin(8 * times),
-                   "momentum_y[N.s/m]": -np.sin(16 * times)}
+                   "momentum_y[N.s/m]": -np.sin(16 * times), "leaked_mass[kg/m]": 0 * times}
         if side == "solid":
             columns |= {f"tip_displacement_{axis}[m]": [tip(t)[i] for t in times] for i, axis in enumerate("xy")}
         write_series(out, side, columns)

@@ -62,7 +62,7 @@ class Launch(unittest.TestCase):
             time.sleep(0.01)
 
     def started(self):
-        return len(self.pids()) == 3 and all(path.read_text() for path in self.out.glob("*.pid"))
+        return len(list(self.out.glob("*.ready"))) == 3
 
 
 class WhatIsStarted(Launch):
@@ -204,13 +204,14 @@ class Interruption(Launch):
     def start(self):
         process = subprocess.Popen(self.command(), stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
         self.wait_for(self.started)
-        time.sleep(0.3)  # until they have set their handlers
         return process
 
     def test_it_is_passed_on_and_ends_with_130(self):
-        plan = "end_when_asked 130; wait 60"
+        plan = "end_when_asked 130; ready; wait 60"
         for number in (signal.SIGINT, signal.SIGTERM):
             self.plan(plan, plan, plan)
+            for path in self.out.glob("*.ready"):
+                path.unlink()
             process = self.start()
             process.send_signal(number)
             _, words = process.communicate(timeout=30)
@@ -219,7 +220,7 @@ class Interruption(Launch):
             self.assert_nothing_left()
 
     def test_a_second_one_ends_even_the_deaf(self):
-        plan = "ignore_requests; wait 60"
+        plan = "ignore_requests; ready; wait 60"
         self.plan(plan, plan, plan)
         process = self.start()
         process.send_signal(signal.SIGINT)
@@ -230,7 +231,7 @@ class Interruption(Launch):
         self.assert_nothing_left()
 
     def test_nothing_outlives_a_killed_launcher(self):
-        self.plan("wait 60", "wait 60", "wait 60")
+        self.plan(*["ready; wait 60"] * 3)
         process = self.start()
         process.kill()
         process.communicate()

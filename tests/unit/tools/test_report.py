@@ -90,7 +90,7 @@ class Page(unittest.TestCase):
         self.assertEqual(content["compared"][0]["unit"], "mm")
         self.assertAlmostEqual(max(v for _, v in lines[0]["points"]), 40, places=3)
         self.assertEqual([chart["title"] for chart in content["others"]["solid"]],
-                         ["energy", "momentum", "displacement"])
+                         ["energy and work", "momentum", "leaked mass", "displacement"])
 
     def test_a_failed_run_says_so_with_its_last_words(self):
         self.make(end=0.2, frames=2)
@@ -142,8 +142,8 @@ class Pieces(unittest.TestCase):
         self.assertEqual(data.scaled("kg/m3", 1000), (1.0, "kg/m³"))
 
     def test_formulas(self):
-        self.assertEqual(tables.formula("-m_j Pi_ij grad_i W_ij < eta^2"),
-                         "-m<sub>j</sub> Π<sub>ij</sub> ∇<sub>i</sub> W<sub>ij</sub> &lt; η<sup>2</sup>")
+        self.assertEqual(tables.formula("-m_j Pi_ij gradW_ij < eta^2"),
+                         "-m<sub>j</sub> Π<sub>ij</sub> ∇W<sub>ij</sub> &lt; η<sup>2</sup>")
 
     def test_a_thinned_line_keeps_its_extremes(self):
         ys = [0.0] * 10000
