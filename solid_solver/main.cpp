@@ -3,7 +3,7 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
-#include "common/link/ending.hpp"
+#include "common/run/ending.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/program.hpp"
 #include "solid_solver/make_model.hpp"

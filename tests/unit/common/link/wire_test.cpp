@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "common/link/ending.hpp"
+#include "common/run/ending.hpp"
 
 namespace toryu {
 namespace {
