@@ -13,10 +13,7 @@ toml::table parse_document(const std::string& text, const std::string& place) {
   try {
     return toml::parse(std::string_view(text), std::string_view(place));
   } catch (const toml::parse_error& error) {
-    // A line break is quoted as it is by the parser; a message must stay one line.
-    std::string description(error.description());
-    if (const auto at = description.find('\n'); at != std::string::npos) description.replace(at, 1, "\\n");
-    throw BadInput({fault_at(error.source(), "not valid TOML: " + description)});
+    throw BadInput({fault_at(error.source(), fmt::format("not valid TOML: {}", error.description()))});
   }
 }
 

@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
     Kinds, OverrideFaults,
     testing::Values(
         OverrideFault{"None", {"medium.density=2", "medium.region.left.box.max=[0.5,1]"}, ""},
-        OverrideFault{"OfAnother", {"other.densty=1", "other.part.0.x=1"}, ""},
+        OverrideFault{"OfAnother", {"other.densty=1", "other.part.x=1", "other.part.x.y=1"}, ""},
         OverrideFault{
             "UnknownKey",
             {"medium.densty=1"},
@@ -242,6 +242,18 @@ TEST(SceneFaults, MotionWhoseTimesDoNotIncrease) {
   EXPECT_EQ(
       CaseText(sound_scene + "motion = { velocity = [[0, 0, 0], [1, 1, 0], [1, 2, 0]] }\n").scene_faults(),
       "case.toml:8:12: error: times in 'velocity' must increase: 1 comes after 1");
+}
+
+TEST(SceneFaults, EachJointCheckOfASection) {
+  EXPECT_EQ(
+      CaseText(sound_scene + "motion = { velocity = [[2, 0, 0], [1, 1, 0], [0, 2, 0]] }\n").scene_faults(),
+      "case.toml:8:12: error: times in 'velocity' must increase: 1 comes after 2\n"
+      "case.toml:8:12: error: times in 'velocity' must increase: 0 comes after 1");
+}
+
+TEST(SceneFaults, WallWithAFaultyBoxIsNotComparedWithTheDomain) {
+  EXPECT_EQ(CaseText(sound_scene + "[[wall]]\nname = 'roof'\nbox = {min=[0,5], max=[2,4]}\n").scene_faults(),
+            "case.toml:10:19: error: 'max' must exceed 'min' in each direction");
 }
 
 TEST(SceneFaults, MotionWithoutRows) {

@@ -106,6 +106,11 @@ TEST_F(ExampleProgram, RefusesAnOptionWithoutValue) {
   EXPECT_EQ(ending.error, "example_program: error: --out: 1 required DIR missing\n");
 }
 
+TEST_F(ExampleProgram, RefusesLessThanNoThread) {
+  EXPECT_EQ(run("room --threads -1").error, "--threads -1: error: must be an integer of at least 0\n");
+  EXPECT_EQ(run("room --threads 1x").error, "--threads 1x: error: must be an integer of at least 0\n");
+}
+
 TEST_F(ExampleProgram, WantsACase) {
   EXPECT_EQ(run("").error, "example_program: error: no CASE given; see --help\n");
   EXPECT_EQ(run("").code, 2);
