@@ -39,4 +39,4 @@ command=(cmake --build "$folder" --parallel "$(nproc)")
 [ ${#targets[@]} -eq 0 ] || command+=(--target "${targets[@]}")
 start=$SECONDS
 "${command[@]}" 2>&1 | tee "$log" | show_progress || fail "building $folder"
-grep -q 'no work to do' "$log" || echo "Built $folder in $((SECONDS - start)) s" >&2
+! grep -qE '^\[.*\] (Building|Linking)' "$log" || echo "Built $folder in $((SECONDS - start)) s" >&2

@@ -27,12 +27,15 @@ function ticks(low, high, count) {
   return {all, step};
 }
 
+// A number for the eye; on an axis with as many decimals as its `step` asks for.
 function text(value, step) {
   if (value === null || value === undefined) return "–";
   const size = Math.abs(value);
-  if (step === undefined) return size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(3) : String(+value.toPrecision(4));
-  if (size !== 0 && (size >= 1e6 || step < 1e-5)) return value.toExponential(1);
-  return value.toFixed(Math.max(0, Math.min(8, Math.ceil(-Math.log10(step) - 1e-9) + (/[25]/.test(step.toExponential()) && step.toExponential().startsWith("2.5") ? 1 : 0))));
+  if (size === 0) return "0";
+  if (step === undefined) return size < 1e-3 || size >= 1e6 ? value.toExponential(3) : String(+value.toPrecision(4));
+  if (size >= 1e6 || step < 1e-5) return value.toExponential(1);
+  const decimals = Math.ceil(-Math.log10(step) - 1e-9) + (step.toExponential().startsWith("2.5") ? 1 : 0);
+  return value.toFixed(Math.max(0, decimals));
 }
 
 function range(values) {
@@ -65,7 +68,7 @@ class Chart {
     this.legend = html("div", {class: "legend"}, figure);
     const {width, height, left, right, top, bottom} = CHART;
     this.picture = svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": content.title}, figure);
-    const [low, high] = range(content.lines.flatMap((line) => line.points.map((p) => p[1])));
+    const [low, high] = range(content.lines.flatMap((line) => line.points.filter((p) => p[0] <= end).map((p) => p[1])));
     this.x = (time) => left + (time - start) / (end - start || 1) * (width - left - right);
     this.y = (value) => height - bottom - (value - low) / (high - low) * (height - top - bottom);
     this.time = (x) => start + (x - left) / (width - left - right) * (end - start);

@@ -58,6 +58,9 @@ def scaled(unit, largest):
     return 10.0 ** -power, PREFIXES[power] + pretty(unit)
 
 
+NOT_DRAWN = {"time[s]", "window[1]"}  # they only count
+
+
 # Charts --------------------------------------------------------------------------------------------------------------
 
 def thinned(xs, ys):
@@ -95,7 +98,7 @@ def group_of(column):
     for word in ("momentum", "impulse", "displacement"):
         if word in name:
             return word
-    return readable(column)
+    return re.sub(r" [xy]$", "", readable(column))
 
 
 def charts(out, comparisons):
@@ -118,7 +121,7 @@ def charts(out, comparisons):
     for name, columns in series.items():
         groups = {}
         for column, values in columns.items():
-            if column != "time[s]" and (name, column) not in shown and any(map(math.isfinite, values)):
+            if column not in NOT_DRAWN and (name, column) not in shown and any(map(math.isfinite, values)):
                 groups.setdefault((group_of(column), results.unit_of(column)), []).append((column, values))
         if groups:
             order = ["energy and work", "momentum"]

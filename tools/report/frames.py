@@ -115,7 +115,7 @@ def measure(body, domain):
         if len(values):
             quantity.low, quantity.high = (float(v) for v in np.percentile(values, [0.2, 99.8]))
         if quantity.high <= quantity.low:
-            quantity.high = quantity.low + max(1.0, abs(quantity.low)) * 1e-3
+            quantity.high = quantity.low + (abs(quantity.low) * 1e-3 or 1.0)
     boxes = [box for box in boxes if box] or [domain]
     low, high = np.min([b[0] for b in boxes], axis=0), np.max([b[1] for b in boxes], axis=0)
     return np.maximum(low, domain[0]), np.minimum(high, domain[1])

@@ -31,10 +31,11 @@ SYMBOLS = {"alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon":
 
 
 def formula(text):
-    """Plain text of a formula as HTML: Greek letters, subscripts, superscripts."""
+    """Plain text of a formula as HTML: Greek letters, subscripts, superscripts, units."""
     text = re.sub(r"(?<![A-Za-z])(grad(?=W)|[A-Za-z]+(?![A-Za-z]))", lambda found: SYMBOLS.get(found[0], found[0]), text)
-    text = re.sub(r"_\{?([A-Za-z0-9αβ]+)\}?", r"<sub>\1</sub>", html.escape(text))
-    return re.sub(r"\^\(?(-?[A-Za-z0-9/]+)\)?", r"<sup>\1</sup>", text).replace(" - ", " − ")
+    text = re.sub(r"(?<=\w)_([^\W_]+)", r"<sub>\1</sub>", html.escape(text))
+    text = re.sub(r"(?<=[ /.]m|[ /.]s)([23])\b", r"<sup>\1</sup>", text)
+    return re.sub(r"\^(-?\w+)", r"<sup>\1</sup>", text).replace(" - ", " − ")
 
 
 def program(participant):
@@ -126,7 +127,7 @@ def times(summaries):
 def terms(summaries):
     text = ""
     for participant, summary in summaries.items():
-        rows = "".join(f'<tr>{cell(t["name"])}<td class="formula">{formula(t["formula"])}</td>{cell(t["parameters"])}'
+        rows = "".join(f'<tr>{cell(t["name"])}<td class="formula">{formula(t["formula"])}</td><td>{formula(t["parameters"])}</td>'
                        f'{cell(t["source"])}</tr>' for t in summary.get("term", []))
         if rows:
             text += (f'<h3>{html.escape(program(participant))}</h3><div class="scroll"><table class="terms"><thead><tr>'
@@ -145,7 +146,7 @@ def numbers(summaries):
     """Steps and other figures of the processes."""
     rows = []
     for p, s in summaries.items():
-        rows.append([program(p), "steps", f"{s['steps']:,}".replace(",", " ")])
+        rows.append([program(p), "windows" if p == "coupler" else "steps", f"{s['steps']:,}".replace(",", " ")])
         if s["steps"] and 0 < s["smallest_time_step"] < math.inf:
             rule = f" ({s['time_step_rule']})" if s["time_step_rule"] else ""
             bounds = dict.fromkeys(number(s[f"{bound}_time_step"]) for bound in ("smallest", "largest"))

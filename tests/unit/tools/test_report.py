@@ -142,8 +142,8 @@ class Pieces(unittest.TestCase):
         self.assertEqual(data.scaled("kg/m3", 1000), (1.0, "kg/m³"))
 
     def test_formulas(self):
-        self.assertEqual(tables.formula("-m_j Pi_ij gradW_ij < eta^2"),
-                         "-m<sub>j</sub> Π<sub>ij</sub> ∇W<sub>ij</sub> &lt; η<sup>2</sup>")
+        self.assertEqual(tables.formula("-m_j Pi_ij gradW_ij < eta^2 in 3 m2/s"),
+                         "-m<sub>j</sub> Π<sub>ij</sub> ∇W<sub>ij</sub> &lt; η<sup>2</sup> in 3 m<sup>2</sup>/s")
 
     def test_a_thinned_line_keeps_its_extremes(self):
         ys = [0.0] * 10000
