@@ -78,6 +78,7 @@ ExitCode couple(const Options& options) {
   if (options.check) return ExitCode::done;
 
   const RunLock lock(options.out);
+  copy_references(scene, file, options.out);
   run_windows(options, file,
               {.end_time = scene.end_time,
                .frame_interval = scene.frame_interval,

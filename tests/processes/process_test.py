@@ -2,7 +2,6 @@
 
     process_test.py BUILD/bin [unittest options]
 """
-import os
 import pathlib
 import signal
 import sys
@@ -88,7 +87,7 @@ class Death(ProcessTest):
                     self.assert_ending(run, name, trio.EXIT_PEER_LOST, NAMES[role])
 
     def test_before_joining(self):
-        environment = os.environ | {"FAULT": "before joining"}
+        environment = {"FAULT": "before joining"}
         run = self.run_of_three(fluid="faulty_fluid", settings=["coupling.time_limit=2"])
         run.start("coupler").start("solid").start("fluid", environment=environment)
         self.assertEqual(run.wait("fluid", LIMIT), 0)
@@ -138,7 +137,7 @@ class Hang(ProcessTest):
 
     def test_endless_loop(self):
         run = self.run_of_three(fluid="faulty_fluid", settings=["coupling.time_limit=2"])
-        run.start("coupler").start("solid").start("fluid", environment=os.environ | {"FAULT": "hang"})
+        run.start("coupler").start("solid").start("fluid", environment={"FAULT": "hang"})
         for name in ("coupler", "solid"):
             self.assert_ending(run, name, trio.EXIT_PEER_LOST, "faulty_fluid did not answer in window 51 within 2 s")
 
@@ -191,14 +190,14 @@ class Refusal(ProcessTest):
         for fault, (code, text) in expected.items():
             with self.subTest(fault):
                 run = self.run_of_three(fluid="faulty_fluid").start("coupler").start("solid")
-                run.start("fluid", environment=os.environ | {"FAULT": fault})
+                run.start("fluid", environment={"FAULT": fault})
                 for name in ("coupler", "solid"):
                     self.assert_ending(run, name, code, text)
                 run.wait("fluid", LIMIT)
 
     def test_false_impulse_is_reported(self):
         run = self.run_of_three(fluid="faulty_fluid", end_time="0.01").start("coupler").start("solid")
-        run.start("fluid", environment=os.environ | {"FAULT": "impulse"})
+        run.start("fluid", environment={"FAULT": "impulse"})
         self.assert_ending(run, "coupler", trio.EXIT_DONE, "window 51", "impulse given and taken differ")
         # All particles push alike, so the false part is 0.001 of F_x beside sqrt(2) F_x of the scale.
         self.assertAlmostEqual(self.summary(run)["figures"]["largest_impulse_error"], 1e-3 / 2**0.5, places=9)

@@ -1,4 +1,5 @@
 """Starts the three processes of a coupled run, waits for them with limits, and leaves none behind."""
+import os
 import pathlib
 import re
 import shutil
@@ -10,6 +11,7 @@ import time
 CASE = pathlib.Path(__file__).resolve().parent.parent / "participants" / "strip"
 EXIT_DONE, EXIT_BAD_INPUT, EXIT_PHYSICS_FAILED, EXIT_PEER_LOST, EXIT_INTERRUPTED = 0, 2, 3, 4, 130
 ROLES = ("coupler", "fluid", "solid")
+COUPLED_ENVIRONMENT = {"OMP_WAIT_POLICY": "passive"}  # as in a run: who waits leaves the core to the others
 FOREVER = "1e6"  # seconds of simulated time: the test ends such a run
 
 
@@ -31,7 +33,7 @@ class Trio:
                 process.wait()
         shutil.rmtree(self.out, ignore_errors=True)
 
-    def start(self, role, name=None, extra=(), environment=None):
+    def start(self, role, name=None, extra=(), environment={}):
         """Starts the program of a role; `name` tells two of one role apart."""
         command = [self.programs[role], self.case, "--out", self.out, "--end-time", self.end_time]
         for setting in self.settings:
@@ -39,7 +41,8 @@ class Trio:
         errors = open(self.out / f"{name or role}.err", "w")
         with errors:
             self.processes[name or role] = subprocess.Popen(
-                [str(word) for word in command + list(extra)], stdout=errors, stderr=errors, env=environment)
+                [str(word) for word in command + list(extra)], stdout=errors, stderr=errors,
+                env=os.environ | COUPLED_ENVIRONMENT | environment)
         return self
 
     def start_all(self):
