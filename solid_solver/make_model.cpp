@@ -1,12 +1,15 @@
 #include "solid_solver/make_model.hpp"
 
 #include "solid_solver/total_lagrangian/total_lagrangian.hpp"
+#include "solid_solver/updated_lagrangian/updated_lagrangian.hpp"
 
 namespace toryu {
 
 std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body,
                                        const Scene& scene) {
-  return std::make_unique<TotalLagrangian>(parameters, body, scene);
+  if (parameters.formulation == Formulation::total_lagrangian)
+    return std::make_unique<TotalLagrangian>(parameters, body, scene);
+  return std::make_unique<UpdatedLagrangian>(parameters, body, scene);
 }
 
 }  // namespace toryu

@@ -51,6 +51,17 @@ void SolidModel::find_slots() {
   for (std::uint32_t k = 0; k < number_.size(); ++k) slot_[number_[k]] = k;
 }
 
+void SolidModel::reorder_particles(const std::vector<std::uint32_t>& order) {
+  Field scratch;
+  for (auto* field : {&X_, &u_, &v_, &a_, &external_, &constant_})
+    for (auto& component : *field) reorder(component, order, scratch);
+  reorder(mobile_, order, scratch);
+  std::vector<std::uint32_t> number(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) number[k] = number_[order[k]];
+  number_ = number;
+  find_slots();
+}
+
 void SolidModel::fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
                       const std::string& limit) const {
   throw PhysicsFailure("solid", static_cast<long>(number_[slot]), time, quantity, value, limit);
@@ -130,12 +141,6 @@ double SolidModel::interface_work() const {
   for (std::size_t n = 0; n < loaded_.size(); ++n)
     work += load_[n].dot(displacement(loaded_[n]) - u_at_load_[n]);
   return work;
-}
-
-PairViscosity SolidModel::pair_viscosity() const {
-  const ArtificialViscosity term = parameters_.artificial_viscosity.value_or(ArtificialViscosity{0.0, 0.0});
-  return {term.alpha * parameters_.material.bulk_sound_speed(), term.beta, parameters_.h(),
-          1.0 / parameters_.material.density};
 }
 
 double SolidModel::kinetic_energy() const {

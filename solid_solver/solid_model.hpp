@@ -54,9 +54,10 @@ class SolidModel : public Solver {
   virtual void check_strain(double time) const = 0;
   [[noreturn]] void fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
                          const std::string& limit) const;
-  void find_slots();  ///< after `number_` changed
+  /// Stores the particles in another order: slot k receives what stood in slot order[k]. A formulation that
+  /// uses it reorders its own fields too.
+  void reorder_particles(const std::vector<std::uint32_t>& order);
   double strip_width() const { return std::sqrt(static_cast<double>(lane_count)) * body_.spacing; }  ///< [m]
-  PairViscosity pair_viscosity() const;  ///< zero if the term is off
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 
   SolidParameters parameters_;
@@ -73,6 +74,7 @@ class SolidModel : public Solver {
   Field mobile_;                       ///< 0 where a clamp holds, else 1
 
  private:
+  void find_slots();  ///< after `number_` changed
   double kinetic_energy() const;
   double potential_energy() const;
   double interface_work() const;

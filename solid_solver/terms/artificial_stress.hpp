@@ -7,7 +7,7 @@
 #pragma once
 
 #include "common/case/parameter_table.hpp"
-#include "common/sph/lanes.hpp"
+#include "solid_solver/terms/tensor.hpp"
 
 namespace toryu {
 
@@ -21,16 +21,11 @@ inline void describe(ParameterTable& table, ArtificialStress& p) {
   table.integer("exponent", p.exponent, {.minimum = 1, .maximum = 10, .help = "n of F^n"});
 }
 
-/// A symmetric tensor of the plane.
-struct SymmetricLanes {
-  Lanes xx, yy, xy;
-};
-
 /// R_i [m5/(kg s2)] of `sigma` [Pa]. The frame's angle a has tan 2a = 2 sigma_xy/(sigma_xx - sigma_yy), so
 /// with D half the difference of the principal stresses cos 2a = (sigma_xx - sigma_yy)/(2 D) and
 /// sin 2a = sigma_xy/D: no angle is needed.
-inline SymmetricLanes artificial_stress(const SymmetricLanes& sigma, const Lanes& inverse_rho_squared,
-                                        double epsilon) {
+inline Symmetric<Lanes> artificial_stress(const Symmetric<Lanes>& sigma, const Lanes& inverse_rho_squared,
+                                          double epsilon) {
   const Lanes mean = 0.5 * (sigma.xx + sigma.yy), difference = 0.5 * (sigma.xx - sigma.yy);
   const Lanes D = square_root(difference * difference + sigma.xy * sigma.xy);
   const Lanes scale = -epsilon * inverse_rho_squared;

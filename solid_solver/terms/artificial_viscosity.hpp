@@ -8,6 +8,7 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/sph/lanes.hpp"
+#include "solid_solver/material.hpp"
 
 namespace toryu {
 
@@ -33,5 +34,10 @@ struct PairViscosity {
     return (beta * theta - alpha_c) * theta * inverse_rho;
   }
 };
+
+inline PairViscosity pair_viscosity(const ArtificialViscosity& term, const ElasticMaterial& material,
+                                    double h) {
+  return {term.alpha * material.bulk_sound_speed(), term.beta, h, 1.0 / material.density};
+}
 
 }  // namespace toryu

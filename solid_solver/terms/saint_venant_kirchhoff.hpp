@@ -6,28 +6,9 @@
 /// F = I + H is the deformation gradient, P the first Piola-Kirchhoff stress [Pa].
 #pragma once
 
-#include <array>
-
-#include "common/sph/lanes.hpp"
+#include "solid_solver/terms/tensor.hpp"
 
 namespace toryu {
-
-/// A tensor of the plane: xx, xy, yx, yy.
-template <class T>
-using Tensor = std::array<T, 4>;
-
-template <class T>
-Tensor<T> product(const Tensor<T>& a, const Tensor<T>& b) {
-  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
-          a[2] * b[1] + a[3] * b[3]};
-}
-
-/// A symmetric tensor of the plane.
-template <class T>
-struct Symmetric {
-  T xx, yy, xy;
-  Tensor<T> full() const { return {xx, xy, xy, yy}; }
-};
 
 /// Green-Lagrange strain of the displacement gradient H: no difference of large numbers.
 template <class T>

@@ -11,7 +11,7 @@ ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size
   strips.index(X[0], count);
   const CubicSpline W(h);
   list_.build(X, count, X, strips, W.support());
-  for (auto& component : L_) component.resize(X[0].size());
+  resize(L_, X[0].size());
 
   weight_.resize(list_.pairs() * lane_count);
   double* w = weight_.data();
@@ -32,16 +32,13 @@ ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size
       M_yy -= weight * X_ij[1] * X_ij[1];
     }
     const Lanes inverse_determinant = 1.0 / (M_xx * M_yy - M_xy * M_xy);
-    store(M_yy * inverse_determinant, L_[0], i);
-    store(-M_xy * inverse_determinant, L_[1], i);
-    store(-M_xy * inverse_determinant, L_[2], i);
-    store(M_xx * inverse_determinant, L_[3], i);
+    const Lanes L_xy = -M_xy * inverse_determinant;
+    store({M_yy * inverse_determinant, L_xy, L_xy, M_xx * inverse_determinant}, L_, i);
   }
 }
 
 Tensor<Lanes> ReferencePairs::shape(std::size_t cluster) const {
-  const std::size_t i = cluster * lane_count;
-  return {load(L_[0], i), load(L_[1], i), load(L_[2], i), load(L_[3], i)};
+  return load(L_, cluster * lane_count);
 }
 
 void ReferencePairs::displacement_gradient(const VecField& u, std::size_t cluster, Tensor<Lanes>& H) const {
@@ -86,7 +83,7 @@ VecLanes ReferencePairs::force_density(const VecField& u, const TensorField& T, 
 Lanes ReferencePairs::unseen_motion(const VecField& u, const TensorField& H, std::size_t cluster) const {
   const std::size_t i = cluster * lane_count;
   const VecLanes X_i = load(X_, i), u_i = load(u, i);
-  const Tensor<Lanes> H_i{load(H[0], i), load(H[1], i), load(H[2], i), load(H[3], i)};
+  const Tensor<Lanes> H_i = load(H, i);
   Lanes sum = 0.0;
   const double* w = weight_.data() + start_[cluster];
   for (const std::uint32_t j : list_.sources(cluster)) {

@@ -5,11 +5,9 @@
 #include "common/sph/cluster_list.hpp"
 #include "common/sph/kernel.hpp"
 #include "common/sph/points.hpp"
-#include "solid_solver/terms/saint_venant_kirchhoff.hpp"
+#include "solid_solver/terms/tensor.hpp"
 
 namespace toryu {
-
-using TensorField = std::array<Field, 4>;  ///< xx, xy, yx, yy of each particle
 
 class ReferencePairs {
  public:

@@ -36,10 +36,8 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
   for (std::size_t k = 0; k < size; ++k)
     volume_[k] = body_.volume(number_[std::min(k, particle_count() - 1)]);
   pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width());
-  for (std::size_t n = 0; n < H_.size(); ++n) {
-    H_[n].resize(size, 0.0);
-    T_[n].resize(size, 0.0);
-  }
+  resize(H_, size);
+  resize(T_, size);
   find_highest_frequency();
 #pragma omp parallel
   evaluate();
@@ -91,17 +89,16 @@ void TotalLagrangian::find_stresses() {
     Tensor<Lanes> H;
     pairs_->displacement_gradient(u_, c, H);
     const Tensor<Lanes> T = product(material_.stress(H), pairs_->shape(c));
-    for (std::size_t n = 0; n < H.size(); ++n) {
-      store(H[n], H_[n], c * lane_count);
-      store(T[n] - 0.5 * penalty_ * H[n], T_[n], c * lane_count);
-    }
+    store(H, H_, c * lane_count);
+    for (std::size_t n = 0; n < H.size(); ++n) store(T[n] - 0.5 * penalty_ * H[n], T_[n], c * lane_count);
   }
 }
 
 void TotalLagrangian::find_accelerations() {
   const double inverse_rho = 1.0 / parameters_.material.density;
   const auto& viscosity = parameters_.artificial_viscosity;
-  const PairViscosity Pi = pair_viscosity();
+  const PairViscosity Pi =
+      pair_viscosity(viscosity.value_or(ArtificialViscosity{}), parameters_.material, parameters_.h());
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
     VecLanes a = pairs_->force_density(u_, T_, penalty_, c);
@@ -150,9 +147,7 @@ double TotalLagrangian::largest_stretch_squared() const {
   Lanes largest = 1.0;
   for (std::size_t i = 0; i < padded(particle_count()); i += lane_count) {
     Lanes smaller;
-    largest = max(
-        largest,
-        largest_principal<Lanes>({load(H_[0], i), load(H_[1], i), load(H_[2], i), load(H_[3], i)}, smaller));
+    largest = max(largest, largest_principal(load(H_, i), smaller));
   }
   return largest_of(largest);
 }
@@ -174,7 +169,7 @@ void TotalLagrangian::check_strain(double time) const {
                shortest = std::max(1.0 - parameters_.limits.strain, 0.0);
   for (std::size_t i = 0; i < particle_count(); i += lane_count) {
     Lanes smaller;
-    const Tensor<Lanes> H{load(H_[0], i), load(H_[1], i), load(H_[2], i), load(H_[3], i)};
+    const Tensor<Lanes> H = load(H_, i);
     const Lanes larger = largest_principal(H, smaller);
     const Lanes J = (1.0 + H[0]) * (1.0 + H[3]) - H[1] * H[2];
     if (all_of((larger <= longest * longest) & (smaller >= shortest * shortest) & (J > 0.0))) continue;

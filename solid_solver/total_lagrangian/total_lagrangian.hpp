@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "solid_solver/solid_model.hpp"
+#include "solid_solver/terms/saint_venant_kirchhoff.hpp"
 #include "solid_solver/total_lagrangian/reference_pairs.hpp"
 
 namespace toryu {

@@ -1,0 +1,127 @@
+#include "solid_solver/updated_lagrangian/pair_sweeps.hpp"
+
+namespace toryu {
+
+namespace {
+
+/// Determinant of sum_j V_j (x_j - x_i) (x) gradW_ij below which it is not inverted. It is 1 inside a lattice
+/// and about 0.3 at its corners.
+constexpr double near_singular = 0.05;
+
+Tensor<Lanes> shape(const Symmetric<Lanes>& M) {
+  const Lanes determinant = M.xx * M.yy - M.xy * M.xy;
+  const auto good = determinant > near_singular;
+  const Lanes scale = inverse(max(determinant, Lanes(near_singular)));
+  const Lanes L_xy = select(good, -M.xy * scale, 0.0);
+  return {select(good, M.yy * scale, 1.0), L_xy, L_xy, select(good, M.xx * scale, 1.0)};
+}
+
+Lanes power(const Lanes& a, int n) {
+  Lanes result = a;
+  for (int k = 1; k < n; ++k) result *= a;
+  return result;
+}
+
+}  // namespace
+
+PairSweeps::PairSweeps(const SolidParameters& parameters)
+    : W_(parameters.h()),
+      tiny_(1e-16 * parameters.h() * parameters.h()),
+      law_{parameters.material.bulk_modulus(), parameters.material.shear_modulus(),
+           parameters.material.density},
+      renormalised_(parameters.gradients == Gradients::renormalised),
+      stress_(parameters.artificial_stress),
+      inverse_W_d0_(1.0 / W_.value(parameters.spacing)) {
+  if (parameters.artificial_viscosity)
+    viscosity_ = pair_viscosity(*parameters.artificial_viscosity, parameters.material, parameters.h());
+}
+
+void PairSweeps::rates(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+                       UpdatedRates& rates) const {
+  renormalised_ ? rates_of<true>(state, list, cluster, rates) : rates_of<false>(state, list, cluster, rates);
+}
+
+template <bool renormalised>
+void PairSweeps::rates_of(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+                          UpdatedRates& rates) const {
+  const std::size_t i = cluster * lane_count;
+  const VecLanes x_i = load(state.x, i), v_i = load(state.v, i);
+  Tensor<Lanes> grad_v{0.0, 0.0, 0.0, 0.0};
+  Symmetric<Lanes> M{0.0, 0.0, 0.0};
+  for (const std::uint32_t j : list.sources(cluster)) {
+    const VecLanes x_ij{x_i[0] - state.x[0][j], x_i[1] - state.x[1][j]};
+    const VecLanes v_ij{v_i[0] - state.v[0][j], v_i[1] - state.v[1][j]};
+    const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared);
+    const Lanes weight = state.V[j] * W_.gradient_over_r(Lanes(r_squared * inverse_r), inverse_r);
+    const VecLanes V_gradW{weight * x_ij[0], weight * x_ij[1]};
+    grad_v[0] -= v_ij[0] * V_gradW[0];
+    grad_v[1] -= v_ij[0] * V_gradW[1];
+    grad_v[2] -= v_ij[1] * V_gradW[0];
+    grad_v[3] -= v_ij[1] * V_gradW[1];
+    if constexpr (renormalised) {
+      M.xx -= x_ij[0] * V_gradW[0];
+      M.xy -= x_ij[0] * V_gradW[1];
+      M.yy -= x_ij[1] * V_gradW[1];
+    }
+  }
+  const Lanes rho = load(state.rho, i), p = law_.pressure(rho), inverse_rho_squared = inverse(rho * rho);
+  const Symmetric<Lanes> s = load(state.s, i), sigma{s.xx - p, s.yy - p, s.xy};
+  Tensor<Lanes> T = sigma.full();
+  if constexpr (renormalised) {
+    const Tensor<Lanes> L = shape(M);
+    grad_v = product(grad_v, L);
+    T = product(T, L);
+  }
+  for (auto& component : T) component *= inverse_rho_squared;
+  store(T, rates.T, i);
+  store(-rho * (grad_v[0] + grad_v[3]), rates.rho, i);
+  store(law_.rate(s, grad_v), rates.s, i);
+  if (stress_) store(artificial_stress(sigma, inverse_rho_squared, stress_->epsilon), rates.R, i);
+}
+
+VecLanes PairSweeps::acceleration(const UpdatedState& state, const UpdatedRates& rates,
+                                  const ClusterList& list, std::size_t cluster) const {
+  if (viscosity_)
+    return stress_ ? acceleration_of<true, true>(state, rates, list, cluster)
+                   : acceleration_of<true, false>(state, rates, list, cluster);
+  return stress_ ? acceleration_of<false, true>(state, rates, list, cluster)
+                 : acceleration_of<false, false>(state, rates, list, cluster);
+}
+
+template <bool viscous, bool stressed>
+VecLanes PairSweeps::acceleration_of(const UpdatedState& state, const UpdatedRates& rates,
+                                     const ClusterList& list, std::size_t cluster) const {
+  const std::size_t i = cluster * lane_count;
+  const VecLanes x_i = load(state.x, i), v_i = load(state.v, i);
+  const Tensor<Lanes> T_i = load(rates.T, i);
+  Symmetric<Lanes> R_i{0.0, 0.0, 0.0};
+  if constexpr (stressed) R_i = load(rates.R, i);
+  VecLanes a{0.0, 0.0};
+  for (const std::uint32_t j : list.sources(cluster)) {
+    const VecLanes x_ij{x_i[0] - state.x[0][j], x_i[1] - state.x[1][j]};
+    const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared),
+                r = r_squared * inverse_r;
+    const Lanes weight = state.m[j] * W_.gradient_over_r(r, inverse_r);
+    Tensor<Lanes> T{T_i[0] + rates.T[0][j], T_i[1] + rates.T[1][j], T_i[2] + rates.T[2][j],
+                    T_i[3] + rates.T[3][j]};
+    if constexpr (viscous) {
+      const VecLanes v_ij{v_i[0] - state.v[0][j], v_i[1] - state.v[1][j]};
+      const Lanes Pi = (*viscosity_)(dot(v_ij, x_ij), r_squared);
+      T[0] -= Pi;
+      T[3] -= Pi;
+    }
+    if constexpr (stressed) {
+      const Lanes F_n = power(Lanes(W_.value(r) * inverse_W_d0_), stress_->exponent);
+      const Lanes R_xy = (R_i.xy + rates.R.xy[j]) * F_n;
+      T[0] += (R_i.xx + rates.R.xx[j]) * F_n;
+      T[1] += R_xy;
+      T[2] += R_xy;
+      T[3] += (R_i.yy + rates.R.yy[j]) * F_n;
+    }
+    a[0] += weight * (T[0] * x_ij[0] + T[1] * x_ij[1]);
+    a[1] += weight * (T[2] * x_ij[0] + T[3] * x_ij[1]);
+  }
+  return a;
+}
+
+}  // namespace toryu

@@ -1,0 +1,67 @@
+/// The two sweeps over present neighbours of which the updated Lagrangian form consists: the rates of density
+/// and stress, then the acceleration. The neighbours' physics is here, time is not.
+#pragma once
+
+#include <optional>
+
+#include "common/sph/cluster_list.hpp"
+#include "common/sph/kernel.hpp"
+#include "common/sph/points.hpp"
+#include "solid_solver/parameters.hpp"
+#include "solid_solver/terms/hookes_law.hpp"
+
+namespace toryu {
+
+/// Particles of the updated form, in storage order, padded to whole lanes.
+struct UpdatedState {
+  VecField x, v;       ///< [m], [m/s]
+  Field m;             ///< [kg/m]
+  Field rho;           ///< [kg/m3]
+  Field V;             ///< m/rho [m2]
+  Symmetric<Field> s;  ///< deviatoric stress [Pa]
+};
+
+/// What the first sweep finds.
+struct UpdatedRates {
+  Field rho;           ///< [kg/(m3 s)]
+  Symmetric<Field> s;  ///< [Pa/s]
+  TensorField T;       ///< sigma/rho^2, times L if renormalised [m5/(kg s2)]
+  Symmetric<Field> R;  ///< artificial stress [m5/(kg s2)]
+};
+
+class PairSweeps {
+ public:
+  explicit PairSweeps(const SolidParameters& parameters);
+
+  /// (17) Drho_i/Dt = -rho_i tr(grad v)_i and Ds/Dt of (7), with
+  ///
+  ///     (grad v)_i = sum_j V_j (v_j - v_i) (x) L_i gradW_ij
+  ///
+  /// L_i is the unit tensor, or with renormalised gradients [sum_j V_j (x_j - x_i) (x) gradW_ij]^-1 (unit
+  /// where that is near singular, as for a particle torn off).
+  void rates(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+             UpdatedRates& rates) const;
+
+  /// (22) Dv_i/Dt = sum_j m_j [sigma_i L_i/rho_i^2 + sigma_j L_j/rho_j^2 - Pi_ij + (R_i + R_j) F_ij^n]
+  /// gradW_ij. With renormalised gradients it is the adjoint of the velocity gradient.
+  VecLanes acceleration(const UpdatedState& state, const UpdatedRates& rates, const ClusterList& list,
+                        std::size_t cluster) const;
+
+ private:
+  template <bool renormalised>
+  void rates_of(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+                UpdatedRates& rates) const;
+  template <bool viscous, bool stressed>
+  VecLanes acceleration_of(const UpdatedState& state, const UpdatedRates& rates, const ClusterList& list,
+                           std::size_t cluster) const;
+
+  CubicSpline W_;
+  double tiny_;  ///< added to r^2, so that a particle's own pair is zero [m2]
+  HookesLaw law_;
+  bool renormalised_;
+  std::optional<ArtificialStress> stress_;
+  std::optional<PairViscosity> viscosity_;
+  double inverse_W_d0_;  ///< 1/W(d0) [m2]
+};
+
+}  // namespace toryu

@@ -1,0 +1,58 @@
+/// The solid in updated Lagrangian form (Gray, Monaghan & Swift 2001; the thesis): stress is carried along
+/// and grows by its rate, the neighbours are the present ones. It can tear, needs the artificial stress not
+/// to tear by itself, and is too soft in plates of few rows.
+///
+/// Midpoint steps (thesis eq. 31-32) of x, v, rho and s, two evaluations a step:
+///
+///     phi^(n+1/2) = phi^n + dt/2 F(phi^n);   phi^(n+1) = phi^n + dt F(phi^(n+1/2))
+///
+/// An undamped mode grows by (w dt)^4/8 a step: without artificial viscosity it is weakly unstable.
+#pragma once
+
+#include "solid_solver/solid_model.hpp"
+#include "solid_solver/updated_lagrangian/pair_sweeps.hpp"
+
+namespace toryu {
+
+class UpdatedLagrangian final : public SolidModel {
+ public:
+  UpdatedLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+
+  /// The smallest of 0.25 h/(c_L + |v|) (acoustic), 0.125 h^2/nu with the artificial viscosity's
+  /// nu = alpha h c/8 (viscous), and 0.25 sqrt(h/|dv/dt|) (force), times the share.
+  double time_step_limit() const override { return limit().first; }
+  std::string_view time_step_rule() const override { return limit().second; }
+  void advance(double dt) override;
+  std::vector<ActiveTerm> active_terms() const override;
+  Stress stress(std::size_t particle) const override;
+  std::vector<Observation> internal_energies() const override;
+  double density(std::size_t particle) const { return state_.rho[slot_[particle]]; }  ///< [kg/m3]
+  long neighbour_searches() const { return neighbour_searches_; }
+
+ protected:
+  void check_strain(double time) const override;
+
+ private:
+  void find_neighbours_if_moved();
+  void find_neighbours();
+  void keep_start();
+  /// Accelerations and rates of the present state, within a parallel region.
+  void evaluate();
+  /// State = start + dt * rates, within a parallel region.
+  void move(double dt);
+  std::pair<double, std::string_view> limit() const;
+
+  PairSweeps sweeps_;
+  HookesLaw law_;
+  UpdatedState state_;
+  UpdatedRates rates_;
+  VecField u_start_, v_start_, x_listed_;
+  Field rho_start_;
+  Symmetric<Field> s_start_;
+  StripOrder strips_;
+  ClusterList list_;
+  double skin_;  ///< [m]
+  long neighbour_searches_ = 0;
+};
+
+}  // namespace toryu
