@@ -3,46 +3,73 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
-#include "common/run/ending.hpp"
+#include <algorithm>
+
+#include "common/link/participant.hpp"
+#include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
-#include "common/run/program.hpp"
 #include "solid_solver/make_model.hpp"
-#include "solid_solver/run_alone.hpp"
-#include "solid_solver/run_coupled.hpp"
 
 namespace {
 
 using namespace toryu;
 
+/// So many steps are taken alone before the time-step limit and the state are looked at again.
+constexpr long steps_between_checks = 50;
+
+/// A thread more is worth its waiting for the others only with so many particles of its own.
+constexpr int particles_per_thread = 4000;
+
+int thread_count(const Options& options, const SolidBody& body) {
+  if (options.threads > 0) return options.threads;
+  return std::clamp(static_cast<int>(body.size()) / particles_per_thread, 1, omp_get_num_procs());
+}
+
+RunRecord::Counts particle_counts(const SolidModel& model) {
+  RunRecord::Counts counts{{"solid", static_cast<long>(model.particle_count())}};
+  for (const auto& [name, count] : model.body().counts) counts.emplace_back(name, static_cast<long>(count));
+  return counts;
+}
+
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, SolidModel& model) {
   write_atomically(options.out / "used_case.toml", file.used());
-  SolidRun run(options, scene, model);
-  try {
-    run_alone(scene, run);
-  } catch (...) {
-    const Ending ending = ending_of_exception();
-    run.finish(ending.code, ending.reason, 0);
-    throw;
+  RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
+  run_recorded(record, [&] {
+    run_alone(scene, model, record, scene.series_interval == 0 ? 1 : steps_between_checks);
+  });
+}
+
+/// Takes turns with the fluid until the coupler ends the run. In each window the load is constant and the
+/// solid takes as many equal sub-steps as its stability needs.
+void take_turns(SolidLink& link, SolidModel& model, RunRecord& record) {
+  const double reach = link.join();
+  const Interface interface = model.interface(reach);
+  spdlog::info("{} particles can be touched by a fluid that sees {:g} m deep", interface.size(), reach);
+  link.register_interface(interface, model.motion(interface.id));
+  record.at(0);
+  while (const auto turn = link.next_window()) {
+    throw_if_interrupted();
+    const Vec force = model.set_interface_load(interface.id, turn->load);
+    const SubSteps steps = advance_by(model, turn->dt);
+    record.count_steps(steps.taken, steps.dt);
+    link.count_step();
+    Vec impulse_taken = Vec::Zero();
+    for (long n = 0; n < steps.taken; ++n) impulse_taken += steps.dt * force;
+    record.at(turn->time + turn->dt);
+    link.send(model.motion(interface.id), impulse_taken, model.health());
   }
-  run.finish(ExitCode::done, "", 0);
 }
 
 void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene, SolidModel& model) {
-  SolidRun run(options, scene, model);
   SolidLink link({.role = "solid_solver",
                   .version = provenance(1).version,
                   .out = options.out,
                   .case_hash = file.hash(),
                   .used_case = file.used()});
-  try {
-    run_coupled(link, run);
-  } catch (...) {
-    link.leave();
-    const Ending ending = ending_of_exception();
-    run.finish(ending.code, ending.reason, link.waiting_time());
-    throw;
-  }
-  run.finish(ExitCode::done, "", link.waiting_time());
+  RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
+  run_recorded(
+      record, [&] { take_turns(link, model, record); }, [&] { link.leave(); },
+      [&] { return link.waiting_time(); });
 }
 
 ExitCode solve(const Options& options) {
@@ -56,20 +83,18 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   file.throw_if_faulty();
-  const auto tell_fault = [&](const std::string& key, const std::string& message) {
-    file.fault(key, message);
-  };
-  const SolidBody body = build_body(parameters, tell_fault);
+  const SolidBody body = build_body(
+      parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); });
   file.throw_if_faulty();
   if (options.check) return ExitCode::done;
 
-  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs());
+  omp_set_num_threads(thread_count(options, body));
   const auto model = make_model(parameters, body, scene);
-  if (file.has("fluid")) {
+  spdlog::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
+  if (file.has("fluid"))
     compute_coupled(options, file, scene, *model);
-  } else {
+  else
     compute_alone(options, file, scene, *model);
-  }
   return ExitCode::done;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/link/participant.hpp"
 #include "common/run/solver.hpp"
+#include "common/run/timers.hpp"
 #include "common/sph/points.hpp"
 #include "solid_solver/body.hpp"
 #include "solid_solver/parameters.hpp"
@@ -48,6 +49,7 @@ class SolidModel : public Solver {
   virtual Stress stress(std::size_t particle) const = 0;                                     ///< Cauchy
   /// Energies that the deformation holds [J per metre depth].
   virtual std::vector<Observation> internal_energies() const = 0;
+  const Timers& timers() const { return timers_; }
 
  protected:
   /// Throws if the strain of a particle is beyond its limit.
@@ -71,7 +73,8 @@ class SolidModel : public Solver {
   VecField u_, v_;                     ///< displacement [m], velocity [m/s]
   VecField a_;                         ///< acceleration by stress, viscosity and contact [m/s2]
   VecField external_;                  ///< acceleration by gravity and loads [m/s2]
-  Field mobile_;                       ///< 0 where a clamp holds, else 1
+  Timers timers_;
+  Field mobile_;  ///< 0 where a clamp holds, else 1
 
  private:
   void find_slots();  ///< after `number_` changed

@@ -44,6 +44,7 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
 }
 
 void TotalLagrangian::advance(double dt) {
+  const auto scope = timers_.measure("steps");
 #pragma omp parallel
   {
     kick_and_drift(dt);

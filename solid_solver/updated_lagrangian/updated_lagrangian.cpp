@@ -38,6 +38,7 @@ UpdatedLagrangian::UpdatedLagrangian(const SolidParameters& parameters, const So
 
 void UpdatedLagrangian::advance(double dt) {
   find_neighbours_if_moved();
+  const auto scope = timers_.measure("steps");
 #pragma omp parallel
   {
     keep_start();
@@ -65,6 +66,7 @@ void UpdatedLagrangian::find_neighbours_if_moved() {
 }
 
 void UpdatedLagrangian::find_neighbours() {
+  const auto scope = timers_.measure("neighbour search");
   ++neighbour_searches_;
   const auto find_positions = [&] {
     for (int a = 0; a < dim; ++a)
