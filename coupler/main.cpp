@@ -79,6 +79,7 @@ ExitCode couple(const Options& options) {
 
   const RunLock lock(options.out);
   copy_references(scene, file, options.out);
+  copy_references(scene, file, options.out);
   run_windows(options, file,
               {.end_time = scene.end_time,
                .frame_interval = scene.frame_interval,

@@ -22,6 +22,7 @@ RunRecord::Counts particle_counts(const FluidSolver& solver) {
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
   write_atomically(options.out / "used_case.toml", file.used());
+  copy_references(scene, file, options.out);
   RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
   run_recorded(record, [&] { run_alone(scene, solver, record, 1); });
 }

@@ -33,6 +33,7 @@ RunRecord::Counts particle_counts(const SolidModel& model) {
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, SolidModel& model) {
   write_atomically(options.out / "used_case.toml", file.used());
+  copy_references(scene, file, options.out);
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
   run_recorded(record, [&] {
     run_alone(scene, model, record, scene.series_interval == 0 ? 1 : steps_between_checks);

@@ -108,6 +108,7 @@ void CaseFile::throw_if_faulty() const {
   std::vector<std::string> known;
   for (const auto& section : c.sections) known.push_back(section.name);
   known.insert(known.end(), c.left_sections.begin(), c.left_sections.end());
+  std::sort(known.begin(), known.end());  // so that all participants say the same
   for (const auto& [key, node] : c.root) {
     const std::string name(key.str());
     if (contains(known, name)) continue;

@@ -24,6 +24,19 @@ IndexBox lattice_range(const Box& box, const Vec& origin, double spacing) {
   return {first_at_or_above(box.min), first_at_or_above(box.max)};
 }
 
+/// A body of more particles is a slip of the pen, and would take all memory before anything notices.
+constexpr double largest_body = 1e8;
+
+void check_size(const std::vector<Box>& boxes, double spacing) {
+  double count = 0;
+  for (const auto& box : boxes) count += ((box.max - box.min) / spacing).prod();
+  if (count > largest_body)
+    throw BadInput({{.place = fmt::format("spacing = {} m", spacing),
+                     .message = fmt::format("would fill a body with {:.1e} particles; at most {:.0e} are "
+                                            "possible",
+                                            count, largest_body)}});
+}
+
 bool in_any(const std::vector<IndexBox>& boxes, const Index& index) {
   for (const auto& box : boxes)
     if (box.contains(index)) return true;
@@ -35,6 +48,7 @@ bool in_any(const std::vector<IndexBox>& boxes, const Index& index) {
 std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing) {
   std::vector<Vec> points;
   if (boxes.empty()) return points;
+  check_size(boxes, spacing);
   Vec origin = boxes.front().min;
   for (const auto& box : boxes) origin = origin.cwiseMin(box.min);
 

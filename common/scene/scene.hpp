@@ -72,6 +72,7 @@ void copy_references(const Scene& scene, const CaseFile& file, const std::filesy
 /// by row. `origin` is the smallest corner of `boxes`, so that a box whose sides are whole multiples of the
 /// spacing is filled exactly, whatever the rounding. Otherwise a particle is there if its centre is inside; a
 /// centre within 1e-6 spacings of an edge counts as on it, and belongs to the box whose smaller edge it is.
+/// Throws BadInput if there would be more than 1e8 points.
 std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing);
 
 }  // namespace toryu

@@ -66,6 +66,17 @@ TEST(Fill, CountsOverlapsOnceAndLeavesHolesOut) {
   EXPECT_EQ(fill({}, {}, 1).size(), 0u);
 }
 
+TEST(Fill, RefusesASpacingThatWouldTakeAllMemory) {
+  try {
+    fill({box(0, 0, 0.1, 0.14)}, {}, 1e-9);
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "spacing = 1e-09 m: error: would fill a body with 1.4e+16 particles; at most 1e+08 are possible");
+  }
+}
+
 TEST(Fill, SharesOneLatticeAmongBoxes) {
   const auto points = fill({box(5, 0, 6, 1), box(-0.25, 0.5, 1, 2)}, {}, 1);
   // The origin is (-0.25, 0): the first box has its centre column at 5.25.

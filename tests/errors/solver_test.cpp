@@ -1,0 +1,66 @@
+// The faults that the three programs themselves find in a real case: each checks the sections that are its
+// own and leaves the others alone.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace {
+
+struct Ending {
+  int code;
+  std::string error;
+};
+
+Ending check(const std::string& program, const std::string& arguments) {
+  const std::string command =
+      "'" + program + "' '" ELASTIC_GATE "' --check " + arguments + " 2>&1 >/dev/null";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string error;
+  std::array<char, 1000> buffer;
+  while (fgets(buffer.data(), buffer.size(), pipe)) error += buffer.data();
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, error};
+}
+
+const std::string fluid = FLUID_SOLVER, solid = SOLID_SOLVER, coupler = COUPLER;
+
+TEST(Programs, FindNothingWrongWithTheGate) {
+  for (const auto& program : {fluid, solid, coupler}) {
+    const Ending ending = check(program, "");
+    EXPECT_EQ(ending.code, 0) << program;
+    EXPECT_EQ(ending.error, "") << program;
+  }
+}
+
+TEST(Programs, CheckTheirOwnSection) {
+  const std::string wrong = "--set fluid.densty=1 --set solid.densty=1 --set coupling.time_limt=1";
+  EXPECT_EQ(check(fluid, wrong).error,
+            "--set fluid.densty=1: error: unknown key 'densty' in [fluid]; did you mean 'density'?\n");
+  EXPECT_EQ(check(solid, wrong).error,
+            "--set solid.densty=1: error: unknown key 'densty' in [solid]; did you mean 'density'?\n");
+  EXPECT_EQ(check(coupler, wrong).error,
+            "--set coupling.time_limt=1: error: unknown key 'time_limt' in [coupling]; did you mean "
+            "'time_limit'?\n");
+  EXPECT_EQ(check(fluid, wrong).code, 2);
+}
+
+TEST(Programs, SayTheSameOfTheCommonSections) {
+  for (const auto& program : {fluid, solid, coupler})
+    EXPECT_EQ(check(program, "--set case.end_tim=1 --set gravity=0").error,
+              "--set case.end_tim=1: error: unknown key 'end_tim' in [case]; did you mean 'end_time'?\n"
+              "--set gravity=0: error: unknown key 'gravity'; sections are 'case', 'coupling', 'fluid', "
+              "'reference', 'solid', 'wall'\n");
+}
+
+TEST(Programs, RefuseASpacingThatWouldTakeAllMemory) {
+  const Ending ending = check(fluid, "--set fluid.spacing=1e-9");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_EQ(
+      ending.error,
+      "spacing = 1e-09 m: error: would fill a body with 1.4e+16 particles; at most 1e+08 are possible\n");
+}
+
+}  // namespace
