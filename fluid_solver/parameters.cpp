@@ -33,7 +33,7 @@ void describe(ParameterTable& table, ArtificialViscosity& viscosity) {
 
 void describe(ParameterTable& table, LaminarViscosity& viscosity) {
   table.number("dynamic_viscosity", viscosity.dynamic_viscosity,
-               {.unit = "Pa s", .minimum = 0, .required = true, .help = "mu of (4)"});
+               {.unit = "Pa.s", .minimum = 0, .required = true, .help = "mu of (4)"});
 }
 
 void describe(ParameterTable& table, WallModel& model) {

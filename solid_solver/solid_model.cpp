@@ -186,8 +186,8 @@ std::vector<Observation> SolidModel::observe() const {
   row.push_back({"interface_work", "J/m", work});
   row.push_back({"dissipated_energy", "J/m", first_energy_ + work - kinetic - held - potential});
   const Vec p = momentum();
-  row.push_back({"momentum_x", "N s/m", p[0]});
-  row.push_back({"momentum_y", "N s/m", p[1]});
+  row.push_back({"momentum_x", "N.s/m", p[0]});
+  row.push_back({"momentum_y", "N.s/m", p[1]});
   return row;
 }
 

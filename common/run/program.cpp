@@ -9,6 +9,14 @@ namespace toryu {
 
 namespace {
 
+void log_start(const Options& options) {
+  const Provenance made = provenance(options.threads);
+  spdlog::info("toryu {} (commit {}, {}, {}) on {}", made.version, made.commit, made.compiler, made.flags,
+               made.cpu);
+  spdlog::info("case {}{}{}", options.case_path.string(), options.overrides.empty() ? "" : " with --set ",
+               fmt::join(options.overrides, " --set "));
+}
+
 /// Runs the body; what it throws ends in one line and an exit code.
 ExitCode guarded(const std::function<ExitCode()>& body) {
   try {
@@ -55,6 +63,7 @@ int run_program(const std::string& role, int argc, char** argv,
     const Options options = parse_options(role, arguments);
     const bool computes = !options.check && !options.describe;
     open_log(role, computes ? options.out : "", options.log_level);
+    if (computes) log_start(options);
     catch_interruptions();
     return body(options);
   });

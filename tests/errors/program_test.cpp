@@ -58,6 +58,14 @@ TEST_F(ExampleProgram, TakesOptions) {
   EXPECT_THAT(text_of("here/log.txt"), HasSubstr("runs to 0.25 s with 2 threads"));
 }
 
+TEST_F(ExampleProgram, LogsWhatRan) {
+  EXPECT_EQ(run("room --set medium.steps=3 --end-time 0.5").code, 0);
+  const std::string log = text_of("out/room/log.txt");
+  EXPECT_THAT(log, HasSubstr("info: toryu " + provenance(1).version + " (commit "));
+  EXPECT_THAT(log,
+              HasSubstr("info: case room/case.toml with --set medium.steps=3 --set case.end_time=0.5\n"));
+}
+
 TEST_F(ExampleProgram, KeepsTheCaseApartFromOverridesBeforeIt) {
   EXPECT_EQ(run("--set medium.wind=[1,2] --set medium.steps=3 room").code, 0);
 }
