@@ -132,8 +132,14 @@ void FluidSolver::attach(const Interface& interface) {
   interface_boundary_ = boundaries_.size();
   moving_walls_.push_back(nullptr);
   wall_start_.emplace_back();
-  interface_.attach(interface, boundaries_.emplace_back(), parameters_.density, strip_width(parameters_));
+  interface_.attach(interface, boundaries_.emplace_back(), parameters_.density, strip_width(parameters_),
+                    reach() / parameters_.sound_speed);
   check_overlaps();
+}
+
+void FluidSolver::begin_window(const InterfaceMotion& motion, double dt) {
+  interface_.begin_window(motion, time_, dt);
+  interface_.move(boundaries_[*interface_boundary_], time_);
 }
 
 double FluidSolver::time_step_limit() const {

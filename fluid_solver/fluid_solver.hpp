@@ -31,7 +31,7 @@ class FluidSolver : public Solver {
   /// How far the kernel sees [m].
   double reach() const { return dynamics_.kernel().support(); }
   void attach(const Interface& interface);
-  void begin_window(const InterfaceMotion& motion, double dt) { interface_.begin_window(motion, time_, dt); }
+  void begin_window(const InterfaceMotion& motion, double dt);
   InterfaceLoad take_load() { return interface_.take_load(); }
 
   double time() const { return time_; }

@@ -9,30 +9,31 @@ Vec item(const std::vector<double>& values, std::size_t k) {
 }  // namespace
 
 void MovingInterface::attach(const Interface& interface, Boundary& boundary, double rest_density,
-                             double strip_width) {
+                             double strip_width, double response_time) {
+  response_time_ = response_time;
   count_ = interface.size();
   std::vector<Vec> positions(count_);
   for (std::size_t k = 0; k < count_; ++k) positions[k] = item(interface.position, k);
   boundary.name = "interface";
   boundary.moves = true;
   boundary.place(positions, interface.volume, rest_density, strip_width);
-  start_ = reported_ = positions;
+  start_ = end_ = positions;
   velocity_.assign(count_, Vec::Zero());
-  acceleration_ = mean_velocity_ = velocity_;
+  acceleration_ = velocity_;
   take_load();
 }
 
 void MovingInterface::begin_window(const InterfaceMotion& motion, double time, double dt) {
   const bool first = last_dt_ == 0;
+  const double share = last_dt_ / (last_dt_ + response_time_);
   for (std::size_t k = 0; k < count_; ++k) {
     const Vec now = item(motion.position, k);
-    const Vec here = first ? now : Vec(start_[k] + velocity_[k] * last_dt_);
-    const Vec mean = first ? item(motion.velocity, k) : Vec((now - reported_[k]) / last_dt_);
-    acceleration_[k] = first ? item(motion.acceleration, k) : Vec((mean - mean_velocity_[k]) / last_dt_);
-    velocity_[k] = (now + mean * dt - here) / dt;
-    start_[k] = here;
-    reported_[k] = now;
-    mean_velocity_[k] = mean;
+    start_[k] = first ? Vec(now - item(motion.velocity, k) * dt) : end_[k];
+    end_[k] = now;
+    const Vec mean = (end_[k] - start_[k]) / dt;
+    const Vec change = first ? Vec(Vec::Zero()) : Vec((mean - velocity_[k]) / last_dt_);
+    acceleration_[k] += share * (change - acceleration_[k]);
+    velocity_[k] = mean;
   }
   window_start_ = time;
   last_dt_ = dt;

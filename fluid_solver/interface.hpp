@@ -10,7 +10,9 @@ namespace toryu::fluid {
 class MovingInterface {
  public:
   /// `interface` as the solid registered it; the boundary takes its places.
-  void attach(const Interface& interface, Boundary& boundary, double rest_density, double strip_width);
+  /// `response_time` [s] is the time over which its acceleration is averaged.
+  void attach(const Interface& interface, Boundary& boundary, double rest_density, double strip_width,
+              double response_time);
 
   /// Begins a window of `dt` [s] at `time` [s] with the solid's motion at that time. Over the window each
   /// particle goes in a straight line from where the fluid has it to where the solid's mean velocity of the
@@ -26,10 +28,8 @@ class MovingInterface {
 
  private:
   std::size_t count_ = 0;
-  double window_start_ = 0, last_dt_ = 0;
-  std::vector<Vec> start_, velocity_, acceleration_;  ///< over the present window
-  std::vector<Vec> reported_,
-      mean_velocity_;  ///< the solid's last position, its velocity over the last window
+  double response_time_ = 0, window_start_ = 0, last_dt_ = 0;
+  std::vector<Vec> start_, end_, velocity_, acceleration_;  ///< over the present window
   double load_time_ = 0;
   InterfaceLoad sum_;
 };
