@@ -145,12 +145,15 @@ void TotalLagrangian::find_highest_frequency() {
 }
 
 double TotalLagrangian::largest_stretch_squared() const {
-  Lanes largest = 1.0;
-  for (std::size_t i = 0; i < padded(particle_count()); i += lane_count) {
+  double largest = 1.0;
+  for (std::size_t i = 0; i < particle_count(); i += lane_count) {
     Lanes smaller;
-    largest = max(largest, largest_principal(load(H_, i), smaller));
+    const Lanes square = largest_principal(load(H_, i), smaller);
+    // idle lanes stand still among particles that move: what they hold is no stretch
+    for (std::size_t lane = 0; lane < std::min(lane_count, particle_count() - i); ++lane)
+      largest = std::max(largest, square[lane]);
   }
-  return largest_of(largest);
+  return largest;
 }
 
 double TotalLagrangian::time_step_limit() const {
