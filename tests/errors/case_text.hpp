@@ -14,7 +14,8 @@ namespace toryu {
 class CaseText {
  public:
   explicit CaseText(const std::string& text)
-      : folder_(std::filesystem::temp_directory_path() / ("toryu_case_" + std::to_string(getpid()))) {
+      : folder_(std::filesystem::temp_directory_path() /
+                fmt::format("toryu_case_{}_{}", getpid(), ++count_)) {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "case.toml") << text;
   }
@@ -55,6 +56,7 @@ class CaseText {
     for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.erase(at, path.size());
     return text;
   }
+  static inline int count_ = 0;  ///< of this process, so that each case has a folder of its own
   std::filesystem::path folder_;
 };
 
