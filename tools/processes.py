@@ -191,13 +191,13 @@ class Run:
         os.close(writer)
 
     def _interrupted(self, reader):
-        os.read(reader, 64)
+        numbers = os.read(reader, 64)
         self.interruptions += 1
         rest = [p for p in self.processes if not p.ended]
         if self.interruptions == 1:
             self._signal(rest, signal.SIGINT)
             self.deadline = time.monotonic() + PATIENCE
-        else:  # the user insists
+        elif signal.SIGINT in numbers:  # the user insists
             self._signal(rest, signal.SIGKILL)
 
     def _verdict(self):
