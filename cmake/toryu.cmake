@@ -40,7 +40,7 @@ function(toryu_test name)
   if(ARG_LABEL STREQUAL "unit")
     add_dependencies(unit_tests ${name})
   endif()
-  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 300 DISCOVERY_MODE PRE_TEST)
+  gtest_discover_tests(${name} NO_PRETTY_VALUES PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 300 DISCOVERY_MODE PRE_TEST)
 endfunction()
 
 # toryu_python_test(NAME SCRIPT test.py [LABEL unit] [TIMEOUT 300] [ENVIRONMENT A=1 ...]): a unittest file, one CTest
