@@ -43,6 +43,9 @@ SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body,
   external_ = constant_;
   for (const auto& observer : parameters_.observers)
     observers_.emplace_back(observer.name, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h()));
+  if (parameters_.wall_contact)
+    walls_ = std::make_unique<ContactWalls>(scene.walls, *parameters_.wall_contact, parameters_.material,
+                                            body_.spacing, parameters_.h());
   first_energy_ = kinetic_energy();
 }
 
@@ -143,6 +146,30 @@ double SolidModel::interface_work() const {
   return work;
 }
 
+void SolidModel::add_wall_contact(const VecField& x) {
+#pragma omp single
+  walls_->prepare(x, particle_count(), time_);
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < clusters(); ++c) {
+    const std::size_t i = c * lane_count;
+    const VecLanes push = walls_->acceleration(x, c), a = load(a_, i);
+    store(VecLanes{a[0] + push[0], a[1] + push[1]}, a_, i);
+  }
+}
+
+double SolidModel::contact_energy() const {
+  double sum = 0;
+  VecField x = X_;
+  for (int a = 0; a < dim; ++a)
+    for (std::size_t k = 0; k < x[a].size(); ++k) x[a][k] += u_[a][k];
+  for (std::size_t c = 0; c < clusters(); ++c) {
+    const Lanes density = walls_->energy_density(x, c);
+    for (std::size_t k = c * lane_count; k < std::min((c + 1) * lane_count, particle_count()); ++k)
+      sum += body_.volume(number_[k]) * density[k - c * lane_count];
+  }
+  return sum;
+}
+
 double SolidModel::kinetic_energy() const {
   double sum = 0;
   for (std::size_t i = 0; i < particle_count(); ++i) sum += 0.5 * mass(i) * velocity(i).squaredNorm();
@@ -181,6 +208,10 @@ std::vector<Observation> SolidModel::observe() const {
   for (const auto& energy : internal_energies()) {
     held += energy.value;
     row.push_back(energy);
+  }
+  if (walls_) {
+    row.push_back({"contact_energy", "J/m", contact_energy()});
+    held += row.back().value;
   }
   row.push_back({"potential_energy", "J/m", potential});
   row.push_back({"interface_work", "J/m", work});
@@ -231,6 +262,12 @@ std::vector<ActiveTerm> SolidModel::active_terms() const {
          "Monaghan 1992; thesis eq. 23-24",
          fmt::format("A {:g}, B {:g}, c {:.4g} m/s", parameters_.artificial_viscosity->alpha,
                      parameters_.artificial_viscosity->beta, parameters_.material.bulk_sound_speed())});
+  if (walls_)
+    terms.push_back(
+        {"wall contact", "p_i = stiffness K max(0, S_i/S_0 - 1), Dv_i/Dt = -p_i/rho_0 grad S_i",
+         "in the manner of Adami, Hu & Adams 2012",
+         fmt::format("stiffness {:g}, S_0 {:.4g}, {} wall particles", parameters_.wall_contact->stiffness,
+                     walls_->touching_sum(), walls_->particle_count())});
   if (parameters_.damping)
     terms.push_back({"damping", "dv/dt = -rate v", "dynamic relaxation: Otter 1965",
                      fmt::format("rate {:g} 1/s", parameters_.damping->rate)});

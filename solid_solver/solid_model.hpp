@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "common/link/participant.hpp"
@@ -60,6 +61,8 @@ class SolidModel : public Solver {
   /// uses it reorders its own fields too.
   void reorder_particles(const std::vector<std::uint32_t>& order);
   double strip_width() const { return std::sqrt(static_cast<double>(lane_count)) * body_.spacing; }  ///< [m]
+  /// Adds the walls' push on the particles at x [m] and the present time to `a_`, within a parallel region.
+  void add_wall_contact(const VecField& x);
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 
   SolidParameters parameters_;
@@ -74,13 +77,15 @@ class SolidModel : public Solver {
   VecField a_;                         ///< acceleration by stress, viscosity and contact [m/s2]
   VecField external_;                  ///< acceleration by gravity and loads [m/s2]
   Timers timers_;
-  Field mobile_;  ///< 0 where a clamp holds, else 1
+  std::unique_ptr<ContactWalls> walls_;  ///< if walls act on the solid
+  Field mobile_;                         ///< 0 where a clamp holds, else 1
 
  private:
   void find_slots();  ///< after `number_` changed
   double kinetic_energy() const;
   double potential_energy() const;
   double interface_work() const;
+  double contact_energy() const;
   Vec momentum() const;
 
   VecField constant_;  ///< gravity and constant loads [m/s2]

@@ -39,19 +39,20 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
   resize(H_, size);
   resize(T_, size);
   find_highest_frequency();
+  if (walls_) resize(x_, size);
 #pragma omp parallel
   evaluate();
 }
 
 void TotalLagrangian::advance(double dt) {
   const auto scope = timers_.measure("steps");
+  time_ += dt;
 #pragma omp parallel
   {
     kick_and_drift(dt);
     evaluate();
     kick(dt);
   }
-  time_ += dt;
 }
 
 void TotalLagrangian::kick_and_drift(double dt) {
@@ -82,6 +83,17 @@ void TotalLagrangian::kick(double dt) {
 void TotalLagrangian::evaluate() {
   find_stresses();
   find_accelerations();
+  if (!x_[0].empty()) touch_walls();
+}
+
+void TotalLagrangian::touch_walls() {
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < clusters(); ++c)
+    for (int a = 0; a < dim; ++a) {
+      const std::size_t i = c * lane_count;
+      store(load(X_[a], i) + load(u_[a], i), x_[a], i);
+    }
+  add_wall_contact(x_);
 }
 
 void TotalLagrangian::find_stresses() {
@@ -157,11 +169,14 @@ double TotalLagrangian::largest_stretch_squared() const {
 }
 
 double TotalLagrangian::time_step_limit() const {
-  if (highest_frequency_ == 0) return 1.0;  // all held: nothing moves
-  const double stiffening = std::sqrt(1.5 * largest_stretch_squared() - 0.5);
+  const double contact = walls_ ? walls_->highest_frequency() : 0.0;
+  const double stiffening_squared = 1.5 * largest_stretch_squared() - 0.5;
+  const double frequency =
+      std::sqrt(stiffening_squared * highest_frequency_ * highest_frequency_ + contact * contact);
+  if (frequency == 0) return 1.0;  // all held: nothing moves
   const double damping =
       parameters_.artificial_viscosity ? 1.0 + parameters_.artificial_viscosity->alpha : 1.0;
-  return parameters_.time_step_share * 2.0 / (highest_frequency_ * stiffening * damping);
+  return parameters_.time_step_share * 2.0 / (frequency * damping);
 }
 
 Tensor<double> TotalLagrangian::gradient(std::size_t slot) const {

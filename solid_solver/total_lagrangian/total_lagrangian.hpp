@@ -46,12 +46,15 @@ class TotalLagrangian final : public SolidModel {
   double largest_stretch_squared() const;
   Tensor<double> gradient(std::size_t slot) const;
 
+  void touch_walls();
+
   Field volume_;
   std::unique_ptr<ReferencePairs> pairs_;
   SaintVenantKirchhoff material_;
   double penalty_;  ///< alpha E [Pa]
   TensorField H_;   ///< displacement gradient
   TensorField T_;   ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
+  VecField x_;      ///< present positions, if walls act on the solid [m]
   double highest_frequency_ = 0;
 };
 

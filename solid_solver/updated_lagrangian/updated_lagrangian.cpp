@@ -110,6 +110,7 @@ void UpdatedLagrangian::evaluate() {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c)
     store(sweeps_.acceleration(state_, rates_, list_, c), a_, c * lane_count);
+  if (walls_) add_wall_contact(state_.x);
 }
 
 void UpdatedLagrangian::move(double dt) {

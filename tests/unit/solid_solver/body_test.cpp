@@ -1,0 +1,105 @@
+#include "solid_solver/body.hpp"
+
+#include <gmock/gmock.h>
+
+#include "samples.hpp"
+
+namespace toryu {
+namespace {
+
+using testing::ElementsAre;
+using testing::Pair;
+
+std::vector<std::string> faults_of(const SolidParameters& parameters) {
+  std::vector<std::string> faults;
+  build_body(parameters, [&](const std::string& key, const std::string& message) {
+    faults.push_back(key + ": " + message);
+  });
+  return faults;
+}
+
+TEST(SolidBody, FillsItsRegionWithRowsHalfASpacingFromTheFaces) {
+  const SolidBody body = body_of(free_plate(4));
+  ASSERT_EQ(body.size(), 64u);
+  EXPECT_NEAR((body.X.front() - Vec(0.0025, 0.0025)).norm(), 0, 1e-15);
+  EXPECT_NEAR((body.X.back() - Vec(0.0775, 0.0175)).norm(), 0, 1e-15);
+  EXPECT_NEAR(body.total_volume(), 0.08 * 0.02, 1e-15);
+}
+
+TEST(SolidBody, FitsTheSpacingToTheSidesSoThatMassIsDensityTimesArea) {
+  SolidParameters p = free_plate(4);
+  p.spacing = 0.000625;
+  p.regions = {{"gate", {Vec(0.1, 0), Vec(0.105, 0.079)}}};  // 126.4 spacings high
+  const SolidBody body = body_of(p);
+  EXPECT_EQ(body.size(), 8u * 126u);
+  EXPECT_NEAR(body.total_volume(), 0.005 * 0.079, 1e-15);
+  EXPECT_NEAR(body.X.back()[1], 0.079 - 0.5 * 0.079 / 126, 1e-15);
+}
+
+TEST(SolidBody, CountsTheParticlesOfRegionsAndClamps) {
+  SolidParameters p = free_plate(4);
+  p.clamps = {{"root", {Vec(-1, -1), Vec(0.01, 1)}}};  // a clamp line between rows 2 and 3
+  const SolidBody body = body_of(p);
+  EXPECT_THAT(body.counts, ElementsAre(Pair("region plate", 64), Pair("clamp root", 8)));
+  EXPECT_EQ(std::count(body.held.begin(), body.held.end(), 1), 8);
+}
+
+TEST(SolidBody, SurfaceIsClosedAndAsLongAsItsSides) {
+  SolidParameters p = free_plate(8);
+  p.regions.push_back({"neighbour", {Vec(0.08, 0), Vec(0.1, 0.02)}});
+  p.holes = {{"hole", {Vec(0.03, 0.005), Vec(0.05, 0.015)}}};
+  const SolidBody body = body_of(p);
+  Vec sum = Vec::Zero();
+  double length = 0;
+  for (const Vec& area : body.area_vector) {
+    sum += area;
+    length += area.lpNorm<1>();
+  }
+  EXPECT_NEAR(sum.norm(), 0, 1e-15);
+  EXPECT_NEAR(length, 2 * (0.1 + 0.02) + 2 * (0.02 + 0.01), 1e-12);
+  EXPECT_NEAR((body.area_vector.front() - Vec(-0.0025, -0.0025)).norm(), 0, 1e-15) << "outward at the corner";
+}
+
+TEST(SolidBody, InterfaceIsWhatAFluidCanReachFromOutside) {
+  const SolidBody body = body_of(free_plate(10));  // spacing 2 mm, 40 x 10
+  EXPECT_EQ(body.near_surface(0.0021).size(), 400u - 38u * 8u) << "one layer";
+  EXPECT_EQ(body.near_surface(0.0041).size(), 400u - 36u * 6u) << "two layers";
+}
+
+TEST(SolidBody, TellsWhatIsWrongWithTheGeometry) {
+  SolidParameters p = free_plate(4);
+  p.regions.push_back({"lid", {Vec(0, 0.015), Vec(0.08, 0.0225)}});
+  p.clamps = {{"nowhere", {Vec(2, 2), Vec(3, 3)}}};
+  p.loads = {{"push", {Vec(2, 2), Vec(3, 3)}, Vec(1, 0)}};
+  p.observers = {{"far", Vec(2, 2)}};
+  EXPECT_THAT(
+      faults_of(p),
+      ElementsAre(
+          "solid.region: region 'lid' overlaps region 'plate'; regions may touch only",
+          "solid.region: region 'lid' is 1.5 spacings long along y; rows of particles fill it only if "
+          "that is within 10 % of a whole number",
+          "solid.clamp: clamp 'nowhere' holds no particle of the solid",
+          "solid.load: load 'push' acts on no particle of the solid",
+          "solid.observer: observer 'far': the point (2, 2) is not in the solid: 0 particles within "
+          "0.013 m"));
+}
+
+TEST(MaterialPoint, IsExactForLinearFieldsAlsoInACorner) {
+  const SolidBody body = body_of(free_plate(4));
+  for (const Vec& point : {Vec(0, 0), Vec(0.08, 0.02), Vec(0.04, 0.01), Vec(0.013, 0.0)}) {
+    const MaterialPoint observer(point, body.X, 0.013);
+    const auto linear = [](const Vec& X) { return Vec(1 + 2 * X[0] - X[1], 3 * X[1]); };
+    EXPECT_NEAR((observer.value([&](std::size_t i) { return linear(body.X[i]); }) - linear(point)).norm(), 0,
+                1e-13);
+  }
+}
+
+TEST(InitialVelocity, FollowsTheFirstModeOfABeam) {
+  const InitialVelocity v{VelocityProfile::cantilever_mode_1, Vec(0, 3), Vec(1, 0), 2.0};
+  EXPECT_NEAR(v.at(Vec(3, 0.7))[1], 3.0, 1e-12);
+  EXPECT_NEAR(v.at(Vec(2, 0))[1] / 3.0, 0.3395, 1e-4);  // mid length, tables of beam modes
+  EXPECT_EQ(v.at(Vec(0.5, 0)), Vec(0, 0));
+}
+
+}  // namespace
+}  // namespace toryu
