@@ -79,6 +79,15 @@ class Comparison:
     def unit(self):
         return unit_of(self.column)
 
+    @property
+    def quantity(self):
+        return readable(self.column)
+
+
+def readable(column):
+    """tip_displacement_x[m] -> tip displacement x"""
+    return re.sub(r"\[.*\]$", "", column).replace("_", " ")
+
 
 def unit_of(column):
     found = re.search(r"\[(.*)\]$", column)

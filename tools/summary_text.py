@@ -27,7 +27,7 @@ def distances(case, out):
         comparisons = results.compare(case, out)
     except (OSError, KeyError) as error:
         return [("references", f"cannot be read: {error!r}")]
-    return [(f"distance to {c.label}", f"{c.distance:.1%} of its peak (root mean square)")
+    return [(f"distance in {c.quantity}", f"{100 * c.distance:.1f} % of the peak of '{c.label}' (root mean square)")
             for c in comparisons if math.isfinite(c.distance)]
 
 
@@ -37,6 +37,6 @@ def times(summaries):
         wall, waiting = summary["wall_time"], summary["waiting_time"]
         text = f"{wall:.1f} s"
         if waiting > 0 and wall > 0:
-            text += f", {waiting / wall:.0%} of it waiting"
+            text += f", {100 * waiting / wall:.0f} % of it waiting"
         counted = "windows" if participant == "coupler" else "steps"
         yield f"wall time {name}", f"{text}; {summary['steps']} {counted}, {summary['processor_time']:.1f} s of processor"

@@ -15,19 +15,21 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
+import numpy as np  # noqa: E402
+
 import data  # noqa: E402
 import frames  # noqa: E402
 import results  # noqa: E402
 import tables  # noqa: E402
 
 
-def view_of(boxes, walls):
-    """The box that the picture shows at first: all particles and the walls."""
-    corners = [[*map(float, low), *map(float, high)] for low, high in boxes] + [wall["box"] for wall in walls]
-    if not corners:
+def view_of(boxes):
+    """The box that the picture shows at first: wherever a particle comes in the run, and a little around it."""
+    if not boxes:
         return [0, 0, 1, 1]
-    return [min(c[0] for c in corners), min(c[1] for c in corners),
-            max(c[2] for c in corners), max(c[3] for c in corners)]
+    low, high = np.min([b[0] for b in boxes], axis=0), np.max([b[1] for b in boxes], axis=0)
+    margin = 0.05 * max(high - low)
+    return [*map(float, low - margin), *map(float, high + margin)]
 
 
 def comparisons_of(case, out):
@@ -48,7 +50,7 @@ def page(case_path, out, exit_code, words):
     state = data.state(summaries, exit_code, words)
     title = case.get("case", {}).get("title") or results.case_name(case_path)
     content = {
-        "view": view_of(boxes, walls), "walls": walls, "bodies": bodies,
+        "view": view_of(boxes), "walls": walls, "bodies": bodies,
         "compared": compared, "others": others,
     }
     return string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(

@@ -86,10 +86,6 @@ def chart(title, unit, lines):
         for label, times, values, kind in lines]}
 
 
-def readable(column):
-    return re.sub(r"\[.*\]$", "", column).replace("_", " ")
-
-
 def group_of(column):
     """Columns of one group and unit share a chart."""
     name = column.partition("[")[0]
@@ -98,7 +94,7 @@ def group_of(column):
     for word in ("momentum", "impulse", "displacement"):
         if word in name:
             return word
-    return re.sub(r" [xy]$", "", readable(column))
+    return re.sub(r" [xy]$", "", results.readable(column))
 
 
 def charts(out, comparisons):
@@ -114,8 +110,8 @@ def charts(out, comparisons):
         shown.add(key)
         lines = [("this run", series[comparison.series]["time[s]"], values, "line")]
         lines += [(c.label, [t for t, _ in c.reference], [v for _, v in c.reference], "points") for c in same]
-        compared.append(chart(readable(comparison.column), comparison.unit, lines) | {
-            "notes": [f"{c.label}: root mean square distance {c.distance:.1%} of its peak"
+        compared.append(chart(comparison.quantity, comparison.unit, lines) | {
+            "notes": [f"{c.label}: root mean square distance {100 * c.distance:.1f} % of its peak"
                       for c in same if math.isfinite(c.distance)]})
     others = {}
     for name, columns in series.items():
@@ -126,7 +122,7 @@ def charts(out, comparisons):
         if groups:
             order = ["energy and work", "momentum"]
             keys = sorted(groups, key=lambda k: order.index(k[0]) if k[0] in order else 9)
-            others[name] = [chart(group, unit, [(readable(c), columns["time[s]"], v, "line")
+            others[name] = [chart(group, unit, [(results.readable(c), columns["time[s]"], v, "line")
                                                 for c, v in groups[group, unit]]) for group, unit in keys]
     return compared, others
 

@@ -79,8 +79,8 @@ def figures(out, summaries, comparisons, run):
                               f"at {number(time)} s"))
     for comparison in comparisons:
         if math.isfinite(comparison.distance):
-            tiles.append(tile("distance to reference", f"{comparison.distance:.1%}",
-                              f"{comparison.label}; root mean square, of its peak"))
+            tiles.append(tile(f"distance in {comparison.quantity}", f"{100 * comparison.distance:.1f} %",
+                              f"root mean square, of the peak of '{comparison.label}'"))
     return "".join(tiles)
 
 
@@ -110,7 +110,7 @@ def times(summaries):
             colour = f"{kind} p{i}" if kind == "part" else kind
             pieces.append(f'<span class="{colour}" style="width:{share:.4%}" title="{html.escape(label)}">'
                           f"{html.escape(name) if share > 0.08 else ''}</span>")
-        share = f"{summary['waiting_time'] / wall:.0%} waiting" if summary["waiting_time"] > 0 else ""
+        share = f"{100 * summary['waiting_time'] / wall:.0f} % waiting" if summary["waiting_time"] > 0 else ""
         bars.append(f'<div class="process"><div class="who">{html.escape(program(participant))}</div>'
                     f'<div class="bar">{"".join(pieces)}</div>'
                     f'<div class="sum">{wall:.1f} s<br><small>{share}</small></div></div>')
@@ -118,7 +118,7 @@ def times(summaries):
         calls = {p["name"]: p["calls"] for p in summary.get("part", [])}
         for name, seconds, _ in parts_of(summary):
             n = calls.get(name, 0)
-            rows.append(["", name, f"{seconds:.2f}", f"{seconds / wall:.1%}" if wall > 0 else "", n or "",
+            rows.append(["", name, f"{seconds:.2f}", f"{100 * seconds / wall:.1f} %" if wall > 0 else "", n or "",
                          f"{seconds / n * 1e3:.3g}" if n else ""])
     detail = table(["process", "part", "time [s]", "share", "calls", "a call [ms]"], rows, (2, 3, 4, 5))
     return f'<div class="bars">{"".join(bars)}</div><details><summary>All parts</summary>{detail}</details>'

@@ -63,8 +63,8 @@ class Files(unittest.TestCase):
         path = [made_up_run.tip(0.04 * k)[0] for k in range(1, 11)]
         measured_peak = max(made_up_run.tip(0.04 * k)[0] for k in range(13))
         share = math.sqrt(sum((0.1 * x) ** 2 for x in path) / 10) / (1.1 * measured_peak)
-        self.assertIn(f"{share:.1%} of its peak", text)
-        self.assertIn("61.5 s, 23% of it waiting", text)
+        self.assertIn(f"{100 * share:.1f} % of the peak of 'Somebody 2007'", text)
+        self.assertIn("61.5 s, 23 % of it waiting", text)
 
     def test_a_run_that_left_nothing_has_an_empty_summary(self):
         self.assertEqual(summary_text.of_run(self.case, self.out), "")
