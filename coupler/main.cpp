@@ -7,9 +7,9 @@
 #include <ctime>
 
 #include "common/link/coupler_link.hpp"
-#include "common/run/ending.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
+#include "common/run/ending.hpp"
 #include "common/run/program.hpp"
 #include "common/scene/scene.hpp"
 #include "coupler/coupled_run.hpp"

@@ -24,7 +24,7 @@ void describe(ParameterTable& table, CouplingParameters& p) {
     return word == "pressure_and_viscous" || word == "friction";
   };
   table.require(std::all_of(p.loads.begin(), p.loads.end(), known) && !p.loads.empty(), "loads",
-                "a list of 'pressure_and_viscous' and 'friction' with at least one of them is allowed");
+                "'loads' must name 'pressure_and_viscous', 'friction' or both");
 }
 
 }  // namespace toryu

@@ -100,7 +100,7 @@ class FluidLink {
   void leave(ExitCode code, const std::string& reason) noexcept;
   /// The same from within a catch block: the exception at hand says why.
   void leave() noexcept;
-  double waiting_time() const;  ///< [s] spent in next_window so far
+  double waiting_time() const;  ///< [s] waited for the others so far, the start included
 
  private:
   struct Connection;

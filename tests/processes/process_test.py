@@ -9,6 +9,8 @@ import time
 import tomllib
 import unittest
 
+import h5py
+
 import trio
 
 LIMIT = 30  # seconds after which something that should have ended counts as hung
@@ -46,6 +48,14 @@ class GoodEnd(ProcessTest):
         self.assertLess(figures["largest_impulse_error"], 1e-12)
         self.assertGreater(figures["largest_impulse_error"], 0)  # sums in another order round differently
 
+    def test_solid_feels_only_the_loads_of_the_case(self):
+        run = self.run_of_three(end_time="0.02", settings=["coupling.loads=['friction']"]).start_all()
+        self.assert_all_end(run, trio.EXIT_DONE)
+        with h5py.File(run.out / "interface.h5") as file:
+            self.assertGreater(abs(file["pressure"][-1]).max(), 0)
+            self.assertEqual(abs(file["force"][:]).max(), 0)  # the fake fluid has no friction
+        self.assertLess(self.summary(run)["figures"]["largest_impulse_error"], 1e-12)
+
     def test_two_runs_at_once_do_not_mix(self):
         first = self.run_of_three(end_time="0.05").start_all()
         second = self.run_of_three(end_time="0.03").start_all()
@@ -54,8 +64,6 @@ class GoodEnd(ProcessTest):
             self.assertAlmostEqual(self.summary(run)["simulated_time"], end_time)
 
     def test_the_same_run_twice_exchanges_the_same(self):
-        import h5py
-
         records = []
         for _ in range(2):
             run = self.run_of_three(end_time="0.02").start_all()

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "common/output/hdf5_file.hpp"
@@ -18,12 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path fresh_folder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const fs::path folder = fs::temp_directory_path() / fmt::format("toryu_{}_{}", test->name(), getpid());
-  fs::create_directories(folder);
-  return folder;
-}
+/// A folder of its own for a test, removed at its end.
+struct Folder {
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path =
+      fs::temp_directory_path() /
+      fmt::format("toryu_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
+};
 
 TEST(WindowLength, FillsTheTimeLeftWithoutASplinter) {
   EXPECT_EQ(window_length(10, 1, 1), 1);
@@ -80,6 +83,37 @@ TEST(ExchangeAudit, ImpulseFromNowhereIsInfinite) {
   EXPECT_EQ(audit.compare(none, none, Vec(1e-9, 0), 0.1), std::numeric_limits<double>::infinity());
 }
 
+/// Reads `[coupling]` with the given lines.
+CouplingParameters read_coupling(const std::string& lines) {
+  const Folder folder;
+  std::ofstream(folder.path / "case.toml") << "[coupling]\n" << lines;
+  CaseFile file(folder.path, {});
+  CouplingParameters parameters;
+  file.read("coupling", parameters, "");
+  file.throw_if_faulty();
+  return parameters;
+}
+
+TEST(CouplingParameters, AllLoadsAreFeltByDefault) {
+  const auto parameters = read_coupling("");
+  EXPECT_TRUE(parameters.feels("pressure_and_viscous"));
+  EXPECT_TRUE(parameters.feels("friction"));
+  EXPECT_EQ(parameters.fluid_steps_per_window, 1);
+}
+
+TEST(CouplingParameters, FrictionAloneCanBeFelt) {
+  const auto parameters = read_coupling("loads = ['friction']\nfluid_steps_per_window = 4");
+  EXPECT_FALSE(parameters.feels("pressure_and_viscous"));
+  EXPECT_TRUE(parameters.feels("friction"));
+  EXPECT_EQ(parameters.fluid_steps_per_window, 4);
+}
+
+TEST(CouplingParameters, AnUnknownLoadIsAFault) {
+  EXPECT_THAT([] { read_coupling("loads = ['presure']"); },
+              testing::ThrowsMessage<BadInput>(testing::HasSubstr(
+                  "case.toml:2:1: error: 'loads' must name 'pressure_and_viscous', 'friction' or both")));
+}
+
 TEST(UsedCase, TakesEachSectionOnce) {
   EXPECT_EQ(merge_used_cases({"[case]\nend_time = 1\n\n[[wall]]\nname = \"floor\"\n\n[coupling]\nn = 1\n",
                               "[case]\nend_time = 1\n\n[fluid]\nc = 2\n\n[[fluid.region]]\nx = [[1], [2]]\n",
@@ -89,7 +123,8 @@ TEST(UsedCase, TakesEachSectionOnce) {
 }
 
 TEST(RunLock, RefusesASecondRunUntilTheFirstEnds) {
-  const fs::path folder = fresh_folder();
+  const Folder scratch;
+  const fs::path& folder = scratch.path;
   {
     const RunLock lock(folder);
     EXPECT_THAT([&] { RunLock second(folder); },
@@ -99,7 +134,8 @@ TEST(RunLock, RefusesASecondRunUntilTheFirstEnds) {
 }
 
 TEST(InterfaceRecord, GrowsByRowsAndGetsItsNameAtTheEnd) {
-  const fs::path folder = fresh_folder();
+  const Folder scratch;
+  const fs::path& folder = scratch.path;
   const fs::path path = folder / "interface.h5";
   const Interface interface { {7, 8}, {0, 0, 1, 0}, {1, 1}, {0, 1, 0, 1}, 1.0 };
   {
