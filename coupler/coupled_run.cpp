@@ -131,6 +131,7 @@ void CoupledRun::report(Summary& summary) const {
                      {"round_trip_median", sorted[sorted.size() / 2]},
                      {"round_trip_99_percent", sorted[sorted.size() * 99 / 100]},
                      {"round_trip_total", total},
+                     {"round_trip_share", total / summary.wall_time},
                      {"fluid_compute_total", fluid_compute_},
                      {"solid_compute_total", solid_compute_}};
 }

@@ -41,7 +41,7 @@ class CoupledRun {
 
   /// Runs all windows to the end.
   void run(const CouplerLink::Start& start);
-  /// What is known of the run so far.
+  /// What is known of the run so far; the wall time must be in the summary already.
   void report(Summary& summary) const;
 
  private:

@@ -38,10 +38,10 @@ void run_windows(const Options& options, const CaseFile& file, const CoupledRun:
                     .used_case = file.used()});
   CoupledRun run(settings, link);
   const auto finish = [&](const Ending& ending) {
+    summary.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
     run.report(summary);
     summary.exit_code = ending.code;
     summary.last_words = ending.reason;
-    summary.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
     summary.processor_time = processor_time();
     write_summary(options.out, summary);
   };

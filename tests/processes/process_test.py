@@ -46,6 +46,7 @@ class GoodEnd(ProcessTest):
         self.assert_all_end(run, trio.EXIT_DONE)
         figures = self.summary(run)["figures"]
         self.assertLess(figures["largest_impulse_error"], 1e-12)
+        self.assertTrue(0 < figures["round_trip_share"] < 1, figures)
         self.assertGreater(figures["largest_impulse_error"], 0)  # sums in another order round differently
 
     def test_solid_feels_only_the_loads_of_the_case(self):
