@@ -27,7 +27,7 @@ def table(header, rows, number_columns=()):
 SYMBOLS = {"alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "eta": "η", "theta": "θ", "lambda": "λ",
            "mu": "μ", "nu": "ν", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ", "omega": "ω",
            "Delta": "Δ", "Gamma": "Γ", "Omega": "Ω", "Phi": "Φ", "Pi": "Π", "Psi": "Ψ", "Sigma": "Σ", "grad": "∇",
-           "sum": "Σ"}
+           "sum": "Σ", "Drho": "Dρ"}
 
 
 def formula(text):
