@@ -68,12 +68,14 @@ void describe(ParameterTable& table, SolidParameters& p) {
   table.group("limits", p.limits, "bounds beyond which the run stops");
 
   const bool total = p.formulation == Formulation::total_lagrangian;
-  table.require(!p.regions.empty(), "region", "a solid needs at least one region");
-  table.require(total || !p.hourglass, "hourglass", "belongs to the total Lagrangian formulation");
+  table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
+  table.require(total || !p.hourglass, "hourglass",
+                "[solid.hourglass] is for formulation = \"total_lagrangian\" only");
   table.require(!total || !p.artificial_stress, "artificial_stress",
-                "belongs to the updated Lagrangian formulation");
+                "[solid.artificial_stress] is for formulation = \"updated_lagrangian\" only");
   table.require(!total || p.gradients == Gradients::plain, "gradients",
-                "belongs to the updated Lagrangian formulation: the total one always renormalises");
+                "'gradients' in [solid] is for formulation = \"updated_lagrangian\" only; the other always "
+                "renormalises");
 }
 
 }  // namespace toryu

@@ -16,13 +16,13 @@ Vibration updated_plate(Gradients gradients) {
 TEST(OscillatingPlate, UpdatedLagrangianWithPlainGradients) {
   const Vibration vibration = updated_plate(Gradients::plain);
   EXPECT_NEAR(vibration.period / plate_period, 1.0, 0.21);
-  EXPECT_LT(vibration.amplitude_loss, 0.10);
+  EXPECT_LT(vibration.amplitude_loss, 0.03);
 }
 
 TEST(OscillatingPlate, UpdatedLagrangianWithRenormalisedGradients) {
   const Vibration vibration = updated_plate(Gradients::renormalised);
   EXPECT_NEAR(vibration.period / plate_period, 1.0, 0.11);
-  EXPECT_LT(vibration.amplitude_loss, 0.10);
+  EXPECT_LT(vibration.amplitude_loss, 0.02);
 }
 
 }  // namespace

@@ -1,0 +1,94 @@
+#include "solid_solver/parameters.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace toryu {
+namespace {
+
+const std::string plate = R"([solid]
+density = 1000.0
+youngs_modulus = 2e6
+poissons_ratio = 0.4
+spacing = 0.005
+[[solid.region]]
+name = "plate"
+box = { min = [0.0, 0.0], max = [0.2, 0.02] }
+)";
+
+class SolidSection : public testing::Test {
+ protected:
+  SolidSection()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("toryu_solid_section_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~SolidSection() override { std::filesystem::remove_all(folder_); }
+
+  SolidParameters read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    std::ofstream(folder_ / "case.toml") << text;
+    CaseFile file(folder_, overrides);
+    SolidParameters parameters;
+    file.read("solid", parameters, "an elastic body");
+    file.throw_if_faulty();
+    used_ = file.used();
+    return parameters;
+  }
+  std::string faults(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    try {
+      read(text, overrides);
+    } catch (const BadInput& error) {
+      std::string message = error.what();
+      const std::string path = folder_.string() + "/";
+      for (std::size_t at; (at = message.find(path)) != std::string::npos;) message.erase(at, path.size());
+      return message;
+    }
+    return "";
+  }
+  std::filesystem::path folder_;
+  std::string used_;
+};
+
+TEST_F(SolidSection, TakesDefaultsAndLeavesModelsOff) {
+  const SolidParameters p = read(plate);
+  EXPECT_EQ(p.formulation, Formulation::total_lagrangian);
+  EXPECT_DOUBLE_EQ(p.h(), 1.3 * 0.005);
+  EXPECT_FALSE(p.hourglass || p.artificial_viscosity || p.artificial_stress || p.damping || p.wall_contact);
+  EXPECT_DOUBLE_EQ(p.material.bulk_modulus(), 2e6 / (3 * (1 - 2 * 0.4)));
+  EXPECT_DOUBLE_EQ(p.material.shear_modulus(), 2e6 / (2 * 1.4));
+}
+
+TEST_F(SolidSection, IsTheSameWhenReadFromWhatWasUsed) {
+  read(plate, {"solid.hourglass.coefficient=1.2", "solid.artificial_viscosity.alpha=0.3"});
+  const std::string used = used_;
+  const SolidParameters again = read(used);
+  EXPECT_EQ(again.hourglass->coefficient, 1.2);
+  EXPECT_EQ(again.artificial_viscosity->alpha, 0.3);
+  EXPECT_EQ(used_, used);
+}
+
+TEST_F(SolidSection, RefusesTermsOfTheOtherFormulation) {
+  EXPECT_EQ(
+      faults(plate + "[solid.artificial_stress]\nepsilon = 0.3\n"),
+      "case.toml:9:8: error: [solid.artificial_stress] is for formulation = \"updated_lagrangian\" only");
+  EXPECT_EQ(faults(plate + "[solid.hourglass]\n", {"solid.formulation=updated_lagrangian"}),
+            "case.toml:9:8: error: [solid.hourglass] is for formulation = \"total_lagrangian\" only");
+  EXPECT_EQ(faults("[solid]\ngradients = \"renormalised\"\n" + plate.substr(8)),
+            "case.toml:2:1: error: 'gradients' in [solid] is for formulation = \"updated_lagrangian\" only; "
+            "the other "
+            "always renormalises");
+}
+
+TEST_F(SolidSection, NeedsARegionAndAPositiveDensity) {
+  const std::string rest = "youngs_modulus = 2e6\npoissons_ratio = 0.4\nspacing = 0.005\n";
+  EXPECT_EQ(faults("[solid]\ndensity = -1.0\n" + rest),
+            "case.toml:2:1: error: 'density' in [solid] must be above 0 [kg/m3], found -1");
+  EXPECT_EQ(faults("[solid]\ndensity = 1.0\n" + rest),
+            "case.toml:1:2: error: [solid] needs at least one [[solid.region]]");
+}
+
+}  // namespace
+}  // namespace toryu
