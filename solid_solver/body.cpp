@@ -98,18 +98,6 @@ double SolidBody::total_volume() const {
   return sum;
 }
 
-Vec SolidBody::smallest_corner() const {
-  Vec corner = X.front();
-  for (std::size_t i = 0; i < size(); ++i) corner = corner.cwiseMin(X[i] - 0.5 * cell[i]);
-  return corner;
-}
-
-Vec SolidBody::largest_corner() const {
-  Vec corner = X.front();
-  for (std::size_t i = 0; i < size(); ++i) corner = corner.cwiseMax(X[i] + 0.5 * cell[i]);
-  return corner;
-}
-
 std::vector<std::uint32_t> SolidBody::inside(const Box& box) const {
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < size(); ++i)

@@ -27,8 +27,6 @@ struct SolidBody {
   std::size_t size() const { return X.size(); }
   double volume(std::size_t i) const { return cell[i].prod(); }  ///< [m2 per metre depth]
   double total_volume() const;
-  Vec smallest_corner() const;
-  Vec largest_corner() const;
   std::vector<std::uint32_t> inside(const Box& box) const;  ///< numbers of the particles in a box
   /// Numbers of the particles that have an empty lattice site within `reach` [m]: those that a fluid with
   /// that reach can touch.

@@ -17,8 +17,6 @@ class ReferencePairs {
   /// Displacement gradient, renormalised, so that it is exact for linear u (Randles & Libersky 1996):
   ///
   ///     H_i = sum_j V_j (u_j - u_i) (x) L_i gradW_ij,   L_i = [sum_j V_j (X_j - X_i) (x) gradW_ij]^-1
-  ///
-  /// of the clusters [first, last). Each is one value per particle.
   void displacement_gradient(const VecField& u, std::size_t cluster, Tensor<Lanes>& H) const;
 
   /// f_i/V_i = sum_j V_j [(T_i + T_j) gradW_ij + k (u_i - u_j) W'_ij/R_ij]: equal and opposite for a pair.
@@ -30,12 +28,10 @@ class ReferencePairs {
   VecLanes central_force_density(const VecField& u, const VecField& v, std::size_t cluster,
                                  Central&& g) const;
 
-  /// sum_j V_j |u_ij - H_i X_ij|^2 (-W'_ij/R_ij) [1]: twice the square of what H_i does not see.
+  /// sum_j V_j |u_ij - H_i X_ij|^2 (-W'_ij/R_ij) [1]: what H_i does not see.
   Lanes unseen_motion(const VecField& u, const TensorField& H, std::size_t cluster) const;
 
   Tensor<Lanes> shape(std::size_t cluster) const;  ///< L
-  std::size_t clusters() const { return list_.clusters(); }
-  std::size_t pairs() const { return list_.pairs(); }
 
  private:
   const VecField& X_;

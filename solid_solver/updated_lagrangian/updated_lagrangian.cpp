@@ -67,7 +67,6 @@ void UpdatedLagrangian::find_neighbours_if_moved() {
 
 void UpdatedLagrangian::find_neighbours() {
   const auto scope = timers_.measure("neighbour search");
-  ++neighbour_searches_;
   const auto find_positions = [&] {
     for (int a = 0; a < dim; ++a)
       for (std::size_t k = 0; k < X_[a].size(); ++k) state_.x[a][k] = X_[a][k] + u_[a][k];

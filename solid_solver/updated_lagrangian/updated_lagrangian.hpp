@@ -26,8 +26,6 @@ class UpdatedLagrangian final : public SolidModel {
   std::vector<ActiveTerm> active_terms() const override;
   Stress stress(std::size_t particle) const override;
   std::vector<Observation> internal_energies() const override;
-  double density(std::size_t particle) const { return state_.rho[slot_[particle]]; }  ///< [kg/m3]
-  long neighbour_searches() const { return neighbour_searches_; }
 
  protected:
   void check_strain(double time) const override;
@@ -52,7 +50,6 @@ class UpdatedLagrangian final : public SolidModel {
   StripOrder strips_;
   ClusterList list_;
   double skin_;  ///< [m]
-  long neighbour_searches_ = 0;
 };
 
 }  // namespace toryu
