@@ -92,10 +92,16 @@ ExitCode solve(const Options& options) {
   omp_set_num_threads(thread_count(options, body));
   const auto model = make_model(parameters, body, scene);
   spdlog::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
-  if (file.has("fluid"))
-    compute_coupled(options, file, scene, *model);
-  else
+  if (!file.has("fluid")) {
     compute_alone(options, file, scene, *model);
+    return ExitCode::done;
+  }
+  if (!parameters.artificial_viscosity && !parameters.damping)
+    spdlog::warn(
+        "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
+        "it; "
+        "give it [solid.artificial_viscosity]");
+  compute_coupled(options, file, scene, *model);
   return ExitCode::done;
 }
 
