@@ -1,0 +1,130 @@
+// Pressure and velocity that walls take from the fluid, (27)-(29).
+#include "fluid_solver/boundary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace toryu::fluid {
+namespace {
+
+constexpr double d_0 = 0.1, h = 1.3 * d_0;
+const CubicSpline kernel(h);
+
+struct Fluid {
+  std::vector<Vec> x, v;
+  std::vector<double> p, rho;
+};
+
+/// `fluid` in strip order.
+std::pair<Particles, StripOrder> in_order(const Fluid& fluid) {
+  Particles f;
+  f.count = fluid.x.size();
+  for (auto* field : {&f.x, &f.v}) resize(*field, padded(f.count));
+  for (auto* field : {&f.p, &f.rho}) field->resize(padded(f.count), 0.0);
+  StripOrder strips(0.3);
+  Field x, y;
+  for (const Vec& point : fluid.x) x.push_back(point[0]), y.push_back(point[1]);
+  const auto order = strips.sort(x, y, f.count);
+  for (std::size_t k = 0; k < f.count; ++k) {
+    set(f.x, k, fluid.x[order[k]]);
+    set(f.v, k, fluid.v[order[k]]);
+    f.p[k] = fluid.p[order[k]];
+    f.rho[k] = fluid.rho[order[k]];
+  }
+  strips.index(f.x[0], f.count);
+  return {f, strips};
+}
+
+/// Wall particles at `places` with what they take from `fluid`; particle k of the result is places[k].
+struct Taken {
+  std::vector<double> p;
+  std::vector<Vec> v_viscous;
+};
+Taken extrapolated(const std::vector<Vec>& places, const Fluid& fluid, const Vec& g, const Vec& v_w = {0, 0},
+                   const Vec& a_w = {0, 0}) {
+  Boundary boundary;
+  boundary.place(places, std::vector<double>(places.size(), d_0 * d_0), 1000, 0.3);
+  boundary.move([&](std::uint32_t k) { return Kinematics{places[k], v_w, a_w}; });
+  const auto [particles, strips] = in_order(fluid);
+  boundary.fluid_near.build(boundary.x, boundary.count, particles.x, strips, 1.1 * kernel.support());
+#pragma omp parallel
+  extrapolate(boundary, particles, kernel, g);
+  Taken taken{std::vector<double>(places.size()), std::vector<Vec>(places.size())};
+  for (std::size_t k = 0; k < boundary.count; ++k) {
+    taken.p[boundary.id[k]] = boundary.p[k];
+    taken.v_viscous[boundary.id[k]] = at(boundary.v_viscous, k);
+  }
+  return taken;
+}
+
+const Vec g(0, -9.81);
+
+TEST(WallExtrapolation, OfOneParticleIsItsPressureAndTheWeightBetween) {
+  const Fluid one{{{0.02, 0.05}}, {{0.3, -0.7}}, {500}, {1003}};
+  const Vec place(0, -0.05), a_w(2, -1);
+  const Taken taken = extrapolated({place}, one, g, {0.1, 0.2}, a_w);
+  EXPECT_NEAR(taken.p[0], 500 + 1003 * (g - a_w).dot(place - one.x[0]), 1e-9);
+  EXPECT_LT((taken.v_viscous[0] - (2 * Vec(0.1, 0.2) - one.v[0])).norm(), 1e-12);
+}
+
+TEST(WallExtrapolation, OfTwoParticlesIsTheirKernelMean) {
+  const Fluid two{{{0.02, 0.05}, {0.10, 0.06}}, {{1, 0}, {0, 1}}, {500, 700}, {1003, 1010}};
+  const Vec place(0.03, -0.05);
+  const double W_0 = kernel.value((place - two.x[0]).norm()), W_1 = kernel.value((place - two.x[1]).norm());
+  const double p_w = (500 * W_0 + 700 * W_1 + g.dot(1003 * W_0 * (place - two.x[0])) +
+                      g.dot(1010 * W_1 * (place - two.x[1]))) /
+                     (W_0 + W_1);
+  const Taken taken = extrapolated({place}, two, g);
+  EXPECT_NEAR(taken.p[0], p_w, 1e-10 * p_w);
+  const Vec mean = (W_0 * two.v[0] + W_1 * two.v[1]) / (W_0 + W_1);
+  EXPECT_LT((taken.v_viscous[0] + mean).norm(), 1e-12);
+}
+
+/// Water of constant density under the acceleration `field`, and three rows of wall below it.
+std::pair<Fluid, std::vector<Vec>> water_over_wall(const Vec& field) {
+  Fluid fluid;
+  std::vector<Vec> wall;
+  for (int a = 0; a < 12; ++a) {
+    for (int b = 0; b < 8; ++b) {
+      fluid.x.emplace_back((a + 0.5) * d_0, (b + 0.5) * d_0);
+      fluid.v.emplace_back(0.25, 0.5);
+      fluid.p.push_back(8000 + 1000 * field.dot(fluid.x.back()));
+      fluid.rho.push_back(1000);
+    }
+    for (int b = 1; b <= 3; ++b) wall.emplace_back((a + 0.5) * d_0, (0.5 - b) * d_0);
+  }
+  return {fluid, wall};
+}
+
+TEST(WallExtrapolation, ContinuesHydrostaticPressureExactly) {
+  const auto [fluid, wall] = water_over_wall(g);
+  const Taken taken = extrapolated(wall, fluid, g);
+  for (std::size_t k = 0; k < wall.size(); ++k)
+    EXPECT_NEAR(taken.p[k], 8000 + 1000 * g.dot(wall[k]), 1e-7) << wall[k].transpose();
+}
+
+TEST(WallExtrapolation, ContinuesThePressureOfAnAcceleratedTankExactly) {
+  const Vec a_w(3, 2);
+  const auto [fluid, wall] = water_over_wall(g - a_w);
+  const Taken taken = extrapolated(wall, fluid, g, {0, 0}, a_w);
+  for (std::size_t k = 0; k < wall.size(); ++k)
+    EXPECT_NEAR(taken.p[k], 8000 + 1000 * (g - a_w).dot(wall[k]), 1e-7) << wall[k].transpose();
+}
+
+TEST(WallExtrapolation, MirrorsAUniformVelocityAtTheWall) {
+  const auto [fluid, wall] = water_over_wall(g);
+  const Taken taken = extrapolated({wall[0], wall[10]}, fluid, g, {1, 0});
+  for (const Vec& v : taken.v_viscous) EXPECT_LT((v - Vec(1.75, -0.5)).norm(), 1e-12);
+}
+
+TEST(WallExtrapolation, LeavesAWallWithoutFluidUnderNoPressure) {
+  const auto [fluid, wall] = water_over_wall(g);
+  const Taken taken = extrapolated({wall[0], {0.05, -0.3}, {9, 9}}, fluid, g);
+  EXPECT_GT(taken.p[0], 0);
+  EXPECT_EQ(taken.p[1], 0);
+  EXPECT_EQ(taken.p[2], 0);
+}
+
+}  // namespace
+}  // namespace toryu::fluid

@@ -1,0 +1,77 @@
+/// Particles typed by hand, and the sums of one term over them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fluid_solver/terms/pair.hpp"
+
+namespace toryu::fluid {
+
+/// One particle of a pair, with all that a term may read of it.
+struct Point {
+  Vec x = Vec::Zero(), v = Vec::Zero();
+  double rho = 1000, m = 1, p = 0;
+  Vec grad_rho = Vec::Zero();
+};
+
+/// What a pair loop reads of `points`.
+struct FewSources {
+  explicit FewSources(const std::vector<Point>& points) {
+    const std::size_t n = points.size();
+    for (auto* field : {&x, &v, &grad_rho}) resize(*field, n);
+    for (const auto& point : points) {
+      const std::size_t j = m.size();
+      set(x, j, point.x);
+      set(v, j, point.v);
+      set(grad_rho, j, point.grad_rho);
+      m.push_back(point.m);
+      V.push_back(point.m / point.rho);
+      rho.push_back(point.rho);
+      p_rho2.push_back(point.p / (point.rho * point.rho));
+    }
+  }
+  Sources view() const {
+    return {pointers(x), pointers(v), pointers(v), pointers(grad_rho),
+            m.data(),    V.data(),    rho.data(),  p_rho2.data()};
+  }
+  VecField x, v, grad_rho;
+  Field m, V, rho, p_rho2;
+};
+
+/// `i` in every lane.
+inline Targets targets(const Point& i) {
+  const auto lanes = [](const Vec& value) { return VecLanes{Lanes(value[0]), Lanes(value[1])}; };
+  const VecLanes v = lanes(i.v);
+  return {lanes(i.x), v, v, lanes(i.grad_rho), Lanes(i.rho), Lanes(i.p / (i.rho * i.rho))};
+}
+
+/// What `add(targets, sources, j, pair, rates)` adds up for particle `i` over `others`.
+template <class Add>
+Rates sum_over(const Point& i, const std::vector<Point>& others, const CubicSpline& kernel, Add&& add) {
+  const FewSources sources(others);
+  const Sources view = sources.view();
+  const Targets target = targets(i);
+  Rates rates;
+  for (std::size_t j = 0; j < others.size(); ++j)
+    add(target, view, j, make_pair(kernel, target, view, j), rates);
+  return rates;
+}
+
+inline Vec first_lane(const VecLanes& value) {
+  return {value[0][0], value[1][0]};
+}
+
+/// gradW_ij of particles at x_i and x_j, by the kernel's formula (11) alone.
+inline Vec grad_W(const Vec& x_i, const Vec& x_j, double h) {
+  const Vec x_ij = x_i - x_j;
+  const double r = x_ij.norm(), s = r / h, f_0 = 10.0 / (7.0 * std::numbers::pi);
+  double slope = 0;
+  if (s < 1)
+    slope = f_0 * (-3 * s + 2.25 * s * s);
+  else if (s < 2)
+    slope = -0.75 * f_0 * (2 - s) * (2 - s);
+  return slope / (h * h * h) * x_ij / r;
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,67 @@
+/// Small scenes to run the solver in.
+#pragma once
+
+#include "fluid_solver/fluid_solver.hpp"
+
+namespace toryu::fluid {
+
+/// Parameters of a fluid, and the scene it is in.
+struct Setting {
+  Parameters parameters;
+  Scene scene;
+  FluidSolver solver() const { return FluidSolver(parameters, scene); }
+};
+
+inline Setting empty_space() {
+  Setting s;
+  s.parameters.spacing = 0.05;
+  s.parameters.sound_speed = 20;
+  s.parameters.density_diffusion = DensityDiffusion{};
+  s.parameters.artificial_viscosity = ArtificialViscosity{0.05, 0.0};
+  s.scene.domain = {Vec(-10, -10), Vec(10, 10)};
+  return s;
+}
+
+/// Two blocks of fluid that meet askew in empty space: all terms act, nothing outside does.
+inline Setting colliding_drops() {
+  Setting s = empty_space();
+  s.parameters.laminar_viscosity = LaminarViscosity{2.0};
+  s.parameters.regions = {{"left", {Vec(0, 0), Vec(0.5, 0.4)}, Vec(1.0, 0.1)},
+                          {"right", {Vec(0.5, 0.1), Vec(0.8, 0.6)}, Vec(-1.5, 0.3)}};
+  return s;
+}
+
+/// A column of water that collapses in a tank of width 1.
+inline Setting collapsing_column() {
+  Setting s = empty_space();
+  s.scene.gravity = Vec(0, -9.81);
+  s.scene.walls = {{"floor", {Vec(-0.15, -0.15), Vec(1.15, 0)}, {}},
+                   {"left", {Vec(-0.15, 0), Vec(0, 1.2)}, {}},
+                   {"right", {Vec(1, 0), Vec(1.15, 1.2)}, {}}};
+  s.parameters.regions = {{"column", {Vec(0, 0), Vec(0.5, 0.8)}, Vec::Zero()}};
+  return s;
+}
+
+inline void run_until(FluidSolver& solver, double end) {
+  while (solver.time() < end - 1e-12) solver.advance(std::min(solver.time_step_limit(), end - solver.time()));
+}
+
+/// A field by the particles' numbers at the start.
+inline std::vector<Vec> by_id(const FluidSolver& solver, const VecField& field) {
+  const auto& f = solver.particles();
+  std::vector<Vec> values(f.count);
+  for (std::size_t k = 0; k < f.count; ++k) values[f.id[k]] = at(field, k);
+  return values;
+}
+inline std::vector<Vec> positions(const FluidSolver& solver) {
+  return by_id(solver, solver.particles().x);
+}
+
+/// Largest distance of a particle between the two, or difference of its velocity.
+inline double largest_difference(const std::vector<Vec>& a, const std::vector<Vec>& b) {
+  double largest = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, (a[k] - b[k]).norm());
+  return largest;
+}
+
+}  // namespace toryu::fluid

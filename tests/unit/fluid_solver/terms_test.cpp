@@ -1,0 +1,182 @@
+// Each term of a pair loop against sums worked by hand from its formula.
+#include <gtest/gtest.h>
+
+#include "fluid_solver/terms/artificial_viscosity.hpp"
+#include "fluid_solver/terms/continuity.hpp"
+#include "fluid_solver/terms/density_diffusion.hpp"
+#include "fluid_solver/terms/equation_of_state.hpp"
+#include "fluid_solver/terms/laminar_viscosity.hpp"
+#include "fluid_solver/terms/pressure.hpp"
+#include "tests/unit/fluid_solver/few_particles.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+constexpr double h = 0.013, c_0 = 20;
+const CubicSpline kernel(h);
+
+// Five particles without any symmetry: i, three in its reach, one beyond it.
+const Point i_point{{0.100, 0.200}, {0.3, -0.2}, 1010, 0.11, 2000, {300, -500}};
+const std::vector<Point> others{{{0.109, 0.203}, {-0.1, 0.1}, 1005, 0.10, 1000, {250, -450}},
+                                {{0.095, 0.214}, {0.2, 0.5}, 990, 0.12, -500, {310, -520}},
+                                {{0.097, 0.193}, {0.4, -0.6}, 1020, 0.09, 3000, {-100, 70}},
+                                {{0.127, 0.200}, {9.0, 9.0}, 1100, 0.50, 9000, {1e4, 1e4}}};
+
+auto momentum(const Pressure& term) {
+  return [term](auto&&... a) { term.momentum(a...); };
+}
+auto viscous(const auto& term) {
+  return [term](auto&&... a) { term.viscous(a...); };
+}
+auto diffusion(const auto& term) {
+  return [term](auto&&... a) { term.diffusion(a...); };
+}
+
+void expect_near(const Vec& value, const Vec& expected) {
+  EXPECT_LT((value - expected).norm(), 1e-12 * expected.norm())
+      << value.transpose() << " instead of " << expected.transpose();
+}
+
+/// m_i a_i + m_j a_j, relative to m_i |a_i|.
+double unbalance(const Point& i, const Point& j, const auto& add) {
+  const Vec on_i = i.m * first_lane(sum_over(i, {j}, kernel, add).a);
+  const Vec on_j = j.m * first_lane(sum_over(j, {i}, kernel, add).a);
+  EXPECT_GT(on_i.norm(), 0);
+  return (on_i + on_j).norm() / on_i.norm();
+}
+
+TEST(Continuity, IsTheSumOfEquation18) {
+  const auto rates = sum_over(i_point, others, kernel, [](auto&&... a) { Continuity{}.density(a...); });
+  double sum = 0;
+  for (const auto& j : others) sum += j.m / j.rho * (i_point.v - j.v).dot(grad_W(i_point.x, j.x, h));
+  EXPECT_NEAR(rates.compression[0], sum, 1e-12 * std::abs(sum));
+}
+
+TEST(Continuity, RaisesTheDensityOnApproach) {
+  const Point i{{0, 0}, {1, 0}}, j{{h, 0}, {-1, 0}};
+  EXPECT_GT(sum_over(i, {j}, kernel, [](auto&&... a) { Continuity{}.density(a...); }).compression[0], 0);
+}
+
+TEST(Pressure, IsTheSumOfEquation22) {
+  Vec sum = Vec::Zero();
+  for (const auto& j : others)
+    sum -=
+        j.m * (i_point.p / (i_point.rho * i_point.rho) + j.p / (j.rho * j.rho)) * grad_W(i_point.x, j.x, h);
+  expect_near(first_lane(sum_over(i_point, others, kernel, momentum({})).a), sum);
+}
+
+TEST(Pressure, DrivesApartAndKeepsMomentum) {
+  const Point i{{0, 0}, {0, 0}, 1000, 0.1, 500}, j{{h, 0.2 * h}, {0, 0}, 1010, 0.2, 900};
+  EXPECT_LT(sum_over(i, {j}, kernel, momentum({})).a[0][0], 0);
+  EXPECT_LT(unbalance(i, j, momentum({})), 1e-14);
+}
+
+/// Pi_ij as printed in (23)-(24), mended.
+double Pi(const Point& i, const Point& j, double A, double B) {
+  const Vec x_ij = i.x - j.x;
+  const double v_x = (i.v - j.v).dot(x_ij);
+  if (v_x >= 0) return 0;
+  const double theta = h * v_x / (x_ij.squaredNorm() + 0.01 * h * h);
+  return (-A * c_0 * theta + B * theta * theta) / (0.5 * (i.rho + j.rho));
+}
+
+TEST(ArtificialViscosity, IsTheSumOfEquation23) {
+  const double A = 0.7, B = 1.3;
+  Vec sum = Vec::Zero();
+  for (const auto& j : others) sum -= j.m * Pi(i_point, j, A, B) * grad_W(i_point.x, j.x, h);
+  ASSERT_GT(sum.norm(), 0);
+  expect_near(first_lane(sum_over(i_point, others, kernel, viscous(ArtificialViscosityTerm{A, B, h, c_0})).a),
+              sum);
+}
+
+TEST(ArtificialViscosity, PushesApartWhatApproachesAndLeavesAloneWhatParts) {
+  const Point i{{0, 0}, {1, 0}}, j{{h, 0}, {-1, 0}};
+  Point i_away = i, j_away = j;
+  i_away.v = -i.v;
+  j_away.v = -j.v;
+  for (const auto& term : {ArtificialViscosityTerm{1, 0, h, c_0}, ArtificialViscosityTerm{0, 1, h, c_0}}) {
+    EXPECT_LT(sum_over(i, {j}, kernel, viscous(term)).a[0][0], 0);  // Pi_ij > 0
+    EXPECT_EQ(first_lane(sum_over(i_away, {j_away}, kernel, viscous(term)).a), Vec(0, 0));
+  }
+}
+
+TEST(ArtificialViscosity, KeepsMomentumAndTakesEnergyOut) {
+  const ArtificialViscosityTerm term{0.5, 1.0, h, c_0};
+  for (const auto& j : {others[0], others[1], others[2]}) {
+    if ((i_point.v - j.v).dot(i_point.x - j.x) >= 0) continue;
+    EXPECT_LT(unbalance(i_point, j, viscous(term)), 1e-14);
+    const Vec on_i = i_point.m * first_lane(sum_over(i_point, {j}, kernel, viscous(term)).a);
+    EXPECT_LT(on_i.dot(i_point.v - j.v), 0);
+  }
+}
+
+TEST(LaminarViscosity, IsTheSumOfMorrisAndOthers) {
+  const double mu = 0.8;
+  Vec sum = Vec::Zero();
+  for (const auto& j : others) {
+    const Vec x_ij = i_point.x - j.x;
+    sum += j.m * 2 * mu / (i_point.rho * j.rho) * x_ij.dot(grad_W(i_point.x, j.x, h)) /
+           (x_ij.squaredNorm() + 0.01 * h * h) * (i_point.v - j.v);
+  }
+  expect_near(first_lane(sum_over(i_point, others, kernel, viscous(LaminarViscosityTerm{mu})).a), sum);
+}
+
+TEST(LaminarViscosity, SlowsThePairAndKeepsMomentum) {
+  const LaminarViscosityTerm term{0.8};
+  EXPECT_LT(unbalance(i_point, others[0], viscous(term)), 1e-14);
+  const Vec a = first_lane(sum_over(i_point, {others[0]}, kernel, viscous(term)).a);
+  EXPECT_LT(a.dot(i_point.v - others[0].v), 0);
+}
+
+TEST(DensityDiffusion, IsTheSumOfEquation18) {
+  const double factor = 0.1 * h * c_0;
+  double renormalised = 0, plain = 0;
+  for (const auto& j : others) {
+    const Vec x_ij = i_point.x - j.x, grad = grad_W(i_point.x, j.x, h);
+    const Vec steep = 2 * (i_point.rho - j.rho) * x_ij / x_ij.squaredNorm();
+    plain += factor * j.m / j.rho * steep.dot(grad);
+    renormalised += factor * j.m / j.rho * (steep - (i_point.grad_rho + j.grad_rho)).dot(grad);
+  }
+  const auto sum = [&](const auto& term) {
+    return sum_over(i_point, others, kernel, diffusion(term)).diffusion[0];
+  };
+  EXPECT_NEAR(sum(DensityDiffusionTerm<true>{factor}), renormalised, 1e-12 * std::abs(renormalised));
+  EXPECT_NEAR(sum(DensityDiffusionTerm<false>{factor}), plain, 1e-12 * std::abs(plain));
+}
+
+TEST(DensityDiffusion, MakesNoMass) {
+  // V_i of what i gets from j is minus V_j of what j gets from i: psi_ij = psi_ji.
+  const auto term = diffusion(DensityDiffusionTerm<true>{1.0});
+  for (const auto& j : {others[0], others[1], others[2]}) {
+    const double to_i = i_point.m / i_point.rho * sum_over(i_point, {j}, kernel, term).diffusion[0];
+    const double to_j = j.m / j.rho * sum_over(j, {i_point}, kernel, term).diffusion[0];
+    EXPECT_NE(to_i, 0);
+    EXPECT_NEAR(to_i + to_j, 0, 1e-13 * std::abs(to_i));
+  }
+}
+
+TEST(DensityDiffusion, FlowsFromDenseToThin) {
+  const Point dense{{0, 0}, {0, 0}, 1010}, thin{{h, 0}, {0, 0}, 1000};
+  EXPECT_LT(sum_over(dense, {thin}, kernel, diffusion(DensityDiffusionTerm<false>{1.0})).diffusion[0], 0);
+}
+
+TEST(EquationOfState, IsEquation3AndItsInverse) {
+  const EquationOfState state{1000, 20, 7};
+  EXPECT_DOUBLE_EQ(state.p_0(), 1000 * 400 / 7.0);
+  EXPECT_EQ(state.pressure(1000.0), 0);
+  for (const double rho : {950.0, 999.0, 1001.0, 1100.0}) {
+    const double p = 1000 * 400 / 7.0 * (std::pow(rho / 1000, 7) - 1);
+    EXPECT_NEAR(state.pressure(rho), p, 1e-12 * std::abs(p));
+    EXPECT_NEAR(state.density(p), rho, 1e-12 * rho);
+  }
+}
+
+TEST(EquationOfState, HasTheSoundSpeedAsTheSlopeOfPressure) {
+  for (const int gamma : {1, 7}) {
+    const EquationOfState state{1000, 20, gamma};
+    EXPECT_NEAR((state.pressure(1000.001) - state.pressure(999.999)) / 0.002, 400, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace toryu::fluid
