@@ -1,0 +1,29 @@
+/// A fluid case of the project, run inside the test, so that every particle can be looked at.
+#pragma once
+
+#include "common/case/case_file.hpp"
+#include "fluid_solver/fluid_solver.hpp"
+
+namespace toryu::fluid {
+
+struct FluidCase {
+  /// `overrides` as after --set: "fluid.spacing=0.1".
+  explicit FluidCase(const std::string& name, const std::vector<std::string>& overrides = {})
+      : FluidCase(CaseFile(std::string(CASES "/") + name, overrides)) {}
+  FluidSolver solver() const { return FluidSolver(parameters, scene); }
+
+  Scene scene;
+  Parameters parameters;
+
+ private:
+  explicit FluidCase(CaseFile file) : scene(read_scene(file)) {
+    file.read("fluid", parameters, "");
+    file.throw_if_faulty();
+  }
+};
+
+inline void run_until(FluidSolver& solver, double end) {
+  while (solver.time() < end - 1e-12) solver.advance(std::min(solver.time_step_limit(), end - solver.time()));
+}
+
+}  // namespace toryu::fluid
