@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fluid_solver/taken_places.hpp"
+
 namespace toryu::fluid {
 
 namespace {
@@ -27,6 +29,11 @@ StepLimits step_limits(const Parameters& p, double speed, double acceleration) {
 
 double strip_width(const Parameters& p) {
   return std::sqrt(static_cast<double>(lane_count)) * p.spacing;
+}
+
+// A particle nearer than this to another body's was placed twice.
+double nearest_bodies(const Parameters& p) {
+  return 0.5 * p.spacing;
 }
 
 }  // namespace
@@ -95,8 +102,17 @@ void FluidSolver::fill_walls() {
     moving_walls_.push_back(wall);
     wall_start_.push_back(wall ? points : std::vector<Vec>{});
   };
+  TakenPlaces taken(nearest_bodies(parameters_));
   for (const auto& wall : scene_.walls) {
     const auto points = fill({wall.box}, {}, parameters_.spacing);
+    const std::string place = fmt::format("[[wall]] '{}'", wall.name);
+    if (points.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
+    if (const auto overlap = taken.take(points, wall.name))
+      throw BadInput(
+          {{place, 0, 0,
+            fmt::format("overlaps the wall '{}' near ({:.6g}, {:.6g}) m: particles of two walls must be "
+                        "at least half a spacing apart",
+                        overlap->with, overlap->place[0], overlap->place[1])}});
     if (wall.motion)
       add(wall.name, points, &wall);
     else
@@ -107,8 +123,7 @@ void FluidSolver::fill_walls() {
 }
 
 void FluidSolver::check_overlaps() const {
-  // a particle nearer than this to another body's was placed twice
-  const double nearest = 0.5 * parameters_.spacing;
+  const double nearest = nearest_bodies(parameters_);
   StripOrder strips(strip_width(parameters_));
   const auto order = strips.sort(fluid_.x[0], fluid_.x[1], fluid_.count);
   VecField x = fluid_.x;

@@ -89,6 +89,24 @@ TEST(Bodies, MustNotOverlap) {
   EXPECT_THAT(refusal(setting), testing::HasSubstr("[fluid.region]: error: overlaps a wall near ("));
 }
 
+TEST(Bodies, AreWallsThatDoNotOverlapEachOther) {
+  Setting setting = one_block();
+  setting.scene.walls = {{"floor", {Vec(-0.15, -0.15), Vec(0.3, 0.0)}, {}},
+                         {"left", {Vec(-0.15, -0.15), Vec(0.0, 0.3)}, {}}};
+  EXPECT_EQ(refusal(setting),
+            "[[wall]] 'left': error: overlaps the wall 'floor' near (-0.125, -0.125) m: particles of two "
+            "walls must "
+            "be at least half a spacing apart");
+  setting.scene.walls[1].box.min[1] = 0.0;
+  EXPECT_EQ(refusal(setting), "none");
+}
+
+TEST(Bodies, AreWallsOfSomeParticles) {
+  Setting setting = one_block();
+  setting.scene.walls = {{"thin", {Vec(0.3, 0), Vec(0.31, 1)}, {}}};
+  EXPECT_EQ(refusal(setting), "[[wall]] 'thin': error: holds no particle at this spacing");
+}
+
 TEST(Bodies, MustHoldFluid) {
   Setting setting = one_block();
   setting.parameters.holes = {{Vec(-1, -1), Vec(1, 1)}};
