@@ -1,6 +1,18 @@
 #include "fluid_solver/parameters.hpp"
 
+#include <set>
+
 namespace toryu::fluid {
+
+namespace {
+
+bool names_differ(const std::vector<Observer>& observers) {
+  std::set<std::string> names;
+  for (const auto& observer : observers) names.insert(observer.name);
+  return names.size() == observers.size();
+}
+
+}  // namespace
 
 void describe(ParameterTable& table, Region& region) {
   table.text("name", region.name, {.required = true, .help = "name in the log"});
@@ -97,6 +109,7 @@ void describe(ParameterTable& table, Parameters& p) {
   table.group("limits", p.limits, "bounds of physics");
   table.list("observer", p.observers, "numbers reported over time in fluid.csv");
   table.require(!p.regions.empty(), "region", "a fluid needs at least one [[fluid.region]]");
+  table.require(names_differ(p.observers), "observer", "two [[fluid.observer]] have the same name");
 }
 
 }  // namespace toryu::fluid

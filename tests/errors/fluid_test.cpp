@@ -1,0 +1,99 @@
+// What fluid_solver finds wrong with a case, and with a state, word for word.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+namespace {
+
+struct Ending {
+  int code;
+  std::string last_line;
+};
+
+Ending run(const std::string& arguments) {
+  const std::string command = "'" FLUID_SOLVER "' '" HYDROSTATIC_TANK "' " + arguments + " 2>&1 >/dev/null";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 1000> line{};
+  std::string last;
+  while (fgets(line.data(), line.size(), pipe)) last = line.data();
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, last};
+}
+
+struct Fault {
+  std::string name, setting, text;
+};
+class FluidFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(FluidFault, HasItsText) {
+  const Ending ending = run("--check --set '" + GetParam().setting + "'");
+  EXPECT_EQ(ending.last_line, GetParam().text + "\n");
+  EXPECT_EQ(ending.code, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, FluidFault,
+    testing::Values(
+        Fault{"OutOfRange", "fluid.spacing=-1",
+              "--set fluid.spacing=-1: error: 'spacing' in [fluid] must be above 0 [m], found -1"},
+        Fault{"UnknownKeyOfATerm", "fluid.artificial_viscosity.gamma=1",
+              "--set fluid.artificial_viscosity.gamma=1: error: unknown key 'gamma' in "
+              "[fluid.artificial_viscosity]; known are 'alpha', 'beta'"},
+        Fault{"MissingKeyOfATerm", "fluid.laminar_viscosity={}",
+              "--set fluid.laminar_viscosity={}: error: missing key 'dynamic_viscosity' in "
+              "[fluid.laminar_viscosity]: a number [Pa.s] of at least 0, mu of (4)"},
+        Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
+              "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
+              "'no_slip', 'free_slip', found 'slippery'"},
+        Fault{"NoRegion", "fluid.region=[]",
+              "--set fluid.region=[]: error: a fluid needs at least one [[fluid.region]]"},
+        Fault{
+            "SameObserverTwice",
+            "fluid.observer=[{name=\"p\", quantity=\"pressure\"}, {name=\"p\", quantity=\"front_x\"}]",
+            "--set fluid.observer=[{name=\"p\", quantity=\"pressure\"}, {name=\"p\", quantity=\"front_x\"}]: "
+            "error: two [[fluid.observer]] have the same name"},
+        Fault{"FluidInAWall", "fluid.region.water.box.min=[-0.1,0]",
+              "[fluid.region]: error: overlaps a wall near (-0.075, 0.975) m: fluid and wall particles must "
+              "be at "
+              "least half a spacing apart"},
+        Fault{"WallInAWall", "wall.left.box.min=[-0.2,-0.1]",
+              "[[wall]] 'left': error: overlaps the wall 'floor' near (-0.175, -0.075) m: particles of two "
+              "walls "
+              "must be at least half a spacing apart"},
+        Fault{"WallWithoutParticles", "wall.left.box.max=[-0.19,1.2]",
+              "[[wall]] 'left': error: holds no particle at this spacing"}),
+    [](const auto& one) { return one.param.name; });
+
+struct Failure {
+  std::string name, settings, text;
+};
+class FluidFailure : public testing::TestWithParam<Failure> {};
+
+TEST_P(FluidFailure, NamesParticleTimeValueAndLimit) {
+  const auto out =
+      std::filesystem::temp_directory_path() / ("toryu_fluid_failure_" + std::to_string(getpid()));
+  const Ending ending = run("--threads 1 --out '" + out.string() + "' " + GetParam().settings);
+  std::filesystem::remove_all(out);
+  EXPECT_EQ(ending.last_line,
+            "fluid_solver: error: physics failed: fluid particle " + GetParam().text + "\n");
+  EXPECT_EQ(ending.code, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, FluidFailure,
+    testing::Values(
+        Failure{"Speed", "--set fluid.region.water.velocity=[40,0]",
+                "0 at t = 0 s: speed [m/s] = 40, limit 31.3"},
+        Failure{"Density", "--set fluid.limits.largest_density_change=0.001",
+                "0 at t = 0 s: density [kg/m3] = 1009.53, limit 999 to 1001"},
+        Failure{"Domain", "--set fluid.region.water.box.max=[1.0,1.6]",
+                "600 at t = 0 s: position (0.025, 1.525) [m], outside by = 0.025, limit the domain of the "
+                "case"}),
+    [](const auto& one) { return one.param.name; });
+
+}  // namespace
