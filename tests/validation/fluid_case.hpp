@@ -1,10 +1,15 @@
 /// A fluid case of the project, run inside the test, so that every particle can be looked at.
 #pragma once
 
+#include <omp.h>
+
 #include "common/case/case_file.hpp"
 #include "fluid_solver/fluid_solver.hpp"
 
 namespace toryu::fluid {
+
+/// These fluids are small, and tests run beside each other: one thread each.
+inline const bool one_thread = (omp_set_num_threads(1), true);
 
 struct FluidCase {
   /// `overrides` as after --set: "fluid.spacing=0.1".
