@@ -81,7 +81,7 @@ TEST(WallExtrapolation, OfTwoParticlesIsTheirKernelMean) {
   EXPECT_LT((taken.v_viscous[0] + mean).norm(), 1e-12);
 }
 
-/// Water of constant density under the acceleration `field`, and three rows of wall below it.
+/// Water of constant density under the acceleration `field`, and two rows of wall below it.
 std::pair<Fluid, std::vector<Vec>> water_over_wall(const Vec& field) {
   Fluid fluid;
   std::vector<Vec> wall;
@@ -92,7 +92,7 @@ std::pair<Fluid, std::vector<Vec>> water_over_wall(const Vec& field) {
       fluid.p.push_back(8000 + 1000 * field.dot(fluid.x.back()));
       fluid.rho.push_back(1000);
     }
-    for (int b = 1; b <= 3; ++b) wall.emplace_back((a + 0.5) * d_0, (0.5 - b) * d_0);
+    for (int b = 1; b <= 2; ++b) wall.emplace_back((a + 0.5) * d_0, (0.5 - b) * d_0);
   }
   return {fluid, wall};
 }
