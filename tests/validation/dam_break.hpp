@@ -38,7 +38,7 @@ struct Fit {
 /// The start that makes the largest distance least.
 inline Fit best_fit(const Front& front) {
   Fit best;
-  for (double start = 0; start < 1; start += 0.005) {
+  for (double start = 0; start < 1; start += 0.001) {
     Fit fit{start, 0, 0};
     for (const auto& reading : martin_moyce) {
       const double distance = std::abs(front.at(reading.T - start) / reading.Z - 1);

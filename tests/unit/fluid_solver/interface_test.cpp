@@ -1,0 +1,105 @@
+// What the elastic solid's interface and the fluid do to each other.
+#include "fluid_solver/interface.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "tests/unit/fluid_solver/scenes.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+/// Six columns of particles that stand in the place of the tank's right wall, finer than the fluid.
+Interface plate() {
+  Interface plate;
+  plate.spacing = 0.025;
+  for (int row = 0; row < 24; ++row)
+    for (int column = 0; column < 6; ++column) {
+      plate.id.push_back(static_cast<std::uint32_t>(plate.id.size()));
+      plate.position.push_back(0.5 + (column + 0.5) * plate.spacing);
+      plate.position.push_back((row + 0.5) * plate.spacing);
+      plate.volume.push_back(plate.spacing * plate.spacing);
+      plate.area_vector.insert(plate.area_vector.end(), {0, 0});
+    }
+  return plate;
+}
+
+/// The plate moved by v t at time t.
+InterfaceMotion moved(const Interface& plate, const Vec& v, double t) {
+  InterfaceMotion motion{plate.position, {}, std::vector<double>(dim * plate.size(), 0.0)};
+  for (std::size_t k = 0; k < plate.size(); ++k) {
+    motion.position[dim * k] += v[0] * t;
+    motion.position[dim * k + 1] += v[1] * t;
+    motion.velocity.insert(motion.velocity.end(), {v[0], v[1]});
+  }
+  return motion;
+}
+
+Setting tank_with_a_plate() {
+  Setting setting = collapsing_column();
+  setting.scene.walls.pop_back();
+  setting.parameters.hydrostatic_start = HydrostaticStart{0.8};
+  setting.parameters.laminar_viscosity = LaminarViscosity{3.0};
+  return setting;
+}
+
+class Exchange : public testing::TestWithParam<WallSlip> {};
+
+TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
+  omp_set_num_threads(1);
+  Setting setting = tank_with_a_plate();
+  setting.parameters.wall_model.slip = GetParam();
+  FluidSolver solver = setting.solver();
+  const Interface interface = plate();
+  solver.attach(interface);
+  const Vec v(0.2, 0.1);
+  for (int n = 0; n < 30; ++n) {
+    const double dt = 0.5 * solver.time_step_limit();
+    solver.begin_window(moved(interface, v, solver.time()), 2 * dt);
+    solver.advance(dt);
+    solver.advance(dt);
+    const InterfaceLoad load = solver.take_load();
+    Vec on_plate = Vec::Zero();
+    double size = 0;
+    for (std::size_t k = 0; k < interface.size(); ++k) {
+      const Vec force(load.force[dim * k], load.force[dim * k + 1]);
+      on_plate += 2 * dt * force;
+      size += 2 * dt * force.norm();
+    }
+    ASSERT_GT(on_plate[0], 0);
+    EXPECT_LT((on_plate + load.impulse_on_fluid).norm(), 1e-13 * size) << "window " << n;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Slip, Exchange, testing::Values(WallSlip::no_slip, WallSlip::free_slip),
+                         [](const auto& one) {
+                           return one.param == WallSlip::no_slip ? "NoSlip" : "FreeSlip";
+                         });
+
+TEST(PlateAtRest, BearsThePressureOfTheWater) {
+  omp_set_num_threads(1);
+  Setting setting = tank_with_a_plate();
+  setting.parameters.regions.front().box.max = Vec(0.5, 0.5);
+  setting.parameters.hydrostatic_start = HydrostaticStart{0.5};
+  setting.parameters.artificial_viscosity->alpha = 0.3;
+  FluidSolver solver = setting.solver();
+  const Interface interface = plate();
+  solver.attach(interface);
+  double impulse = 0, time = 0;
+  while (solver.time() < 0.8) {
+    const double dt = solver.time_step_limit();
+    solver.begin_window(moved(interface, Vec(0, 0), 0), dt);
+    solver.advance(dt);
+    const InterfaceLoad load = solver.take_load();
+    if (solver.time() < 0.4) continue;
+    for (std::size_t k = 0; k < interface.size(); ++k) impulse += dt * load.force[dim * k];
+    time += dt;
+  }
+  const double expected = 0.5 * 1000 * 9.81 * 0.5 * 0.5;  // 1/2 rho g H^2
+  // The floor goes on under the plate and bears the corner's share: the pressure at the bottom on about a
+  // quarter of a spacing, 0.045 of the whole with ten rows.
+  EXPECT_NEAR(impulse / time, 0.955 * expected, 0.02 * expected);
+}
+
+}  // namespace
+}  // namespace toryu::fluid
