@@ -7,7 +7,8 @@ import results
 
 
 def of_run(case, out):
-    lines = [*displacements(out), *distances(case, out), *times(results.read_summaries(out))]
+    summaries = results.read_summaries(out)
+    lines = [*displacements(out), *distances(case, out), *times(summaries), *coupling(summaries)]
     width = max((len(label) for label, _ in lines), default=0)
     return "\n".join(f"{label:{width}}  {text}" for label, text in lines)
 
@@ -40,3 +41,13 @@ def times(summaries):
             text += f", {100 * waiting / wall:.0f} % of it waiting"
         counted = "windows" if participant == "coupler" else "steps"
         yield f"wall time {name}", f"{text}; {summary['steps']} {counted}, {summary['processor_time']:.1f} s of processor"
+
+
+def coupling(summaries):
+    """What the exchange cost and how exactly both sides agree on what was exchanged."""
+    figures = summaries.get("coupler", {}).get("figures", {})
+    if "round_trip_median" in figures:
+        yield "round trip", (f"{figures['round_trip_median'] * 1e6:.0f} microseconds (median), "
+                             f"{100 * figures['round_trip_share']:.0f} % of the run")
+    if "largest_impulse_error" in figures:
+        yield "impulse given and taken", f"differ by at most {figures['largest_impulse_error']:.1g} of the sum of the forces"
