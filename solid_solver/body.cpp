@@ -118,6 +118,9 @@ SolidBody build_body(const SolidParameters& parameters, const TellFault& tell_fa
   SolidBody body;
   body.spacing = parameters.spacing;
   const auto& regions = parameters.regions;
+  std::vector<Box> boxes;
+  for (const auto& region : regions) boxes.push_back(region.box);
+  check_size(boxes, parameters.spacing);
   for (std::size_t a = 0; a < regions.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b)
       if (overlap(regions[a].box, regions[b].box, 1e-6 * parameters.spacing))

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <new>
 
 namespace toryu {
 
@@ -35,6 +36,9 @@ ExitCode guarded(const std::function<ExitCode()>& body) {
   } catch (const Interrupted& error) {
     spdlog::error("{}", error.what());
     return ExitCode::interrupted;
+  } catch (const std::bad_alloc&) {
+    spdlog::error("not enough memory for this case; a larger spacing needs less");
+    return ExitCode::bad_input;
   } catch (const std::exception& error) {
     spdlog::error("unexpected: {}", error.what());
     return ExitCode::bug;

@@ -27,6 +27,14 @@ IndexBox lattice_range(const Box& box, const Vec& origin, double spacing) {
 /// A body of more particles is a slip of the pen, and would take all memory before anything notices.
 constexpr double largest_body = 1e8;
 
+bool in_any(const std::vector<IndexBox>& boxes, const Index& index) {
+  for (const auto& box : boxes)
+    if (box.contains(index)) return true;
+  return false;
+}
+
+}  // namespace
+
 void check_size(const std::vector<Box>& boxes, double spacing) {
   double count = 0;
   for (const auto& box : boxes) count += ((box.max - box.min) / spacing).prod();
@@ -36,14 +44,6 @@ void check_size(const std::vector<Box>& boxes, double spacing) {
                                             "possible",
                                             count, largest_body)}});
 }
-
-bool in_any(const std::vector<IndexBox>& boxes, const Index& index) {
-  for (const auto& box : boxes)
-    if (box.contains(index)) return true;
-  return false;
-}
-
-}  // namespace
 
 std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing) {
   std::vector<Vec> points;

@@ -68,11 +68,14 @@ Scene read_scene(CaseFile& file);
 /// Copies the files of the references to `out`, so that the case written there finds them as well.
 void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out);
 
+/// Throws BadInput if a body of `boxes` would have more than 1e8 particles.
+void check_size(const std::vector<Box>& boxes, double spacing);
+
 /// Points of the lattice origin + (i + 1/2) spacing that lie in some of `boxes` and in none of `holes`, row
 /// by row. `origin` is the smallest corner of `boxes`, so that a box whose sides are whole multiples of the
 /// spacing is filled exactly, whatever the rounding. Otherwise a particle is there if its centre is inside; a
 /// centre within 1e-6 spacings of an edge counts as on it, and belongs to the box whose smaller edge it is.
-/// Throws BadInput if there would be more than 1e8 points.
+/// Checks the size first.
 std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing);
 
 }  // namespace toryu
