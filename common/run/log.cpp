@@ -49,8 +49,13 @@ void open_log(const std::string& role, const std::filesystem::path& out, const s
   sinks.push_back(standard_error);
   log_file = nullptr;
   if (!out.empty()) {
-    std::filesystem::create_directories(out);
-    log_file = std::make_shared<SharedFileSink>(out / "log.txt");
+    try {
+      std::filesystem::create_directories(out);
+      log_file = std::make_shared<SharedFileSink>(out / "log.txt");
+    } catch (const std::system_error& error) {
+      throw BadInput({{.place = "--out " + out.string(),
+                       .message = "no results can be written there: " + error.code().message()}});
+    }
     log_file->set_pattern("%Y-%m-%d %H:%M:%S.%e %n %l: %v");
     sinks.push_back(log_file);
   }
