@@ -96,6 +96,7 @@ struct InterfaceRecord::File {
 
   std::filesystem::path path;
   HdfHandle file;
+  bool whole = true;  // all rows that were begun are complete
   Series time, position, velocity, acceleration, pressure, force, friction_force;
 };
 
@@ -111,7 +112,14 @@ InterfaceRecord::InterfaceRecord(const std::filesystem::path& out, const Interfa
 
 InterfaceRecord::~InterfaceRecord() {
   const auto path = file_->path;
+  // A full disk often shows only when the file is flushed; closing tells nothing of it.
+  const bool whole = file_->whole && H5Fflush(file_->file, H5F_SCOPE_LOCAL) >= 0;
   file_.reset();
+  if (!whole) {
+    spdlog::error("{} could not be completed; what was written bears the name {}.part", path.string(),
+                  path.filename().string());
+    return;
+  }
   std::error_code failure;
   std::filesystem::rename(path.string() + ".part", path, failure);
   if (failure) spdlog::error("{}: {}", path.string(), failure.message());
@@ -122,6 +130,7 @@ void InterfaceRecord::write(double time, const InterfaceMotion& motion, const In
   const auto row = [&](const std::vector<double>& values) {
     return values.empty() ? none.data() : values.data();
   };
+  file_->whole = false;
   file_->time.append(&time);
   file_->position.append(motion.position.data());
   file_->velocity.append(motion.velocity.data());
@@ -129,6 +138,7 @@ void InterfaceRecord::write(double time, const InterfaceMotion& motion, const In
   file_->pressure.append(row(load.pressure));
   file_->force.append(row(load.force));
   file_->friction_force.append(row(load.friction_force));
+  file_->whole = true;
 }
 
 }  // namespace toryu

@@ -1,7 +1,7 @@
 /// `interface.h5`: what crossed the interface over time, for replay and for study. Positions, velocities and
 /// accelerations [m, m/s, m/s2] are at `time` [s]; pressure [Pa] and forces [N/m] are those of the window
 /// that ended then (zero in the first row). The file is written as `interface.h5.part` and renamed at the
-/// end.
+/// end, if all of it could be written.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace toryu {
 class InterfaceRecord {
  public:
   InterfaceRecord(const std::filesystem::path& out, const Interface& interface);
-  ~InterfaceRecord();  ///< gives the file its final name
+  ~InterfaceRecord();  ///< gives the file its final name, unless a write failed
 
   /// Appends a row. `load` is what the solid felt.
   void write(double time, const InterfaceMotion& motion, const InterfaceLoad& load);

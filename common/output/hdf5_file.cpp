@@ -27,6 +27,14 @@ hid_t file_type(Stored stored) {
   throw std::logic_error("HDF5: unknown storage");
 }
 
+/// The library would print each error, which are thrown here, and at the exit of the program write what it
+/// could not write before, which crashes on a full disk.
+[[maybe_unused]] const bool prepared = [] {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  return true;
+}();
+
 void must(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
 }
@@ -44,7 +52,6 @@ HdfHandle::~HdfHandle() {
 
 HdfFile::HdfFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
   temporary_ += ".part";
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
   file_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   must(file_ >= 0, fmt::format("write '{}'", temporary_.string()));
 }
