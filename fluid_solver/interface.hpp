@@ -15,8 +15,8 @@ class MovingInterface {
               double response_time);
 
   /// Begins a window of `dt` [s] at `time` [s] with the solid's motion at that time. Over the window each
-  /// particle goes in a straight line from where the fluid has it to where the solid's mean velocity of the
-  /// last window leads it, so that displacement and velocity agree exactly and no position ever jumps.
+  /// particle goes in a straight line from where the last window left it to where the solid has it now: the
+  /// fluid's copy is one window late, but displacement and velocity agree exactly and no position ever jumps.
   void begin_window(const InterfaceMotion& motion, double time, double dt);
   /// Moves the boundary's particles to where they are at `time`.
   void move(Boundary& boundary, double time) const;
