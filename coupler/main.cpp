@@ -54,7 +54,11 @@ void run_windows(const Options& options, const CaseFile& file, const CoupledRun:
   } catch (...) {
     const Ending ending = ending_of_exception();
     link.stop(ending.code, ending.reason);
-    finish(ending);
+    try {
+      finish(ending);
+    } catch (const std::exception& failure) {
+      spdlog::error("{}", failure.what());  // what ended the run says more, and is thrown on
+    }
     throw;
   }
   finish({});
@@ -78,7 +82,6 @@ ExitCode couple(const Options& options) {
   if (options.check) return ExitCode::done;
 
   const RunLock lock(options.out);
-  copy_references(scene, file, options.out);
   copy_references(scene, file, options.out);
   run_windows(options, file,
               {.end_time = scene.end_time,

@@ -31,15 +31,8 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
 void take_turns(FluidLink& link, FluidSolver& solver, RunRecord& record) {
   record.at(0);
   while (const auto turn = link.next_window()) {
-    throw_if_interrupted();
     solver.begin_window(turn->motion, turn->dt);
-    for (double left = turn->dt; left > 1e-9 * turn->dt;) {
-      const SubSteps steps = advance_by(solver, left, 1);
-      left -= steps.dt;
-      record.count_steps(1, steps.dt);
-      link.count_step();
-    }
-    record.at(turn->time + turn->dt);
+    advance_window(solver, record, turn->time, turn->dt, 1, [&](const SubSteps&) { link.count_step(); });
     link.send(solver.take_load(), solver.time_step_limit(),
               {.kinetic_energy = solver.kinetic_energy(),
                .potential_energy = solver.potential_energy(),
@@ -81,6 +74,7 @@ ExitCode solve(const Options& options) {
   file.throw_if_faulty();
   omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs());
   FluidSolver solver(parameters, scene);
+  check_start(solver, "[fluid]");
   if (options.check) return ExitCode::done;
   if (file.has("solid"))
     compute_coupled(options, file, scene, solver);

@@ -40,24 +40,28 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
   });
 }
 
-/// Takes turns with the fluid until the coupler ends the run. In each window the load is constant and the
-/// solid takes as many equal sub-steps as its stability needs.
-void take_turns(SolidLink& link, SolidModel& model, RunRecord& record) {
+/// Joins the run with the particles that the fluid may touch; returns their numbers.
+std::vector<std::uint32_t> join(SolidLink& link, const SolidModel& model) {
   const double reach = link.join();
   const Interface interface = model.interface(reach);
   spdlog::info("{} particles can be touched by a fluid that sees {:g} m deep", interface.size(), reach);
   link.register_interface(interface, model.motion(interface.id));
+  return interface.id;
+}
+
+/// Takes turns with the fluid until the coupler ends the run. In each window the load is constant and the
+/// solid takes as many equal sub-steps as its stability needs.
+void take_turns(SolidLink& link, SolidModel& model, RunRecord& record,
+                const std::vector<std::uint32_t>& touched) {
   record.at(0);
   while (const auto turn = link.next_window()) {
-    throw_if_interrupted();
-    const Vec force = model.set_interface_load(interface.id, turn->load);
-    const SubSteps steps = advance_by(model, turn->dt);
-    record.count_steps(steps.taken, steps.dt);
-    link.count_step();
+    const Vec force = model.set_interface_load(touched, turn->load);
     Vec impulse_taken = Vec::Zero();
-    for (long n = 0; n < steps.taken; ++n) impulse_taken += steps.dt * force;
-    record.at(turn->time + turn->dt);
-    link.send(model.motion(interface.id), impulse_taken, model.health());
+    advance_window(model, record, turn->time, turn->dt, steps_between_checks, [&](const SubSteps& steps) {
+      link.count_step();
+      for (long n = 0; n < steps.taken; ++n) impulse_taken += steps.dt * force;
+    });
+    link.send(model.motion(touched), impulse_taken, model.health());
   }
 }
 
@@ -67,9 +71,17 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .out = options.out,
                   .case_hash = file.hash(),
                   .used_case = file.used()});
+  std::vector<std::uint32_t> touched;
+  try {
+    touched = join(link, model);
+  } catch (...) {
+    link.leave();
+    throw;
+  }
+  // Only now: a solid that the coupler refuses must leave alone what another is writing in the folder.
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
   run_recorded(
-      record, [&] { take_turns(link, model, record); }, [&] { link.leave(); },
+      record, [&] { take_turns(link, model, record, touched); }, [&] { link.leave(); },
       [&] { return link.waiting_time(); });
 }
 
@@ -87,10 +99,10 @@ ExitCode solve(const Options& options) {
   const SolidBody body = build_body(
       parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); });
   file.throw_if_faulty();
-  if (options.check) return ExitCode::done;
-
   omp_set_num_threads(thread_count(options, body));
   const auto model = make_model(parameters, body, scene);
+  check_start(*model, "[solid]");
+  if (options.check) return ExitCode::done;
   spdlog::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
   if (!file.has("fluid")) {
     compute_alone(options, file, scene, *model);

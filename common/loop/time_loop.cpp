@@ -1,5 +1,8 @@
 #include "common/loop/time_loop.hpp"
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 
 #include "common/run/ending.hpp"
@@ -8,12 +11,43 @@
 
 namespace toryu {
 
+namespace {
+
+/// A step that is a smaller share of its way never arrives: time would stand still.
+constexpr double most_needed = 1e12;
+
+}  // namespace
+
 SubSteps advance_by(Solver& solver, double length, long most) {
-  const long needed =
-      std::max(1L, static_cast<long>(std::ceil(length / solver.time_step_limit() * (1 - 1e-12))));
+  const double limit = solver.time_step_limit();
+  if (!(limit * most_needed > length))  // NaN as well
+    throw PhysicsFailure(fmt::format("time step of {:.3g} s ({} limit) is too small for {:.3g} s", limit,
+                                     solver.time_step_rule(), length));
+  const long needed = std::max(1L, static_cast<long>(std::ceil(length / limit * (1 - 1e-12))));
   const SubSteps steps{std::min(needed, most), needed, length / static_cast<double>(needed)};
   for (long n = 0; n < steps.taken; ++n) solver.advance(steps.dt);
   return steps;
+}
+
+void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,
+                    const std::function<void(const SubSteps&)>& taken) {
+  for (double left = length; left > 1e-9 * length;) {
+    throw_if_interrupted();
+    if (left < length) solver.check(time + length - left);
+    const SubSteps steps = advance_by(solver, left, steps_between_checks);
+    left -= static_cast<double>(steps.taken) * steps.dt;
+    record.count_steps(steps.taken, steps.dt);
+    taken(steps);
+  }
+  record.at(time + length);
+}
+
+void check_start(const Solver& solver, const std::string& section) {
+  try {
+    solver.check(0);
+  } catch (const PhysicsFailure& failure) {
+    throw BadInput({{.place = section, .message = std::string("cannot start: ") + failure.what()}});
+  }
 }
 
 void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks) {
@@ -39,7 +73,11 @@ void run_recorded(RunRecord& record, const std::function<void()>& body, const st
   } catch (...) {
     if (leave) leave();
     const Ending ending = ending_of_exception();
-    record.finish(ending.code, ending.reason, waited());
+    try {
+      record.finish(ending.code, ending.reason, waited());
+    } catch (const std::exception& failure) {
+      spdlog::error("{}", failure.what());  // what ended the run says more, and is thrown on
+    }
     throw;
   }
   record.finish(ExitCode::done, "", waited());

@@ -8,12 +8,21 @@
 namespace toryu {
 
 /// Advances over `length` [s] in equal sub-steps, as few as stability allows but at most `most`; returns how
-/// many were taken of how many that length needs.
+/// many were taken of how many that length needs. Throws PhysicsFailure if stability asks for steps so small
+/// that time would stand still.
 struct SubSteps {
   long taken, needed;
   double dt;
 };
 SubSteps advance_by(Solver& solver, double length, long most = std::numeric_limits<long>::max());
+
+/// Advances over a coupling window from `time` [s], `length` [s] long, and records its end. After every
+/// `steps_between_checks` sub-steps at most, `taken` hears of them and the state is checked.
+void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,
+                    const std::function<void(const SubSteps&)>& taken);
+
+/// Throws BadInput, at `section` of the case, if the state at the start is beyond the limits of physics.
+void check_start(const Solver& solver, const std::string& section);
 
 /// Runs to the end time of the scene; no messages, no other process. The time-step limit and the state are
 /// looked at anew every `steps_between_checks`.
