@@ -56,11 +56,31 @@ TEST(Programs, SayTheSameOfTheCommonSections) {
 }
 
 TEST(Programs, RefuseASpacingThatWouldTakeAllMemory) {
-  const Ending ending = check(fluid, "--set fluid.spacing=1e-9");
-  EXPECT_EQ(ending.code, 2);
+  const Ending of_fluid = check(fluid, "--set fluid.spacing=1e-9");
+  EXPECT_EQ(of_fluid.code, 2);
   EXPECT_EQ(
-      ending.error,
+      of_fluid.error,
       "spacing = 1e-09 m: error: would fill a body with 1.4e+16 particles; at most 1e+08 are possible\n");
+  const Ending of_solid = check(solid, "--set solid.spacing=1e-9");
+  EXPECT_EQ(of_solid.code, 2);
+  EXPECT_EQ(
+      of_solid.error,
+      "spacing = 1e-09 m: error: would fill a body with 4.3e+14 particles; at most 1e+08 are possible\n");
+}
+
+TEST(Programs, RefuseAStartBeyondTheLimits) {
+  const Ending ending = check(fluid, "--set 'fluid.region.water.box.max=[0.1,0.3]'");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_TRUE(ending.error.starts_with("[fluid]: error: cannot start: fluid particle ")) << ending.error;
+  EXPECT_TRUE(ending.error.ends_with("limit the domain of the case\n")) << ending.error;
+}
+
+TEST(Programs, RefuseMoreFramesThanCanBeNumbered) {
+  for (const auto& program : {fluid, solid, coupler})
+    EXPECT_EQ(
+        check(program, "--set case.frame_interval=1e-9").error,
+        "--set case.frame_interval=1e-9: error: 'frame_interval' would give 4.0e+08 frames; at most 1e6 "
+        "are possible\n");
 }
 
 }  // namespace
