@@ -55,10 +55,11 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     link.leave();
     throw;
   }
+  const double joined = link.waiting_time();  // the record's time begins now
   RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
   run_recorded(
       record, [&] { take_turns(link, solver, record); }, [&] { link.leave(); },
-      [&] { return link.waiting_time(); });
+      [&] { return link.waiting_time() - joined; });
 }
 
 ExitCode solve(const Options& options) {

@@ -78,11 +78,12 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     link.leave();
     throw;
   }
+  const double joined = link.waiting_time();  // the record's time begins now
   // Only now: a solid that the coupler refuses must leave alone what another is writing in the folder.
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
   run_recorded(
       record, [&] { take_turns(link, model, record, touched); }, [&] { link.leave(); },
-      [&] { return link.waiting_time(); });
+      [&] { return link.waiting_time() - joined; });
 }
 
 ExitCode solve(const Options& options) {
