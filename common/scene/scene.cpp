@@ -51,13 +51,15 @@ void describe(ParameterTable& table, Scene& scene) {
                {.unit = "s", .minimum = 0, .help = "time between frames; 0: no frames"});
   table.number("series_interval", scene.series_interval,
                {.unit = "s", .minimum = 0, .help = "time between rows of a series; 0: every step"});
-  // Files of frames are numbered by six digits; finer intervals are slips of the pen.
-  table.require(!(scene.end_time / scene.frame_interval > 1e6) || scene.frame_interval == 0, "frame_interval",
-                fmt::format("'frame_interval' would give {:.1e} frames; at most 1e6 are possible",
+  // Beyond it an interval is lost in the rounding of the time. A run may be endless, so this is no small
+  // number.
+  table.require(!(scene.end_time / scene.frame_interval > 1e12) || scene.frame_interval == 0,
+                "frame_interval",
+                fmt::format("'frame_interval' would give {:.1e} frames; at most 1e12 can be counted",
                             scene.end_time / scene.frame_interval));
-  table.require(!(scene.end_time / scene.series_interval > 1e9) || scene.series_interval == 0,
+  table.require(!(scene.end_time / scene.series_interval > 1e12) || scene.series_interval == 0,
                 "series_interval",
-                fmt::format("'series_interval' would give {:.1e} rows; at most 1e9 are possible",
+                fmt::format("'series_interval' would give {:.1e} rows; at most 1e12 can be counted",
                             scene.end_time / scene.series_interval));
   table.group("domain", scene.domain, "a particle that leaves it stops the run");
 }
