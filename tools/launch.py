@@ -116,8 +116,12 @@ def describe(commands):
 def sole_user(out):
     """Holds the results folder for this run: two runs in one folder would mix. A coupler that was started by hand
     holds it by its own lock."""
-    out.mkdir(parents=True, exist_ok=True)
-    with open(out / "launch.lock", "w") as lock:
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        lock = open(out / "launch.lock", "w")
+    except OSError as error:
+        raise SystemExit(complain(f"--out {out}: error: no results can be written there: {error.strerror}"))
+    with lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if (out / "coupler.lock").exists():
