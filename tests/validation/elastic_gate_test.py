@@ -21,7 +21,7 @@ class Gate:
 
     def __init__(self, end_time, **overrides):
         with tempfile.TemporaryDirectory() as folder:
-            settings = {"fluid.spacing": 0.0025, "case.end_time": end_time, "case.frame_interval": 0} | overrides
+            settings = {"fluid.spacing": 0.0025, "solid.spacing": 0.00125, "case.end_time": end_time, "case.frame_interval": 0} | overrides
             run = subprocess.run(
                 ["/usr/bin/python3", PATHS["source"] / "tools/launch.py", "--bin", PATHS["bin"],
                  PATHS["source"] / "cases/elastic_gate", "--out", folder, *(f"--set={k}={v}" for k, v in settings.items())],
@@ -60,7 +60,7 @@ class ElasticGateTest(unittest.TestCase):
                 subprocess.run(
                     ["/usr/bin/python3", PATHS["source"] / "tools/launch.py", "--bin", PATHS["bin"],
                      PATHS["source"] / "cases/elastic_gate", "--out", out, "--set=fluid.spacing=0.0025",
-                     "--end-time=0.02", f"--threads={threads}"], check=True, capture_output=True, timeout=300)
+                     "--set=solid.spacing=0.00125", "--end-time=0.02", f"--threads={threads}"], check=True, capture_output=True, timeout=300)
                 series.append([(out / name).read_bytes() for name in ("fluid.csv", "solid.csv")])
         self.assertEqual(series[0], series[1])
 
