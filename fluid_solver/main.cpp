@@ -13,6 +13,9 @@ namespace {
 using namespace toryu;
 using fluid::FluidSolver;
 
+/// A thread more is worth its waiting for the others only with so many particles of its own.
+constexpr int particles_per_thread = 1000;
+
 RunRecord::Counts particle_counts(const FluidSolver& solver) {
   RunRecord::Counts counts{{"fluid", static_cast<long>(solver.particle_count())}};
   for (const auto& boundary : solver.boundaries())
@@ -73,8 +76,8 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   file.throw_if_faulty();
-  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs());
   FluidSolver solver(parameters, scene);
+  omp_set_num_threads(thread_count(options, solver.particle_count(), particles_per_thread));
   check_start(solver, "[fluid]");
   if (options.check) return ExitCode::done;
   if (file.has("solid"))

@@ -20,11 +20,6 @@ constexpr long steps_between_checks = 50;
 /// A thread more is worth its waiting for the others only with so many particles of its own.
 constexpr int particles_per_thread = 4000;
 
-int thread_count(const Options& options, const SolidBody& body) {
-  if (options.threads > 0) return options.threads;
-  return std::clamp(static_cast<int>(body.size()) / particles_per_thread, 1, omp_get_num_procs());
-}
-
 RunRecord::Counts particle_counts(const SolidModel& model) {
   RunRecord::Counts counts{{"solid", static_cast<long>(model.particle_count())}};
   for (const auto& [name, count] : model.body().counts) counts.emplace_back(name, static_cast<long>(count));
@@ -100,7 +95,7 @@ ExitCode solve(const Options& options) {
   const SolidBody body = build_body(
       parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); });
   file.throw_if_faulty();
-  omp_set_num_threads(thread_count(options, body));
+  omp_set_num_threads(thread_count(options, body.size(), particles_per_thread));
   const auto model = make_model(parameters, body, scene);
   check_start(*model, "[solid]");
   if (options.check) return ExitCode::done;

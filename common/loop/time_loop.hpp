@@ -16,6 +16,10 @@ struct SubSteps {
 };
 SubSteps advance_by(Solver& solver, double length, long most = std::numeric_limits<long>::max());
 
+/// Threads for a solver of so many particles: what the options say, or else as many cores as have
+/// `particles_per_thread` of their own. With fewer, threads only wait for each other.
+int thread_count(const Options& options, std::size_t particles, int particles_per_thread);
+
 /// Advances over a coupling window from `time` [s], `length` [s] long, and records its end. After every
 /// `steps_between_checks` sub-steps at most, `taken` hears of them and the state is checked.
 void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,
