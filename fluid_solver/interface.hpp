@@ -17,6 +17,12 @@ class MovingInterface {
   /// Begins a window of `dt` [s] at `time` [s] with the solid's motion at that time. Over the window each
   /// particle goes in a straight line from where the last window left it to where the solid has it now: the
   /// fluid's copy is one window late, but displacement and velocity agree exactly and no position ever jumps.
+  ///
+  /// The acceleration that (29) uses is the change of that velocity, averaged over the response time. Taken
+  /// as it is, it would be an added mass that lags by a window: a layer of the solid with mass m_s per area
+  /// would answer a change of acceleration by some rho_f d_0/m_s times as much of the opposite sign, which
+  /// grows where that exceeds 1. Averaged over tau, windows of dt are stable up to rho_f d_0/m_s = 2 tau/dt
+  /// + 1. Left out altogether, the gate of cases/elastic_gate rings.
   void begin_window(const InterfaceMotion& motion, double time, double dt);
   /// Moves the boundary's particles to where they are at `time`.
   void move(Boundary& boundary, double time) const;
