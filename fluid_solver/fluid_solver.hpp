@@ -67,7 +67,6 @@ class FluidSolver : public Solver {
   std::vector<Given> given_;
   std::optional<std::size_t> interface_boundary_;
   MovingInterface interface_;
-  std::vector<Vec> region_velocity_;
   double time_ = 0;
   double largest_speed_ = 0, largest_acceleration_ = 0;
   Timers timers_;

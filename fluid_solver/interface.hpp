@@ -21,7 +21,7 @@ class MovingInterface {
   /// The acceleration that (29) uses is the change of that velocity, averaged over the response time. Taken
   /// as it is, it would be an added mass that lags by a window: a layer of the solid with mass m_s per area
   /// would answer a change of acceleration by some rho_f d_0/m_s times as much of the opposite sign, which
-  /// grows where that exceeds 1. Averaged over tau, windows of dt are stable up to rho_f d_0/m_s = 2 tau/dt
+  /// grows where that exceeds 1. Averaged over tau, the recursion is stable up to rho_f d_0/m_s = 2 tau/dt
   /// + 1. Left out altogether, the gate of cases/elastic_gate rings.
   void begin_window(const InterfaceMotion& motion, double time, double dt);
   /// Moves the boundary's particles to where they are at `time`.
