@@ -52,7 +52,6 @@ class FluidSolver : public Solver {
   void move_boundaries(double time);
   void advance_from(const Step& start, double dt);
   void note_extremes();
-  double pressure_at(const Vec& point) const;
   [[noreturn]] void fail(std::size_t particle, double time, const std::string& quantity, double value,
                          const std::string& limit) const;
 

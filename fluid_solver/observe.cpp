@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fluid_solver/fluid_solver.hpp"
+#include "fluid_solver/observers.hpp"
 
 namespace toryu::fluid {
 
@@ -82,17 +83,6 @@ Vec FluidSolver::momentum() const {
   return sum;
 }
 
-double FluidSolver::pressure_at(const Vec& point) const {
-  const auto& kernel = dynamics_.kernel();
-  double sum_W = 0, sum_p = 0;
-  for (std::size_t i = 0; i < fluid_.count; ++i) {
-    const double W = kernel.value((at(fluid_.x, i) - point).norm());
-    sum_W += W;
-    sum_p += W * dynamics_.equation_of_state().pressure(fluid_.rho[i]);
-  }
-  return sum_W > 0 ? sum_p / sum_W : 0.0;
-}
-
 std::vector<Observation> FluidSolver::observe() const {
   const Vec p = momentum();
   std::vector<Observation> row{{"kinetic_energy", "J/m", kinetic_energy()},
@@ -106,15 +96,9 @@ std::vector<Observation> FluidSolver::observe() const {
     row.push_back({"force_from_" + boundaries_[b].name + "_x", "N/m", force[0]});
     row.push_back({"force_from_" + boundaries_[b].name + "_y", "N/m", force[1]});
   }
-  for (const auto& observer : parameters_.observers) {
-    if (observer.quantity == Quantity::pressure) {
-      row.push_back({observer.name, "Pa", pressure_at(observer.point)});
-    } else {
-      double front = -std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < fluid_.count; ++i) front = std::max(front, fluid_.x[0][i]);
-      row.push_back({observer.name, "m", front + 0.5 * parameters_.spacing});
-    }
-  }
+  for (const auto& observer : parameters_.observers)
+    row.push_back(toryu::fluid::observe(observer, fluid_, parameters_.spacing, dynamics_.kernel(),
+                                        dynamics_.equation_of_state()));
   return row;
 }
 

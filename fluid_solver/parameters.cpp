@@ -70,9 +70,16 @@ void describe(ParameterTable& table, Limits& limits) {
 void describe(ParameterTable& table, Observer& observer) {
   table.text("name", observer.name, {.required = true, .help = "name of the column in fluid.csv"});
   table.choice(
-      "quantity", observer.quantity, {"front_x", "pressure"},
-      {.required = true, .help = "front_x: largest x of the fluid; pressure: kernel mean about `point`"});
+      "quantity", observer.quantity, {"front_x", "pressure", "flow_rate"},
+      {.required = true,
+       .help =
+           "front_x: largest x of the fluid; pressure: kernel mean about `point`; flow_rate: along `axis`, "
+           "cross-section of `box` times mean velocity in it"});
   table.vector("point", observer.point, {.unit = "m", .help = "where the pressure is probed"});
+  table.optional("box", observer.box, "where the flow rate is taken, to be full of fluid");
+  table.choice("axis", observer.axis, {"x", "y"}, {.help = "direction in which the flow rate counts"});
+  table.require(observer.quantity != Quantity::flow_rate || observer.box, "quantity",
+                "a flow rate needs a 'box'");
 }
 
 void describe(ParameterTable& table, Parameters& p) {

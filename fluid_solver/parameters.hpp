@@ -58,12 +58,15 @@ struct Limits {
 };
 void describe(ParameterTable& table, Limits& limits);
 
-enum class Quantity { front_x, pressure };
+enum class Quantity { front_x, pressure, flow_rate };
+enum class Axis { x, y };
 /// A number that the run reports over time.
 struct Observer {
   std::string name;
   Quantity quantity = Quantity::pressure;
   Vec point = Vec::Zero();  ///< [m], of a pressure probe
+  std::optional<Box> box;   ///< of a flow rate
+  Axis axis = Axis::y;      ///< of a flow rate
 };
 void describe(ParameterTable& table, Observer& observer);
 

@@ -58,6 +58,9 @@ INSTANTIATE_TEST_SUITE_P(
             "fluid.observer=[{name=\"p\", quantity=\"pressure\"}, {name=\"p\", quantity=\"front_x\"}]",
             "--set fluid.observer=[{name=\"p\", quantity=\"pressure\"}, {name=\"p\", quantity=\"front_x\"}]: "
             "error: two [[fluid.observer]] have the same name"},
+        Fault{
+            "FlowRateWithoutBox", "fluid.observer=[{name=\"q\", quantity=\"flow_rate\"}]",
+            "--set fluid.observer=[{name=\"q\", quantity=\"flow_rate\"}]: error: a flow rate needs a 'box'"},
         Fault{"FluidInAWall", "fluid.region.water.box.min=[-0.1,0]",
               "[fluid.region]: error: overlaps a wall near (-0.075, 0.975) m: fluid and wall particles must "
               "be at "
