@@ -8,6 +8,7 @@
 #include "common/link/participant.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
+#include "solid_solver/detached_list.hpp"
 #include "solid_solver/make_model.hpp"
 
 namespace {
@@ -26,10 +27,18 @@ RunRecord::Counts particle_counts(const SolidModel& model) {
   return counts;
 }
 
-void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, SolidModel& model) {
+/// Lists what comes off the solid, if the case asks for it, in the folder of results.
+void list_detached(const Options& options, const SolidParameters& parameters, SolidModel& model) {
+  if (!parameters.detachment) return;
+  model.tell_detached([list = DetachedList(options.out)](const auto& all) mutable { list.write(all); });
+}
+
+void compute_alone(const Options& options, const CaseFile& file, const Scene& scene,
+                   const SolidParameters& parameters, SolidModel& model) {
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
+  list_detached(options, parameters, model);
   run_recorded(record, [&] {
     run_alone(scene, model, record, scene.series_interval == 0 ? 1 : steps_between_checks);
   });
@@ -60,7 +69,8 @@ void take_turns(SolidLink& link, SolidModel& model, RunRecord& record,
   }
 }
 
-void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene, SolidModel& model) {
+void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene,
+                     const SolidParameters& parameters, SolidModel& model) {
   SolidLink link({.role = "solid_solver",
                   .version = provenance(1).version,
                   .out = options.out,
@@ -76,6 +86,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
   const double joined = link.waiting_time();  // the record's time begins now
   // Only now: a solid that the coupler refuses must leave alone what another is writing in the folder.
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
+  list_detached(options, parameters, model);
   run_recorded(
       record, [&] { take_turns(link, model, record, touched); }, [&] { link.leave(); },
       [&] { return link.waiting_time() - joined; });
@@ -101,7 +112,7 @@ ExitCode solve(const Options& options) {
   if (options.check) return ExitCode::done;
   spdlog::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
   if (!file.has("fluid")) {
-    compute_alone(options, file, scene, *model);
+    compute_alone(options, file, scene, parameters, *model);
     return ExitCode::done;
   }
   if (!parameters.artificial_viscosity && !parameters.damping)
@@ -109,7 +120,7 @@ ExitCode solve(const Options& options) {
         "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
         "it; "
         "give it [solid.artificial_viscosity]");
-  compute_coupled(options, file, scene, *model);
+  compute_coupled(options, file, scene, parameters, *model);
   return ExitCode::done;
 }
 

@@ -14,6 +14,15 @@ void describe(ParameterTable& table, PointObserver& observer) {
   table.vector("point", observer.point, {.unit = "m", .required = true, .help = "in the unloaded body"});
 }
 
+void describe(ParameterTable& table, Detachment& p) {
+  table.number("bond_length", p.bond_length,
+               {.minimum = 0,
+                .maximum = 10,
+                .help = "particles nearer than so many spacings hold each other; 0: the kernel's support"});
+  table.number("interval", p.interval,
+               {.unit = "s", .minimum = 0, .above_minimum = true, .help = "between two looks"});
+}
+
 MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach) {
   using Basis = Eigen::Matrix<double, dim + 1, 1>;
   const CubicSpline W(0.5 * reach);

@@ -16,6 +16,13 @@ struct PointObserver {
 };
 void describe(ParameterTable& table, PointObserver& observer);
 
+/// How particles that come off are looked for: see detachment.hpp.
+struct Detachment {
+  double bond_length = 0;  ///< over the spacing; 0: the support of the kernel, 2h
+  double interval = 1e-3;  ///< between two looks [s]
+};
+void describe(ParameterTable& table, Detachment& detachment);
+
 /// A material point that lies anywhere in or on the body, as a weighted sum of particles: the linear function
 /// fitted by least squares, with the kernel as weight, to the particles about the point. Exact where the
 /// displacement is linear, also outside the outermost row of particles (a corner of the body, half a spacing

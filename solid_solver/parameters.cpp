@@ -65,6 +65,8 @@ void describe(ParameterTable& table, SolidParameters& p) {
                  "keeps stretched particles apart (updated Lagrangian)");
   table.optional("damping", p.damping, "slows all motion down, to find a state of rest");
   table.optional("wall_contact", p.wall_contact, "rigid walls act on the solid");
+  table.optional("detachment", p.detachment,
+                 "looks for particles that no chain of neighbours joins to a clamp");
   table.group("limits", p.limits, "bounds beyond which the run stops");
 
   const bool total = p.formulation == Formulation::total_lagrangian;
@@ -73,6 +75,8 @@ void describe(ParameterTable& table, SolidParameters& p) {
                 "[solid.hourglass] is for formulation = \"total_lagrangian\" only");
   table.require(!total || !p.artificial_stress, "artificial_stress",
                 "[solid.artificial_stress] is for formulation = \"updated_lagrangian\" only");
+  table.require(!p.detachment || !p.clamps.empty(), "detachment",
+                "[solid.detachment] needs a [[solid.clamp]]: detached is what no chain joins to one");
   table.require(!total || p.gradients == Gradients::plain, "gradients",
                 "'gradients' in [solid] is for formulation = \"updated_lagrangian\" only; the other always "
                 "renormalises");

@@ -59,6 +59,7 @@ struct SolidParameters {
   std::optional<ArtificialStress> artificial_stress;
   std::optional<Damping> damping;
   std::optional<WallContact> wall_contact;
+  std::optional<Detachment> detachment;
   SolidLimits limits;
 
   double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]

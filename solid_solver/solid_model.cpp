@@ -46,7 +46,12 @@ SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body,
   if (parameters_.wall_contact)
     walls_ = std::make_unique<ContactWalls>(scene.walls, *parameters_.wall_contact, parameters_.material,
                                             body_.spacing, parameters_.h());
+  if (walls_) resize(push_, size);
   first_energy_ = kinetic_energy();
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (body_.held[i]) held_.push_back(i);
+  load_sum_ = sum_of_loads();
+  if (parameters_.detachment) detachment_ = std::make_unique<DetachmentObserver>(body_, parameters_);
 }
 
 void SolidModel::find_slots() {
@@ -136,7 +141,21 @@ Vec SolidModel::set_interface_load(const std::vector<std::uint32_t>& particles, 
     u_at_load_.push_back(at(u_, k));
     sum += force;
   }
+  load_sum_ = sum_of_loads();
   return sum;
+}
+
+Vec SolidModel::sum_of_loads() const {
+  Vec sum = Vec::Zero();
+  for (std::size_t i = 0; i < particle_count(); ++i) sum += mass(i) * at(external_, slot_[i]);
+  return sum;
+}
+
+void SolidModel::count_impulses(double dt) {
+  impulses_.load += dt * load_sum_;
+  for (const auto i : held_) impulses_.clamps -= dt * mass(i) * (at(a_, slot_[i]) + at(external_, slot_[i]));
+  if (walls_)
+    for (std::size_t i = 0; i < particle_count(); ++i) impulses_.walls += dt * mass(i) * at(push_, slot_[i]);
 }
 
 double SolidModel::interface_work() const {
@@ -153,6 +172,7 @@ void SolidModel::add_wall_contact(const VecField& x) {
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
     const VecLanes push = walls_->acceleration(x, c), a = load(a_, i);
+    store(push, push_, i);
     store(VecLanes{a[0] + push[0], a[1] + push[1]}, a_, i);
   }
 }
@@ -189,6 +209,37 @@ Vec SolidModel::momentum() const {
   return sum;
 }
 
+std::vector<Vec> SolidModel::positions() const {
+  std::vector<Vec> x;
+  for (std::size_t i = 0; i < particle_count(); ++i) x.push_back(body_.X[i] + displacement(i));
+  return x;
+}
+
+void SolidModel::tell_detached(const HearDetached& hear) {
+  hear_detached_ = hear;
+  look_for_detached();
+}
+
+void SolidModel::look_for_detached() {
+  if (!detachment_ || !detachment_->due(time_)) return;
+  const auto scope = timers_.measure("detachment");
+  if (detachment_->look(positions(), time_) && hear_detached_) hear_detached_(detachment_->list());
+}
+
+void SolidModel::observe_detachment(std::vector<Observation>& row) const {
+  double count = 0, sum = 0, largest = 0;
+  for (std::size_t i = 0; i < particle_count(); ++i) {
+    largest = std::max(largest, stress(i).von_mises());
+    if (!detachment_->detached()[i]) continue;
+    count += 1;
+    sum += mass(i);
+  }
+  row.push_back({"detached_particles", "1", count});
+  row.push_back({"detached_mass", "kg/m", sum});
+  row.push_back({"largest_stretch", "1", detachment_->largest_stretch(positions())});
+  row.push_back({"largest_von_mises_stress", "Pa", largest});
+}
+
 Health SolidModel::health() const {
   double stored = potential_energy();
   for (const auto& energy : internal_energies()) stored += energy.value;
@@ -219,6 +270,14 @@ std::vector<Observation> SolidModel::observe() const {
   const Vec p = momentum();
   row.push_back({"momentum_x", "N.s/m", p[0]});
   row.push_back({"momentum_y", "N.s/m", p[1]});
+  const auto append = [&](const std::string& name, const Vec& impulse) {
+    row.push_back({"impulse_from_" + name + "_x", "N.s/m", impulse[0]});
+    row.push_back({"impulse_from_" + name + "_y", "N.s/m", impulse[1]});
+  };
+  append("load", impulses_.load);
+  append("clamps", impulses_.clamps);
+  if (walls_) append("walls", impulses_.walls);
+  if (detachment_) observe_detachment(row);
   return row;
 }
 
@@ -245,6 +304,14 @@ Frame SolidModel::frame() const {
   }
   frame.fields = {std::move(velocity_field),  std::move(displacement_field), std::move(stress_field),
                   std::move(von_mises_field), std::move(pressure_field),     std::move(held_field)};
+  if (detachment_) {
+    const auto& detached = detachment_->detached();
+    frame.fields.push_back({"detached",
+                            "1",
+                            "1 where no chain of neighbours joins the particle to a clamp",
+                            1,
+                            {detached.begin(), detached.end()}});
+  }
   return frame;
 }
 

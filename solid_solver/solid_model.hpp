@@ -12,6 +12,7 @@
 #include "common/run/timers.hpp"
 #include "common/sph/points.hpp"
 #include "solid_solver/body.hpp"
+#include "solid_solver/detachment.hpp"
 #include "solid_solver/parameters.hpp"
 
 namespace toryu {
@@ -22,6 +23,17 @@ struct Stress {
   double pressure() const { return -(xx + yy + zz) / 3.0; }
   double von_mises() const;
 };
+
+/// What has acted on the solid since the start [N.s per metre depth]: the change of its momentum is the sum,
+/// but for what `damping` takes.
+struct Impulses {
+  Vec load = Vec::Zero();    ///< gravity, constant loads and the fluid, held particles included
+  Vec walls = Vec::Zero();   ///< of the contact with walls
+  Vec clamps = Vec::Zero();  ///< what holds the held particles
+};
+
+/// Hears of all particles that have come off so far, whenever there are new ones.
+using HearDetached = std::function<void(const std::vector<DetachedParticle>&)>;
 
 class SolidModel : public Solver {
  public:
@@ -41,6 +53,9 @@ class SolidModel : public Solver {
   /// that the solid takes per second, clamps included [N per metre depth].
   Vec set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load);
   Health health() const;
+  const Impulses& impulses() const { return impulses_; }
+  /// From now on `hear` is told of particles that come off. Needs [solid.detachment].
+  void tell_detached(const HearDetached& hear);
 
   Vec displacement(std::size_t particle) const { return at(u_, slot_[particle]); }  ///< [m]
   Vec velocity(std::size_t particle) const { return at(v_, slot_[particle]); }      ///< [m/s]
@@ -63,6 +78,10 @@ class SolidModel : public Solver {
   double strip_width() const { return std::sqrt(static_cast<double>(lane_count)) * body_.spacing; }  ///< [m]
   /// Adds the walls' push on the particles at x [m] and the present time to `a_`, within a parallel region.
   void add_wall_contact(const VecField& x);
+  /// Counts what acts at present for a time `dt` [s].
+  void count_impulses(double dt);
+  /// Looks for particles that have come off, where that is asked for and due.
+  void look_for_detached();
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 
   SolidParameters parameters_;
@@ -85,8 +104,11 @@ class SolidModel : public Solver {
   double kinetic_energy() const;
   double potential_energy() const;
   double interface_work() const;
+  Vec sum_of_loads() const;
   double contact_energy() const;
   Vec momentum() const;
+  std::vector<Vec> positions() const;  ///< by number [m]
+  void observe_detachment(std::vector<Observation>& row) const;
 
   VecField constant_;  ///< gravity and constant loads [m/s2]
   std::vector<std::uint32_t> loaded_;
@@ -94,6 +116,12 @@ class SolidModel : public Solver {
   double past_work_ = 0;               ///< of earlier interface loads [J/m]
   double first_energy_ = 0;            ///< kinetic, of the start [J/m]
   std::vector<std::pair<std::string, MaterialPoint>> observers_;
+  std::vector<std::uint32_t> held_;  ///< numbers of the held particles
+  Vec load_sum_;                     ///< of gravity and all loads [N/m]
+  VecField push_;                    ///< acceleration by walls, if walls act on the solid [m/s2]
+  Impulses impulses_;
+  std::unique_ptr<DetachmentObserver> detachment_;
+  HearDetached hear_detached_;
 };
 
 }  // namespace toryu

@@ -47,12 +47,15 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
 void TotalLagrangian::advance(double dt) {
   const auto scope = timers_.measure("steps");
   time_ += dt;
+  count_impulses(0.5 * dt);  // of the first kick
 #pragma omp parallel
   {
     kick_and_drift(dt);
     evaluate();
     kick(dt);
   }
+  count_impulses(0.5 * dt);
+  look_for_detached();
 }
 
 void TotalLagrangian::kick_and_drift(double dt) {

@@ -47,7 +47,9 @@ void UpdatedLagrangian::advance(double dt) {
     evaluate();
     move(dt);
   }
+  count_impulses(dt);
   time_ += dt;
+  look_for_detached();
 }
 
 void UpdatedLagrangian::find_neighbours_if_moved() {

@@ -77,6 +77,38 @@ TEST_P(BothForms, HoldsTheClampedAndTakesTheirLoad) {
   EXPECT_NE(model->displacement(model->particle_count() - 1), Vec(0, 0));
 }
 
+TEST_P(BothForms, ImpulsesOfLoadsWallsAndClampsSumToTheChangeOfMomentum) {
+  SolidParameters p = in_form(moving_cantilever(4, 2.0), GetParam());
+  p.loads = {{"tip", {Vec(0.06, -1), Vec(1, 1)}, Vec(-30.0, -50.0)}};
+  p.wall_contact = WallContact{};
+  Scene scene = empty_scene();
+  scene.gravity = Vec(1, -10);
+  scene.walls = {{.name = "floor", .box = {Vec(-0.05, -0.04), Vec(0.13, -0.002)}, .motion = {}}};
+  const auto model = model_of(p, scene);
+  const Interface interface = model->interface(0.006);
+  InterfaceLoad load;
+  load.pressure.assign(interface.size(), 0.0);
+  const auto momentum = [&] { return Vec(observed(*model, "momentum_x"), observed(*model, "momentum_y")); };
+  const Vec start = momentum();
+  double largest = 0;
+  for (int window = 0; window < 40; ++window) {
+    load.force.clear();
+    for (std::size_t n = 0; n < interface.size(); ++n)
+      load.force.insert(load.force.end(), {1.0 - window % 3, -2.0 - window % 5});
+    model->set_interface_load(interface.id, load);
+    run_to(*model, 5e-4);
+    const Impulses& given = model->impulses();
+    for (const Vec& impulse : {given.load, given.walls, given.clamps})
+      largest = std::max(largest, impulse.norm());
+    ASSERT_LT((momentum() - start - given.load - given.walls - given.clamps).norm(), 1e-10 * largest);
+  }
+  EXPECT_GT(model->impulses().walls[1], 0.05 * largest) << "it fell on the floor";
+  EXPECT_GT(model->impulses().clamps.norm(), 0.05 * largest);
+  EXPECT_EQ(observed(*model, "impulse_from_walls_y"), model->impulses().walls[1]);
+  EXPECT_EQ(observed(*model, "impulse_from_load_x"), model->impulses().load[0]);
+  EXPECT_EQ(observed(*model, "impulse_from_clamps_y"), model->impulses().clamps[1]);
+}
+
 TEST_P(BothForms, FallsFreelyUnderGravity) {
   Scene scene = empty_scene();
   scene.gravity = Vec(0, -10);
@@ -104,10 +136,9 @@ TEST_P(BothForms, StopsWhereAValueLeavesPhysics) {
   EXPECT_EQ(failure(*model_of(p)), "");
   Scene scene = empty_scene();
   scene.domain.max = Vec(0.05, 1);
-  EXPECT_THAT(
-      failure(*model_of(p, scene)),
-      testing::MatchesRegex("solid particle [0-9]+ at t = 0.25 s: position = .0.0525, 0.0[0-9]+. m, "
-                            "limit the domain of the case"));
+  EXPECT_THAT(failure(*model_of(p, scene)),
+              testing::MatchesRegex("solid particle [0-9]+ at t = 0.25 s: position = .0.0525, 0.0[0-9]+. m, "
+                                    "limit the domain of the case"));
   p.initial_velocity->velocity = Vec(std::nan(""), 0);
   EXPECT_THAT(failure(*model_of(p)), testing::StartsWith("solid particle 0 at t = 0.25 s: speed = nan m/s"));
 }

@@ -1,0 +1,43 @@
+#include "solid_solver/detached_list.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "common/output/atomic_file.hpp"
+
+namespace toryu {
+
+namespace {
+
+constexpr std::size_t told_one_by_one = 5;
+
+std::string table(const std::vector<DetachedParticle>& particles) {
+  std::string text = "time[s],particle[1],mass[kg/m],start_x[m],start_y[m],x[m],y[m]\n";
+  for (const auto& p : particles)
+    text += fmt::format("{},{},{},{},{},{},{}\n", p.time, p.particle, p.mass, p.start[0], p.start[1],
+                        p.position[0], p.position[1]);
+  return text;
+}
+
+}  // namespace
+
+DetachedList::DetachedList(const std::filesystem::path& out) : path_(out / "detached.csv") {
+  std::filesystem::create_directories(out);
+  write_atomically(path_, table({}));
+}
+
+void DetachedList::write(const std::vector<DetachedParticle>& all) {
+  write_atomically(path_, table(all));
+  for (; told_ < std::min(all.size(), told_one_by_one); ++told_) {
+    const auto& p = all[told_];
+    spdlog::warn("particle {} of the solid has come off at t = {:.6g} s: {:.4g} kg/m from ({:.4g}, {:.4g}) m",
+                 p.particle, p.time, p.mass, p.start[0], p.start[1]);
+  }
+  if (all.size() >= 2 * told_) {
+    spdlog::warn("{} particles of the solid have come off by t = {:.6g} s; detached.csv lists them",
+                 all.size(), all.back().time);
+    told_ = all.size();
+  }
+}
+
+}  // namespace toryu

@@ -1,0 +1,24 @@
+/// `detached.csv`: a row a particle that has come off, in the order of time. It is there, if empty, in every
+/// run that looks for such particles, and complete at any moment.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "solid_solver/detachment.hpp"
+
+namespace toryu {
+
+class DetachedList {
+ public:
+  explicit DetachedList(const std::filesystem::path& out);
+  /// Writes all that have come off so far, and says so in the log: of the first few one by one, then
+  /// whenever they have doubled.
+  void write(const std::vector<DetachedParticle>& all);
+
+ private:
+  std::filesystem::path path_;
+  std::size_t told_ = 0;
+};
+
+}  // namespace toryu
