@@ -82,6 +82,17 @@ TEST_F(SolidSection, RefusesTermsOfTheOtherFormulation) {
             "always renormalises");
 }
 
+TEST_F(SolidSection, LooksForWhatIsDetachedFromAClampOnly) {
+  EXPECT_EQ(
+      faults(plate + "[solid.detachment]\n"),
+      "case.toml:9:8: error: [solid.detachment] needs a [[solid.clamp]]: detached is what no chain joins "
+      "to one");
+  const SolidParameters p =
+      read(plate +
+           "[solid.detachment]\n[[solid.clamp]]\nname = \"root\"\nbox = { min = [0, 0], max = [0.01, 1] }\n");
+  EXPECT_EQ(p.detachment->interval, 1e-3);
+}
+
 TEST_F(SolidSection, NeedsARegionAndAPositiveDensity) {
   const std::string rest = "youngs_modulus = 2e6\npoissons_ratio = 0.4\nspacing = 0.005\n";
   EXPECT_EQ(faults("[solid]\ndensity = -1.0\n" + rest),
