@@ -22,11 +22,18 @@ void Boundary::place(const std::vector<Vec>& positions, const std::vector<double
   sort();
 }
 
+void Boundary::make_work_piece(const std::vector<Vec>& area_vectors) {
+  resize(area_vector, padded(count));
+  for (std::size_t k = 0; k < count; ++k) set(area_vector, k, area_vectors[id[k]]);
+}
+
 void Boundary::sort() {
   const auto order = strips.sort(x[0], x[1], count);
   Field scratch;
   for (auto* field : {&x, &v, &acceleration, &v_viscous, &force})
     for (auto& component : *field) reorder(component, order, scratch);
+  if (is_work_piece())
+    for (auto& component : area_vector) reorder(component, order, scratch);
   for (auto* field : {&V, &m, &rho, &p, &p_rho2}) reorder(*field, order, scratch);
   std::vector<std::uint32_t> sorted_id(count);
   for (std::size_t k = 0; k < count; ++k) sorted_id[k] = id[order[k]];

@@ -27,6 +27,8 @@ struct Boundary {
   Field p, p_rho2;     ///< (29) [Pa]
   VecField v_viscous;  ///< v_w-f = 2 v_w - v~_w, which the viscous terms use (28)
   VecField force;      ///< what the fluid does to the particle [N per metre depth], where asked for
+  /// Outward area vector at the start [m per metre depth], zero inside; empty if this is no work piece.
+  VecField area_vector;
 
   ClusterList fluid_near;  ///< for clusters of this boundary: the fluid's particles
   ClusterList near_fluid;  ///< for clusters of the fluid: this boundary's particles
@@ -35,6 +37,9 @@ struct Boundary {
   /// Sets `count` particles at `positions`, each of volume `particle_volume`, at rest.
   void place(const std::vector<Vec>& positions, const std::vector<double>& volumes, double rest_density,
              double strip_width);
+  /// Makes it a work piece with these area vectors, by id.
+  void make_work_piece(const std::vector<Vec>& area_vectors);
+  bool is_work_piece() const { return !area_vector[0].empty(); }
   /// Puts the particles in strip order again after they moved.
   void sort();
   /// Sets position, velocity and acceleration from `motion(id)`, which gives them as a Kinematics.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "fluid_solver/taken_places.hpp"
+#include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
 
@@ -96,11 +97,12 @@ void FluidSolver::fill_walls() {
   const auto add = [&](const std::string& name, const std::vector<Vec>& points, const Wall* wall) {
     Boundary& boundary = boundaries_.emplace_back();
     boundary.name = name;
-    boundary.moves = wall != nullptr;
+    boundary.moves = wall && wall->motion;
     boundary.place(points, std::vector<double>(points.size(), volume), parameters_.density,
                    strip_width(parameters_));
-    moving_walls_.push_back(wall);
-    wall_start_.push_back(wall ? points : std::vector<Vec>{});
+    moving_walls_.push_back(boundary.moves ? wall : nullptr);
+    wall_start_.push_back(boundary.moves ? points : std::vector<Vec>{});
+    if (wall && wall->work_piece) boundary.make_work_piece(lattice_area_vectors(points, parameters_.spacing));
   };
   TakenPlaces taken(nearest_bodies(parameters_));
   for (const auto& wall : scene_.walls) {
@@ -113,13 +115,16 @@ void FluidSolver::fill_walls() {
             fmt::format("overlaps the wall '{}' near ({:.6g}, {:.6g}) m: particles of two walls must be "
                         "at least half a spacing apart",
                         overlap->with, overlap->place[0], overlap->place[1])}});
-    if (wall.motion)
+    if (wall.motion || wall.work_piece)
       add(wall.name, points, &wall);
     else
       still.insert(still.end(), points.begin(), points.end());
   }
   if (!still.empty()) add("walls", still, nullptr);
   move_boundaries(0.0);
+  for (auto& boundary : boundaries_)
+    if (boundary.is_work_piece() && !boundary.moves)
+      cover_faces(boundary, parameters_.spacing, boundaries_, parameters_.spacing);
 }
 
 void FluidSolver::check_overlaps() const {
@@ -149,6 +154,7 @@ void FluidSolver::attach(const Interface& interface) {
   wall_start_.emplace_back();
   interface_.attach(interface, boundaries_.emplace_back(), parameters_.density, strip_width(parameters_),
                     reach() / parameters_.sound_speed);
+  cover_faces(boundaries_.back(), interface.spacing, boundaries_, parameters_.spacing);
   check_overlaps();
 }
 

@@ -17,6 +17,9 @@ void MovingInterface::attach(const Interface& interface, Boundary& boundary, dou
   boundary.name = "interface";
   boundary.moves = true;
   boundary.place(positions, interface.volume, rest_density, strip_width);
+  std::vector<Vec> area_vectors(count_);
+  for (std::size_t k = 0; k < count_; ++k) area_vectors[k] = item(interface.area_vector, k);
+  boundary.make_work_piece(area_vectors);
   start_ = end_ = positions;
   velocity_.assign(count_, Vec::Zero());
   acceleration_ = velocity_;

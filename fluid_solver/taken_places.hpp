@@ -24,6 +24,8 @@ class TakenPlaces {
   /// The first of the points that is too near to a body that came before, if any. Takes the points for
   /// `body`.
   std::optional<Overlap> take(const std::vector<Vec>& points, const std::string& body);
+  /// Whether `x` is too near to a point that was taken.
+  bool taken(const Vec& x) const { return near(x) != nullptr; }
 
  private:
   using Cell = std::pair<std::int64_t, std::int64_t>;

@@ -39,19 +39,20 @@ Vec integral_to(const std::vector<Row>& rows, double time) {
 
 }  // namespace
 
-Vec Motion::velocity_at(double time) const {
-  const std::size_t next = next_row(velocity, time);
-  if (next == 0) return velocity_of(velocity.front());
+Vec Motion::velocity_at(double t) const {
+  t /= time;
+  const std::size_t next = next_row(velocity, t);
+  if (next == 0) return speed * velocity_of(velocity.front());
   const Row& last = velocity[next - 1];
-  return velocity_of(last) + slope_before(velocity, next) * (time - last[0]);
+  return speed * (velocity_of(last) + slope_before(velocity, next) * (t - last[0]));
 }
 
-Vec Motion::displacement_at(double time) const {
-  return integral_to(velocity, time) - integral_to(velocity, 0);
+Vec Motion::displacement_at(double t) const {
+  return speed * time * (integral_to(velocity, t / time) - integral_to(velocity, 0));
 }
 
-Vec Motion::acceleration_at(double time) const {
-  return slope_before(velocity, next_row(velocity, time));
+Vec Motion::acceleration_at(double t) const {
+  return speed / time * slope_before(velocity, next_row(velocity, t / time));
 }
 
 }  // namespace toryu

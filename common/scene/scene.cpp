@@ -75,6 +75,9 @@ void describe(ParameterTable& table, Motion& motion) {
   for (int axis = 0; axis < dim; ++axis) columns.push_back(fmt::format("v_{} [m/s]", "xyz"[axis]));
   table.rows("velocity", motion.velocity, columns,
              {.required = true, .help = "linear in between, constant before and after"});
+  table.number("speed", motion.speed, {.help = "multiplies the velocities"});
+  table.number("time", motion.time,
+               {.minimum = 0, .above_minimum = true, .help = "multiplies the times of the rows"});
   table.require(!motion.velocity.empty(), "velocity", "'velocity' needs at least one row");
   for (std::size_t k = 1; k < motion.velocity.size(); ++k)
     table.require(motion.velocity[k][0] > motion.velocity[k - 1][0], "velocity",
@@ -86,6 +89,7 @@ void describe(ParameterTable& table, Wall& wall) {
   table.text("name", wall.name, {.required = true, .help = "as the log and the report call it"});
   table.group("box", wall.box, "filled with particles on a lattice of each solver's spacing");
   table.optional("motion", wall.motion, "prescribed motion; without it the wall stands still");
+  table.flag("work_piece", wall.work_piece, "a rigid work piece: the fluid's friction acts on it");
 }
 
 void describe(ParameterTable& table, Reference& reference) {

@@ -24,12 +24,14 @@ struct Box {
 void describe(ParameterTable& table, Box& box);
 
 /// Prescribed motion of a rigid body: a table of time and velocity, linear in between, constant beyond its
-/// ends; position is its integral.
+/// ends; position is its integral. A cycle given for unit speed serves all speeds: `speed` 2 with `time` 0.5
+/// is twice as fast at the same stroke.
 struct Motion {
   std::vector<std::vector<double>> velocity;  ///< rows of time [s], v_x, v_y [m/s]; at least one
-  Vec velocity_at(double time) const;
-  Vec displacement_at(double time) const;  ///< exact integral from t = 0 [m]
-  Vec acceleration_at(double time) const;  ///< slope of the table [m/s2], right-sided at its rows
+  double speed = 1, time = 1;                 ///< multiply the velocities and the times of the table
+  Vec velocity_at(double t) const;
+  Vec displacement_at(double t) const;  ///< exact integral from t = 0 [m]
+  Vec acceleration_at(double t) const;  ///< slope of the table [m/s2], right-sided at its rows
 };
 void describe(ParameterTable& table, Motion& motion);
 
@@ -38,6 +40,7 @@ struct Wall {
   std::string name;
   Box box;
   std::optional<Motion> motion;
+  bool work_piece = false;  ///< what the fluid's abrasive rubs on; a body of its own in the results
 };
 void describe(ParameterTable& table, Wall& wall);
 

@@ -133,7 +133,9 @@ def wall_paths(case):
     """Boxes of the rigid walls with their displacement over time [[t, x, y], ...], the integral of the velocity."""
     walls = []
     for wall in case.get("wall", []):
-        rows = np.array(wall.get("motion", {}).get("velocity", []))
+        motion = wall.get("motion") or {}
+        speed, time = motion.get("speed", 1), motion.get("time", 1)
+        rows = np.array(motion.get("velocity", [])).reshape(-1, 3) * [time, speed, speed]
         path = []
         if len(rows):
             times = np.union1d(rows[:, 0], np.linspace(0, case["case"]["end_time"], 201))

@@ -44,6 +44,18 @@ TEST(Motion, DisplacementCountsFromZeroWhereverTheTableStarts) {
   EXPECT_EQ(late.displacement_at(-1), Vec(-1, 0));
 }
 
+TEST(Motion, TwiceAsFastInHalfTheTimeHasTheSameStroke) {
+  Motion fast = piston;
+  fast.speed = 2;
+  fast.time = 0.5;
+  EXPECT_EQ(fast.velocity_at(0.75), 2 * piston.velocity_at(1.5));
+  EXPECT_EQ(fast.acceleration_at(0.75), 4 * piston.acceleration_at(1.5));
+  EXPECT_EQ(fast.displacement_at(1.5), piston.displacement_at(3));
+  fast.time = 1;
+  EXPECT_EQ(fast.displacement_at(3), 2 * piston.displacement_at(3));
+  EXPECT_EQ(fast.acceleration_at(1.5), 2 * piston.acceleration_at(1.5));
+}
+
 TEST(Motion, OfOneRowIsConstant) {
   const Motion steady{{{5, 1, -2}}};
   EXPECT_EQ(steady.velocity_at(0), Vec(1, -2));

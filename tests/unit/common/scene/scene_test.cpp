@@ -20,7 +20,8 @@ box = { min = [-1, -1], max = [2, 0] }
 [[wall]]
 name = "lid"
 box = { min = [0, 2], max = [1, 3] }
-motion = { velocity = [[0.0, 0.0, 0.0], [1.0, 0.0, -0.1]] }
+motion = { velocity = [[0.0, 0.0, 0.0], [1.0, 0.0, -0.1]], speed = 3.0, time = 2.0 }
+work_piece = true
 [[reference]]
 label = "measured"
 file = "reference/level.csv"
@@ -50,7 +51,10 @@ TEST_F(SceneTest, IsReadWithWallsAndReferences) {
   ASSERT_EQ(scene.walls.size(), 2u);
   EXPECT_FALSE(scene.walls[0].motion);
   EXPECT_EQ(scene.walls[1].name, "lid");
-  EXPECT_EQ(scene.walls[1].motion->velocity_at(2), Vec(0, -0.1));
+  EXPECT_FALSE(scene.walls[0].work_piece);
+  EXPECT_TRUE(scene.walls[1].work_piece);
+  EXPECT_EQ(scene.walls[1].motion->velocity_at(2), Vec(0, 3.0 * -0.1));
+  EXPECT_EQ(scene.walls[1].motion->velocity_at(1), Vec(0, 3.0 * -0.05));
   ASSERT_EQ(scene.references.size(), 1u);
   EXPECT_EQ(scene.references[0].column, "level");
 }

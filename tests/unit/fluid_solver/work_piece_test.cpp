@@ -1,0 +1,108 @@
+// The surface of work pieces, rigid ones and the solid's interface.
+#include "fluid_solver/work_piece.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/fluid_solver/scenes.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+/// Spacing 0.05: a floor, and a work piece of 4 x 3 particles on it; fluid far away.
+Setting piece_on_a_floor() {
+  Setting setting = empty_space();
+  setting.scene.walls = {
+      {"floor", {Vec(-0.5, -0.15), Vec(0.5, 0)}, {}},
+      {.name = "piece", .box = {Vec(0, 0), Vec(0.2, 0.15)}, .motion = {}, .work_piece = true}};
+  setting.parameters.regions = {{"drop", {Vec(0, 1), Vec(0.2, 1.2)}, Vec::Zero()}};
+  return setting;
+}
+
+const Boundary& boundary_of(const FluidSolver& solver, const std::string& name) {
+  for (const auto& boundary : solver.boundaries())
+    if (boundary.name == name) return boundary;
+  throw std::out_of_range(name);
+}
+
+/// Area vectors over the spacing, by id: row by row from the smallest corner.
+std::vector<Vec> faces(const Boundary& piece) {
+  std::vector<Vec> by_id(piece.count);
+  for (std::size_t k = 0; k < piece.count; ++k) by_id[piece.id[k]] = at(piece.area_vector, k) / 0.05;
+  return by_id;
+}
+
+void expect_near(const std::vector<Vec>& found, const std::vector<Vec>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    EXPECT_LT((found[k] - expected[k]).norm(), 1e-12) << k << ": " << found[k].transpose();
+}
+
+TEST(WorkPiece, IsABodyOfItsOwnWithOpenFacesOnly) {
+  const FluidSolver solver = piece_on_a_floor().solver();
+  ASSERT_EQ(solver.boundaries().size(), 2u);
+  const Boundary& piece = boundary_of(solver, "piece");
+  EXPECT_FALSE(piece.moves);
+  expect_near(faces(piece), {{-1, 0},
+                             {0, 0},
+                             {0, 0},
+                             {1, 0},  // on the floor
+                             {-1, 0},
+                             {0, 0},
+                             {0, 0},
+                             {1, 0},  //
+                             {-1, 1},
+                             {0, 1},
+                             {0, 1},
+                             {1, 1}});
+  EXPECT_FALSE(boundary_of(solver, "walls").is_work_piece());
+}
+
+TEST(WorkPiece, StandsOnAWallWhoseLatticeDoesNotMatch) {
+  Setting setting = piece_on_a_floor();
+  setting.scene.walls[0].box = {Vec(-0.523, -0.16), Vec(0.5, -0.01)};
+  const auto found = faces(boundary_of(setting.solver(), "piece"));
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(found[k][1], 0) << k;
+}
+
+TEST(WorkPiece, HasFacesWhereAWallThatMovesWillBareThem) {
+  Setting setting = piece_on_a_floor();
+  setting.scene.walls[0].motion = Motion{{{0.0, 1.0, 0.0}}};
+  const auto found = faces(boundary_of(setting.solver(), "piece"));
+  EXPECT_LT((found[0] - Vec(-1, -1)).norm(), 1e-12);
+  EXPECT_LT((found[1] - Vec(0, -1)).norm(), 1e-12);
+}
+
+TEST(WorkPiece, MayMove) {
+  Setting setting = piece_on_a_floor();
+  setting.scene.walls[1].motion = Motion{{{0.0, 0.4, 0.0}}};
+  FluidSolver solver = setting.solver();
+  const auto before = faces(boundary_of(solver, "piece"));
+  run_until(solver, 0.3);
+  const Boundary& piece = boundary_of(solver, "piece");
+  EXPECT_TRUE(piece.moves);
+  for (std::size_t k = 0; k < piece.count; ++k) EXPECT_EQ(at(piece.v, k), Vec(0.4, 0));
+  expect_near(faces(piece), before);
+}
+
+/// A solid of half the fluid's spacing on the floor, as it registers itself: it knows no walls.
+TEST(WorkPiece, IsTheSolidLessTheFacesOnWalls) {
+  Setting setting = piece_on_a_floor();
+  setting.scene.walls.pop_back();
+  FluidSolver solver = setting.solver();
+  Interface interface;
+  interface.spacing = 0.025;
+  for (const double y : {0.0125, 0.0375})
+    for (const double x : {0.0125, 0.0375, 0.0625}) {
+      interface.id.push_back(static_cast<std::uint32_t>(interface.id.size()));
+      interface.position.insert(interface.position.end(), {x, y});
+      interface.volume.push_back(0.025 * 0.025);
+      const double side = x < 0.02 ? -0.025 : x > 0.05 ? 0.025 : 0;
+      interface.area_vector.insert(interface.area_vector.end(), {side, y < 0.02 ? -0.025 : 0.025});
+    }
+  solver.attach(interface);
+  expect_near(faces(boundary_of(solver, "interface")),
+              {{-0.5, 0}, {0, 0}, {0.5, 0}, {-0.5, 0.5}, {0, 0.5}, {0.5, 0.5}});
+}
+
+}  // namespace
+}  // namespace toryu::fluid
