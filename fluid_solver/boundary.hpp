@@ -29,6 +29,9 @@ struct Boundary {
   VecField force;      ///< what the fluid does to the particle [N per metre depth], where asked for
   /// Outward area vector at the start [m per metre depth], zero inside; empty if this is no work piece.
   VecField area_vector;
+  // where there is friction, of a work piece alone
+  Field friction_length;    ///< d_s of (33) [m], see terms/friction.hpp
+  VecField friction_force;  ///< on the particle [N per metre depth], where asked for
 
   ClusterList fluid_near;  ///< for clusters of this boundary: the fluid's particles
   ClusterList near_fluid;  ///< for clusters of the fluid: this boundary's particles

@@ -102,8 +102,14 @@ void reaction_on_cluster(const Sweep& sweep, const Particles& fluid, Boundary& b
 }  // namespace
 
 Vec Given::force() const {
-  Vec sum = Vec::Zero();
+  Vec sum = friction();
   for (const auto& part : by_cluster) sum += part;
+  return sum;
+}
+
+Vec Given::friction() const {
+  Vec sum = Vec::Zero();
+  for (const auto& part : friction_by_cluster) sum += part;
   return sum;
 }
 
@@ -122,6 +128,7 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity)
   if (const auto& a = parameters.artificial_viscosity)
     artificial_ = ArtificialViscosityTerm{a->alpha, a->beta, h, c_0};
   if (const auto& l = parameters.laminar_viscosity) laminar_ = LaminarViscosityTerm{l->dynamic_viscosity};
+  if (const auto& f = parameters.friction) friction_.emplace(*f, parameters.spacing, c_0, kernel_);
 }
 
 void Dynamics::pressures(Particles& fluid) const {
@@ -179,6 +186,12 @@ void Dynamics::evaluate(Particles& fluid, const ClusterList& neighbours, std::ve
                            terms...);
       },
       diffusion_, artificial_, laminar_);
+  if (!friction_) return;
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+    if (boundaries[b].is_work_piece()) {
+      friction_->measure_contact(boundaries[b], fluid);
+      friction_->brake_fluid(fluid, boundaries[b], given[b].friction_by_cluster);
+    }
 }
 
 void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
@@ -192,6 +205,11 @@ void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
           reaction_on_cluster(sweep, fluid, boundary, active[k], Pressure{}, terms...);
       },
       artificial_, laminar_);
+  react_by_friction(fluid, boundary);
+}
+
+void Dynamics::react_by_friction(const Particles& fluid, Boundary& work_piece) const {
+  if (friction_ && work_piece.is_work_piece()) friction_->drag_work_piece(work_piece, fluid);
 }
 
 std::vector<ActiveTerm> Dynamics::active_terms() const {
@@ -216,6 +234,9 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
     terms.push_back({"laminar viscosity",
                      "sum_j m_j 2 mu/(rho_i rho_j) x_ij . gradW_ij/(r^2 + 0.01 h^2) v_ij",
                      "Morris, Fox & Zhu 1997", fmt::format("mu {} Pa s", l->dynamic_viscosity)});
+  if (friction_)
+    terms.push_back({"friction", "F_s = mu_A sum_f V_f max(p_f, 0) d_s v_fs/sqrt(v_fs^2 + eps^2) W_sf",
+                     "eq. 33, mended", friction_->parameters()});
   terms.push_back({"walls", "pressure and velocity extrapolated from the fluid",
                    "Adami, Hu & Adams 2012, eq. 27-29",
                    parameters_.wall_model.slip == WallSlip::no_slip ? "no slip" : "free slip"});

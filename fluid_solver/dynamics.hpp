@@ -2,12 +2,14 @@
 /// for are not in the compiled loop at all.
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/friction.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/terms/artificial_viscosity.hpp"
 #include "fluid_solver/terms/continuity.hpp"
@@ -23,8 +25,10 @@ struct Absent {};
 
 /// What a boundary gave the fluid in one evaluation.
 struct Given {
-  std::vector<Vec> by_cluster;  ///< force on each cluster of the fluid [N per metre depth]
-  Vec force() const;
+  std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
+  std::vector<Vec> friction_by_cluster;  ///< the same of the friction alone; empty where there is none
+  Vec force() const;                     ///< the sum of both
+  Vec friction() const;
 };
 
 class Dynamics {
@@ -37,11 +41,15 @@ class Dynamics {
                 std::vector<Given>& given, Timers& timers) const;
 
   /// Fills `boundary.force`, the exact reaction to what the boundary did to the fluid in the last evaluation,
-  /// gathered pair by pair on the boundary's side.
+  /// gathered pair by pair on the boundary's side, and its `friction_force` where there is friction.
   void react(const Particles& fluid, Boundary& boundary) const;
+  /// The latter alone.
+  void react_by_friction(const Particles& fluid, Boundary& work_piece) const;
 
   const CubicSpline& kernel() const { return kernel_; }
   const EquationOfState& equation_of_state() const { return state_; }
+  /// Empty if the case has none.
+  const std::optional<WorkPieceFriction>& friction() const { return friction_; }
   std::vector<ActiveTerm> active_terms() const;
 
  private:
@@ -56,6 +64,7 @@ class Dynamics {
   std::variant<Absent, DensityDiffusionTerm<false>, DensityDiffusionTerm<true>> diffusion_;
   std::variant<Absent, ArtificialViscosityTerm> artificial_;
   std::variant<Absent, LaminarViscosityTerm> laminar_;
+  std::optional<WorkPieceFriction> friction_;
 };
 
 }  // namespace toryu::fluid

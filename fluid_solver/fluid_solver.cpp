@@ -1,5 +1,6 @@
 #include "fluid_solver/fluid_solver.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -11,21 +12,28 @@ namespace toryu::fluid {
 
 namespace {
 
-// Shares of the limits, Monaghan 1992 and thesis section 5.
-constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.25;
+// Shares of the limits, Monaghan 1992 and thesis section 5. A drag is stable up to 2 over its rate.
+constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.25, friction_share = 0.5;
 
-struct StepLimits {
-  double acoustic, viscous, force;
+struct StepLimit {
+  double value;  ///< [s]
+  std::string_view rule;
 };
 
-StepLimits step_limits(const Parameters& p, double speed, double acceleration) {
+/// `friction_rate` [1/s] of the fastest drag by friction, 0 without.
+StepLimit smallest_limit(const Parameters& p, double speed, double acceleration, double friction_rate) {
   const double h = p.h(), never = std::numeric_limits<double>::infinity();
   double nu = 0;
   if (p.laminar_viscosity) nu += p.laminar_viscosity->dynamic_viscosity / p.density;
   if (p.artificial_viscosity)
     nu += effective_kinematic_viscosity(p.artificial_viscosity->alpha, h, p.sound_speed);
-  return {acoustic_share * h / (p.sound_speed + speed), nu > 0 ? viscous_share * h * h / nu : never,
-          acceleration > 0 ? force_share * std::sqrt(h / acceleration) : never};
+  const std::array<StepLimit, 4> limits{
+      {{acoustic_share * h / (p.sound_speed + speed), "acoustic"},
+       {nu > 0 ? viscous_share * h * h / nu : never, "viscous"},
+       {acceleration > 0 ? force_share * std::sqrt(h / acceleration) : never, "force"},
+       {friction_rate > 0 ? friction_share / friction_rate : never, "friction"}}};
+  return *std::min_element(limits.begin(), limits.end(),
+                           [](const auto& a, const auto& b) { return a.value < b.value; });
 }
 
 double strip_width(const Parameters& p) {
@@ -164,14 +172,12 @@ void FluidSolver::begin_window(const InterfaceMotion& motion, double dt) {
 }
 
 double FluidSolver::time_step_limit() const {
-  const auto limits = step_limits(parameters_, largest_speed_, largest_acceleration_);
-  return parameters_.time_step_share * std::min({limits.acoustic, limits.viscous, limits.force});
+  return parameters_.time_step_share *
+         smallest_limit(parameters_, largest_speed_, largest_acceleration_, friction_rate_).value;
 }
 
 std::string_view FluidSolver::time_step_rule() const {
-  const auto limits = step_limits(parameters_, largest_speed_, largest_acceleration_);
-  if (limits.acoustic <= std::min(limits.viscous, limits.force)) return "acoustic";
-  return limits.viscous < limits.force ? "viscous" : "force";
+  return smallest_limit(parameters_, largest_speed_, largest_acceleration_, friction_rate_).rule;
 }
 
 void FluidSolver::move_boundaries(double time) {
@@ -226,6 +232,10 @@ void FluidSolver::advance(double dt) {
 void FluidSolver::note_extremes() {
   largest_speed_ = largest_norm(fluid_.v, fluid_.count);
   largest_acceleration_ = largest_norm(fluid_.a, fluid_.count);
+  if (const auto& friction = dynamics_.friction()) {
+    const double densest = *std::max_element(fluid_.rho.begin(), fluid_.rho.end());
+    friction_rate_ = friction->rate(dynamics_.equation_of_state().pressure(densest), parameters_.density);
+  }
 }
 
 }  // namespace toryu::fluid

@@ -67,7 +67,7 @@ class FluidSolver : public Solver {
   std::optional<std::size_t> interface_boundary_;
   MovingInterface interface_;
   double time_ = 0;
-  double largest_speed_ = 0, largest_acceleration_ = 0;
+  double largest_speed_ = 0, largest_acceleration_ = 0, friction_rate_ = 0;
   Timers timers_;
 };
 

@@ -56,13 +56,20 @@ void MovingInterface::add_load(const Boundary& boundary, const Vec& received, do
     for (int a = 0; a < dim; ++a)
       sum_.force[dim * n + static_cast<std::size_t>(a)] += boundary.force[a][k] * dt;
   }
+  if (!boundary.friction_force[0].empty()) {
+    sum_.friction_force.resize(dim * count_);
+    for (std::size_t k = 0; k < boundary.count; ++k)
+      for (int a = 0; a < dim; ++a)
+        sum_.friction_force[dim * boundary.id[k] + static_cast<std::size_t>(a)] +=
+            boundary.friction_force[a][k] * dt;
+  }
   sum_.impulse_on_fluid += received * dt;
   load_time_ += dt;
 }
 
 InterfaceLoad MovingInterface::take_load() {
   InterfaceLoad mean = std::move(sum_);
-  for (auto* values : {&mean.pressure, &mean.force})
+  for (auto* values : {&mean.pressure, &mean.force, &mean.friction_force})
     for (double& value : *values) value /= load_time_;
   sum_ = InterfaceLoad{};
   sum_.pressure.assign(count_, 0.0);

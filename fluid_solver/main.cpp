@@ -3,6 +3,8 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "common/link/participant.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
@@ -71,6 +73,12 @@ ExitCode solve(const Options& options) {
   fluid::Parameters parameters;
   file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
   file.leave_to_others({"solid", "coupling"});
+  const auto is_work_piece = [](const Wall& wall) { return wall.work_piece; };
+  if (parameters.friction && !file.has("solid") &&
+      std::none_of(scene.walls.begin(), scene.walls.end(), is_work_piece))
+    file.fault("fluid.friction",
+               "there is nothing to rub on: friction acts on a [[wall]] with 'work_piece = true' "
+               "and on the solid of a coupled case");
   if (options.describe) {
     fmt::print("{}", file.description());
     return ExitCode::done;

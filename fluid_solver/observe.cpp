@@ -95,6 +95,10 @@ std::vector<Observation> FluidSolver::observe() const {
     const Vec force = b < given_.size() ? given_[b].force() : Vec(Vec::Zero());
     row.push_back({"force_from_" + boundaries_[b].name + "_x", "N/m", force[0]});
     row.push_back({"force_from_" + boundaries_[b].name + "_y", "N/m", force[1]});
+    if (!dynamics_.friction() || !boundaries_[b].is_work_piece()) continue;
+    const Vec friction = b < given_.size() ? given_[b].friction() : Vec(Vec::Zero());
+    row.push_back({"friction_from_" + boundaries_[b].name + "_x", "N/m", friction[0]});
+    row.push_back({"friction_from_" + boundaries_[b].name + "_y", "N/m", friction[1]});
   }
   for (const auto& observer : parameters_.observers)
     row.push_back(toryu::fluid::observe(observer, fluid_, parameters_.spacing, dynamics_.kernel(),

@@ -48,6 +48,19 @@ void describe(ParameterTable& table, LaminarViscosity& viscosity) {
                {.unit = "Pa.s", .minimum = 0, .required = true, .help = "mu of (4)"});
 }
 
+void describe(ParameterTable& table, Friction& friction) {
+  table.number("coefficient", friction.coefficient,
+               {.minimum = 0, .required = true, .help = "mu_A of (33), traction over pressure"});
+  table.choice(
+      "form", friction.form, {"normalised", "as_printed"},
+      {.help = "normalised: a plane interface transmits mu_A p; as_printed: (33) with d_f = d_0, which "
+               "transmits only about 0.22 mu_A p at h = 1.2 d_0 (0.16 at 1.0, 0.25 at 1.3, 0.30 at 1.5)"});
+  table.number("regularisation_speed", friction.regularisation_speed,
+               {.unit = "m/s",
+                .minimum = 0,
+                .help = "below about this sliding speed friction is a linear drag; 0: c_0/1000"});
+}
+
 void describe(ParameterTable& table, WallModel& model) {
   table.choice("slip", model.slip, {"no_slip", "free_slip"},
                {.help = "whether viscous terms act at walls (28)"});
@@ -112,6 +125,7 @@ void describe(ParameterTable& table, Parameters& p) {
   table.optional("density_diffusion", p.density_diffusion, "delta-SPH, (18)-(21)");
   table.optional("artificial_viscosity", p.artificial_viscosity, "(23)-(24)");
   table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of the medium");
+  table.optional("friction", p.friction, "of the abrasive on the work pieces, (33)");
   table.group("wall_model", p.wall_model, "how walls act on the fluid, (27)-(29)");
   table.group("limits", p.limits, "bounds of physics");
   table.list("observer", p.observers, "numbers reported over time in fluid.csv");

@@ -43,6 +43,15 @@ struct LaminarViscosity {
 };
 void describe(ParameterTable& table, LaminarViscosity& viscosity);
 
+/// What the length d_s of (33) is: see terms/friction.hpp.
+enum class FrictionForm { normalised, as_printed };
+struct Friction {
+  double coefficient = 0.3;  ///< mu_A
+  FrictionForm form = FrictionForm::normalised;
+  double regularisation_speed = 0;  ///< [m/s]; 0: c_0/1000
+};
+void describe(ParameterTable& table, Friction& friction);
+
 enum class WallSlip { no_slip, free_slip };
 enum class WallDensity { rest, from_pressure };
 struct WallModel {
@@ -84,6 +93,7 @@ struct Parameters {
   std::optional<DensityDiffusion> density_diffusion;
   std::optional<ArtificialViscosity> artificial_viscosity;
   std::optional<LaminarViscosity> laminar_viscosity;
+  std::optional<Friction> friction;
   WallModel wall_model;
   Limits limits;
   std::vector<Observer> observers;

@@ -51,6 +51,10 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},
+        Fault{"FrictionOnNothing", "fluid.friction.coefficient=0.3",
+              "--set fluid.friction.coefficient=0.3: error: there is nothing to rub on: friction acts on a "
+              "[[wall]] "
+              "with 'work_piece = true' and on the solid of a coupled case"},
         Fault{"NoRegion", "fluid.region=[]",
               "--set fluid.region=[]: error: a fluid needs at least one [[fluid.region]]"},
         Fault{

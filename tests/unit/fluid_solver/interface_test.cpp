@@ -19,7 +19,7 @@ Interface plate() {
       plate.position.push_back(0.5 + (column + 0.5) * plate.spacing);
       plate.position.push_back((row + 0.5) * plate.spacing);
       plate.volume.push_back(plate.spacing * plate.spacing);
-      plate.area_vector.insert(plate.area_vector.end(), {0, 0});
+      plate.area_vector.insert(plate.area_vector.end(), {column == 0 ? -plate.spacing : 0, 0});
     }
   return plate;
 }
@@ -43,12 +43,18 @@ Setting tank_with_a_plate() {
   return setting;
 }
 
-class Exchange : public testing::TestWithParam<WallSlip> {};
+struct Contact {
+  std::string name;
+  WallSlip slip;
+  std::optional<Friction> friction;
+};
+class Exchange : public testing::TestWithParam<Contact> {};
 
 TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
   omp_set_num_threads(1);
   Setting setting = tank_with_a_plate();
-  setting.parameters.wall_model.slip = GetParam();
+  setting.parameters.wall_model.slip = GetParam().slip;
+  setting.parameters.friction = GetParam().friction;
   FluidSolver solver = setting.solver();
   const Interface interface = plate();
   solver.attach(interface);
@@ -59,22 +65,33 @@ TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
     solver.advance(dt);
     solver.advance(dt);
     const InterfaceLoad load = solver.take_load();
-    Vec on_plate = Vec::Zero();
+    Vec on_plate = Vec::Zero(), friction = Vec::Zero();
     double size = 0;
     for (std::size_t k = 0; k < interface.size(); ++k) {
-      const Vec force(load.force[dim * k], load.force[dim * k + 1]);
+      Vec force(load.force[dim * k], load.force[dim * k + 1]);
+      if (GetParam().friction) {
+        friction += Vec(load.friction_force[dim * k], load.friction_force[dim * k + 1]);
+        force += Vec(load.friction_force[dim * k], load.friction_force[dim * k + 1]);
+      }
       on_plate += 2 * dt * force;
       size += 2 * dt * force.norm();
     }
     ASSERT_GT(on_plate[0], 0);
+    if (GetParam().friction)
+      EXPECT_LT(friction[1], 0);  // the plate rises past the water
+    else
+      EXPECT_TRUE(load.friction_force.empty());
     EXPECT_LT((on_plate + load.impulse_on_fluid).norm(), 1e-13 * size) << "window " << n;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Slip, Exchange, testing::Values(WallSlip::no_slip, WallSlip::free_slip),
-                         [](const auto& one) {
-                           return one.param == WallSlip::no_slip ? "NoSlip" : "FreeSlip";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Walls, Exchange,
+    testing::Values(Contact{"NoSlip", WallSlip::no_slip, {}}, Contact{"FreeSlip", WallSlip::free_slip, {}},
+                    Contact{"Friction", WallSlip::free_slip, Friction{.coefficient = 0.3}},
+                    Contact{"FrictionAsPrinted", WallSlip::no_slip,
+                            Friction{.coefficient = 0.3, .form = FrictionForm::as_printed}}),
+    [](const auto& one) { return one.param.name; });
 
 TEST(PlateAtRest, BearsThePressureOfTheWater) {
   omp_set_num_threads(1);

@@ -1,0 +1,36 @@
+/// The passes of the friction term over the work pieces; terms/friction.hpp has the formula. They are apart
+/// from the loop over all pairs, so that a case without friction does not carry it.
+#pragma once
+
+#include "fluid_solver/boundary.hpp"
+#include "fluid_solver/parameters.hpp"
+#include "fluid_solver/terms/friction.hpp"
+
+namespace toryu::fluid {
+
+class WorkPieceFriction {
+ public:
+  WorkPieceFriction(const Friction& parameters, double spacing, double sound_speed,
+                    const CubicSpline& kernel);
+
+  /// Fills `work_piece.friction_length`, the d_s, for the fluid's places and volumes.
+  void measure_contact(Boundary& work_piece, const Particles& fluid) const;
+  /// Adds to the acceleration of the fluid; returns the force on each cluster of it in `by_cluster`.
+  void brake_fluid(Particles& fluid, const Boundary& work_piece, std::vector<Vec>& by_cluster) const;
+  /// Fills `work_piece.friction_force`, the exact reaction.
+  void drag_work_piece(Boundary& work_piece, const Particles& fluid) const;
+
+  /// The fastest rate [1/s] at which friction brakes fluid of density `rho` under the pressure `p`: that of
+  /// the linear drag at rest, on the row next to a plane interface.
+  double rate(double p, double rho) const;
+  /// Symbols and values, for the log.
+  std::string parameters() const;
+
+ private:
+  FrictionForm form_;
+  double spacing_, smoothing_ratio_;
+  FrictionTerm term_;
+  CubicSpline kernel_;
+};
+
+}  // namespace toryu::fluid

@@ -1,0 +1,56 @@
+/// Friction of the abrasive (33): the fluid drags a work piece along as Coulomb's law has it. The force on
+/// particle s of the work piece from particle f of the fluid, and its exact opposite on f, is
+///
+///     F_sf = mu_A V_f max(p_f, 0) d_s t_fs W_sf,   t_fs = v_fs/sqrt(v_fs^2 + eps^2),   v_fs = v_f - v_s
+///
+/// (sign and reaction mended: printed with one sign for both phases). d_s is a length:
+///
+///     as printed   d_s = d_0, for each particle of the work piece
+///     normalised   d_s = |A_s|/sum_f V_f W_sf, A_s the particle's area vector (none inside)
+///
+/// Normalised, a surface under the pressure p bears the traction mu_A p. As printed it bears mu_A p times a
+/// sum of kernel values, `printed_share`: 0.16, 0.22, 0.25, 0.30 at h/d_0 = 1.0, 1.2, 1.3, 1.5.
+/// eps regularises it: up to about that speed the friction is a linear drag, so that it has no direction to
+/// jump to at rest.
+#pragma once
+
+#include <cmath>
+
+#include "common/sph/kernel.hpp"
+#include "common/sph/points.hpp"
+
+namespace toryu::fluid {
+
+struct FrictionTerm {
+  double mu_A;
+  double eps;  ///< [m/s]
+
+  /// F_sf/V_f [N/m3] for W_sf at `r2` = r_sf^2; what belongs to s or f may be lanes or numbers.
+  TORYU_INLINE VecLanes per_volume(const CubicSpline& kernel, Lanes d_s, Lanes p_f, Lanes r2,
+                                   const VecLanes& v_fs) const {
+    const Lanes t = inverse_sqrt(dot(v_fs, v_fs) + eps * eps);
+    const Lanes factor = mu_A * positive_part(p_f) * d_s * kernel.value(square_root(r2)) * t;
+    VecLanes force;
+    for (int a = 0; a < dim; ++a) force[a] = factor * v_fs[a];
+    return force;
+  }
+};
+
+/// Below this sum_f V_f W_sf, a tenth of a plane interface's, the fluid is parting from the surface. The
+/// normalised force then fades with the kernel, where it would else go on undiminished up to 2h and end
+/// there.
+inline constexpr double least_contact = 0.02;
+
+/// The share of mu_A p that friction as printed transmits at a plane interface, by sums over a square lattice
+/// on both sides.
+inline double printed_share(double smoothing_ratio) {
+  const CubicSpline kernel(smoothing_ratio);  // d_0 = 1
+  const int reach = static_cast<int>(kernel.support()) + 1;
+  double sum = 0;
+  for (int depth = 0; depth < reach; ++depth)  // row of the work piece
+    for (int row = 1 + depth; row <= reach; ++row)
+      for (int column = -reach; column <= reach; ++column) sum += kernel.value(std::hypot(row, column));
+  return sum;
+}
+
+}  // namespace toryu::fluid
