@@ -48,6 +48,13 @@ void describe(ParameterTable& table, SolidParameters& p) {
   table.number(
       "time_step_share", p.time_step_share,
       {.minimum = 0, .maximum = 1, .above_minimum = true, .help = "of the largest stable time step"});
+  table.number(
+      "courant_number", p.courant_number,
+      {.minimum = 0,
+       .maximum = 1,
+       .above_minimum = true,
+       .help = "updated Lagrangian: acoustic limit of the time step, times h/(c_L + |v|); artificial "
+               "viscosity bears more than 0.25"});
   table.choice(
       "gradients", p.gradients, {"plain", "renormalised"},
       {.help = "updated Lagrangian: whether velocity gradient and stress divergence are renormalised; "
@@ -75,6 +82,10 @@ void describe(ParameterTable& table, SolidParameters& p) {
                 "[solid.hourglass] is for formulation = \"total_lagrangian\" only");
   table.require(!total || !p.artificial_stress, "artificial_stress",
                 "[solid.artificial_stress] is for formulation = \"updated_lagrangian\" only");
+  table.require(
+      !total || p.courant_number == SolidParameters{}.courant_number, "courant_number",
+      "'courant_number' in [solid] is for formulation = \"updated_lagrangian\" only; the other finds its "
+      "limit");
   table.require(!p.detachment || !p.clamps.empty(), "detachment",
                 "[solid.detachment] needs a [[solid.clamp]]: detached is what no chain joins to one");
   table.require(!total || p.gradients == Gradients::plain, "gradients",

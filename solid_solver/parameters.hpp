@@ -49,6 +49,7 @@ struct SolidParameters {
   double spacing = 0;            ///< [m]
   double smoothing_ratio = 1.3;  ///< h over the spacing
   double time_step_share = 0.8;  ///< of the largest stable time step
+  double courant_number = 0.25;  ///< of the acoustic limit of the updated Lagrangian form
   Gradients gradients = Gradients::plain;
   std::vector<NamedBox> regions, holes, clamps;
   std::vector<BoxLoad> loads;

@@ -64,7 +64,9 @@ void UpdatedLagrangian::find_neighbours_if_moved() {
   }
   // A step adds far less than the tenth of the skin that is left to it.
   const double allowed = 0.45 * skin_;
-  if (!(largest_of(furthest) <= allowed * allowed)) find_neighbours();
+  if (largest_of(furthest) <= allowed * allowed) return;
+  check(time_);  // particles flung to all ends would make the search take all memory
+  find_neighbours();
 }
 
 void UpdatedLagrangian::find_neighbours() {
@@ -140,7 +142,8 @@ std::pair<double, std::string_view> UpdatedLagrangian::limit() const {
     acceleration_2 = std::max(acceleration_2, (mobile_[k] * (at(a_, k) + at(external_, k))).squaredNorm());
   }
   std::pair<double, std::string_view> least{
-      0.25 * h / (parameters_.material.longitudinal_sound_speed() + std::sqrt(speed_2)), "acoustic"};
+      parameters_.courant_number * h / (parameters_.material.longitudinal_sound_speed() + std::sqrt(speed_2)),
+      "acoustic"};
   if (parameters_.artificial_viscosity && parameters_.artificial_viscosity->alpha > 0) {
     const double nu =
         parameters_.artificial_viscosity->alpha * h * parameters_.material.bulk_sound_speed() / 8.0;

@@ -80,6 +80,10 @@ TEST_F(SolidSection, RefusesTermsOfTheOtherFormulation) {
             "case.toml:2:1: error: 'gradients' in [solid] is for formulation = \"updated_lagrangian\" only; "
             "the other "
             "always renormalises");
+  EXPECT_EQ(
+      faults("[solid]\ncourant_number = 0.5\n" + plate.substr(8)),
+      "case.toml:2:1: error: 'courant_number' in [solid] is for formulation = \"updated_lagrangian\" only; "
+      "the other finds its limit");
 }
 
 TEST_F(SolidSection, LooksForWhatIsDetachedFromAClampOnly) {
