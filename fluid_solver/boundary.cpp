@@ -43,9 +43,12 @@ void Boundary::sort() {
 
 namespace {
 
+// A sum of kernel values below this share of W(0) means that no fluid is in reach.
+constexpr double smallest_share = 1e-9;
+
 void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel,
                             const Vec& gravity, std::size_t cluster) {
-  const double smallest_sum = 1e-9 * kernel.value(0.0);  // below it no fluid is in reach
+  const double smallest_sum = smallest_share * kernel.value(0.0);
   const std::size_t first = cluster * lane_count;
   const VecLanes x_w = load(boundary.x, first);
   Lanes sum_W = 0.0, sum_p = 0.0;
@@ -81,6 +84,24 @@ void extrapolate(Boundary& boundary, const Particles& fluid, const CubicSpline& 
 #pragma omp for schedule(dynamic, 4)
   for (std::size_t k = 0; k < active.size(); ++k)
     extrapolate_to_cluster(boundary, fluid, kernel, gravity, active[k]);
+}
+
+void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel) {
+  const double smallest_sum = smallest_share * kernel.value(0.0);
+  const auto& active = boundary.fluid_near.active();
+#pragma omp for schedule(dynamic, 4)
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    const std::size_t first = active[k] * lane_count;
+    const VecLanes x_w = load(boundary.x, first);
+    Lanes sum_W = 0.0, sum_eta = 0.0;
+    for (const std::uint32_t i : boundary.fluid_near.sources(active[k])) {
+      const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
+      const Lanes W = kernel.value(square_root(dot(x_wi, x_wi)));
+      sum_W += W;
+      sum_eta += fluid.eta[i] * W;
+    }
+    store(sum_eta * inverse(max(sum_W, smallest_sum)), boundary.eta, first);
+  }
 }
 
 }  // namespace toryu::fluid

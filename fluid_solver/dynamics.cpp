@@ -1,21 +1,34 @@
 #include "fluid_solver/dynamics.hpp"
 
 #include "fluid_solver/terms/density_gradient.hpp"
+#include "fluid_solver/terms/shear_rate.hpp"
 
 namespace toryu::fluid {
 
 namespace {
 
-Targets load_targets(const Particles& f, std::size_t first, bool with_gradient) {
+/// A field that not every case has.
+Lanes load_if_there(const Field& field, std::size_t first) {
+  return field.empty() ? Lanes(0.0) : load(field, first);
+}
+VecLanes load_if_there(const VecField& field, std::size_t first) {
+  return field[0].empty() ? zero_vector() : load(field, first);
+}
+
+Targets load_targets(const Particles& f, std::size_t first) {
   const VecLanes v = load(f.v, first);
-  return {
-      load(f.x, first),     v, v, with_gradient ? load(f.grad_rho, first) : zero_vector(), load(f.rho, first),
-      load(f.p_rho2, first)};
+  return {load(f.x, first),
+          v,
+          v,
+          load_if_there(f.grad_rho, first),
+          load(f.rho, first),
+          load(f.p_rho2, first),
+          load_if_there(f.eta, first)};
 }
 
 Targets load_targets(const Boundary& b, std::size_t first) {
-  return {load(b.x, first), load(b.v, first),   load(b.v_viscous, first),
-          zero_vector(),    load(b.rho, first), load(b.p_rho2, first)};
+  return {load(b.x, first),   load(b.v, first),      load(b.v_viscous, first),   zero_vector(),
+          load(b.rho, first), load(b.p_rho2, first), load_if_there(b.eta, first)};
 }
 
 // Each term joins in where it has something to say.
@@ -56,7 +69,7 @@ void rates_of_cluster(const Sweep& sweep, Particles& fluid, const ClusterList& n
                       const Terms... term) {
   const std::size_t first = cluster * lane_count;
   const Sources own = sources(fluid);
-  const Targets i = load_targets(fluid, first, !fluid.grad_rho[0].empty());
+  const Targets i = load_targets(fluid, first);
   Rates rates;
   for (const std::uint32_t j : neighbours.sources(cluster)) {
     const Pair pair = make_pair(sweep.kernel, i, own, j);
@@ -127,7 +140,10 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity)
   }
   if (const auto& a = parameters.artificial_viscosity)
     artificial_ = ArtificialViscosityTerm{a->alpha, a->beta, h, c_0};
-  if (const auto& l = parameters.laminar_viscosity) laminar_ = LaminarViscosityTerm{l->dynamic_viscosity};
+  if (const auto& l = parameters.laminar_viscosity) viscous_ = LaminarViscosityTerm{l->dynamic_viscosity};
+  if (parameters.power_law) rheology_ = *parameters.power_law;
+  if (parameters.carreau) rheology_ = *parameters.carreau;
+  if (viscosity_varies()) viscous_ = VariableViscosityTerm{};
   if (const auto& f = parameters.friction) friction_.emplace(*f, parameters.spacing, c_0, kernel_);
 }
 
@@ -154,11 +170,49 @@ void Dynamics::wall_densities(Boundary& boundary) const {
     }
 }
 
+double Dynamics::viscosity_at_rest() const {
+  if (const auto& laminar = parameters_.laminar_viscosity) return laminar->dynamic_viscosity;
+  return std::visit(
+      []<class Law>(const Law& law) {
+        if constexpr (std::is_same_v<Law, Absent>)
+          return 0.0;
+        else
+          return viscosity(law, 0.0);
+      },
+      rheology_);
+}
+
+void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
+                           std::vector<Boundary>& boundaries) const {
+  std::visit(
+      [&]<class Law>(const Law& law) {
+        if constexpr (!std::is_same_v<Law, Absent>) {
+#pragma omp for schedule(dynamic, 8)
+          for (std::size_t c = 0; c < fluid.clusters(); ++c) {
+            const std::size_t first = c * lane_count;
+            ShearRate gdot(load(fluid.x, first), load(fluid.v, first));
+            gdot.add(sources(fluid), neighbours.sources(c), kernel_);
+            if (viscous_walls())
+              for (const auto& wall : boundaries)
+                gdot.add(sources(wall), wall.near_fluid.sources(c), kernel_);
+            const Lanes gdot_i = gdot.value();
+            store(gdot_i, fluid.gdot, first);
+            store(viscosity(law, gdot_i), fluid.eta, first);
+          }
+          if (viscous_walls())
+            for (auto& wall : boundaries) extrapolate_viscosity(wall, fluid, kernel_);
+        }
+      },
+      rheology_);
+}
+
 void Dynamics::evaluate(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries,
                         std::vector<Given>& given, Timers& timers) const {
   const bool renormalised = std::holds_alternative<DensityDiffusionTerm<true>>(diffusion_);
   given.resize(boundaries.size());
   for (auto& part : given) part.by_cluster.resize(fluid.clusters());
+  if (viscosity_varies())
+    for (auto& boundary : boundaries) boundary.eta.resize(boundary.V.size());
   {
     const auto timer = timers.measure("pressure, walls and density gradient");
 #pragma omp parallel
@@ -176,6 +230,11 @@ void Dynamics::evaluate(Particles& fluid, const ClusterList& neighbours, std::ve
       }
     }
   }
+  if (viscosity_varies()) {
+    const auto timer = timers.measure("shear rate and viscosity");
+#pragma omp parallel
+    viscosities(fluid, neighbours, boundaries);
+  }
   const auto timer = timers.measure("rates");
   std::visit(
       [&](const auto&... terms) {
@@ -185,7 +244,7 @@ void Dynamics::evaluate(Particles& fluid, const ClusterList& neighbours, std::ve
           rates_of_cluster(sweep, fluid, neighbours, boundaries, given, c, Continuity{}, Pressure{},
                            terms...);
       },
-      diffusion_, artificial_, laminar_);
+      diffusion_, artificial_, viscous_);
   if (!friction_) return;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].is_work_piece()) {
@@ -204,7 +263,7 @@ void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
         for (std::size_t k = 0; k < active.size(); ++k)
           reaction_on_cluster(sweep, fluid, boundary, active[k], Pressure{}, terms...);
       },
-      artificial_, laminar_);
+      artificial_, viscous_);
   react_by_friction(fluid, boundary);
 }
 
@@ -234,6 +293,16 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
     terms.push_back({"laminar viscosity",
                      "sum_j m_j 2 mu/(rho_i rho_j) x_ij . gradW_ij/(r^2 + 0.01 h^2) v_ij",
                      "Morris, Fox & Zhu 1997", fmt::format("mu {} Pa s", l->dynamic_viscosity)});
+  if (const auto& law = parameters_.power_law)
+    terms.push_back({"power law", "eta = m gdot^(n-1), harmonic mean of a pair",
+                     "Ostwald 1925, de Waele 1923",
+                     fmt::format("m {} Pa s^n, n {}, {} to {} Pa s", law->consistency, law->exponent,
+                                 law->smallest_viscosity, law->largest_viscosity)});
+  if (const auto& law = parameters_.carreau)
+    terms.push_back(
+        {"Carreau", "eta = eta_inf + (eta_0 - eta_inf) (1 + (lambda gdot)^2)^((n-1)/2)", "Carreau 1972",
+         fmt::format("eta_0 {} Pa s, eta_inf {} Pa s, lambda {} s, n {}", law->zero_shear_viscosity,
+                     law->infinite_shear_viscosity, law->relaxation_time, law->exponent)});
   if (friction_)
     terms.push_back({"friction", "F_s = mu_A sum_f V_f max(p_f, 0) d_s v_fs/sqrt(v_fs^2 + eps^2) W_sf",
                      "eq. 33, mended", friction_->parameters()});

@@ -17,6 +17,8 @@
 #include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/laminar_viscosity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
+#include "fluid_solver/terms/rheology.hpp"
+#include "fluid_solver/terms/variable_viscosity.hpp"
 
 namespace toryu::fluid {
 
@@ -51,10 +53,15 @@ class Dynamics {
   /// Empty if the case has none.
   const std::optional<WorkPieceFriction>& friction() const { return friction_; }
   std::vector<ActiveTerm> active_terms() const;
+  /// Whether the viscosity is a field.
+  bool viscosity_varies() const { return !std::holds_alternative<Absent>(rheology_); }
+  /// Viscosity of the medium without shear [Pa s].
+  double viscosity_at_rest() const;
 
  private:
   void pressures(Particles& fluid) const;
   void wall_densities(Boundary& boundary) const;
+  void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
   bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
 
   Parameters parameters_;
@@ -63,7 +70,8 @@ class Dynamics {
   EquationOfState state_;
   std::variant<Absent, DensityDiffusionTerm<false>, DensityDiffusionTerm<true>> diffusion_;
   std::variant<Absent, ArtificialViscosityTerm> artificial_;
-  std::variant<Absent, LaminarViscosityTerm> laminar_;
+  std::variant<Absent, LaminarViscosityTerm, VariableViscosityTerm> viscous_;
+  std::variant<Absent, PowerLaw, Carreau> rheology_;
   std::optional<WorkPieceFriction> friction_;
 };
 

@@ -20,18 +20,16 @@ struct StepLimit {
   std::string_view rule;
 };
 
-/// `friction_rate` [1/s] of the fastest drag by friction, 0 without.
-StepLimit smallest_limit(const Parameters& p, double speed, double acceleration, double friction_rate) {
+StepLimit smallest_limit(const Parameters& p, const Extremes& largest) {
   const double h = p.h(), never = std::numeric_limits<double>::infinity();
-  double nu = 0;
-  if (p.laminar_viscosity) nu += p.laminar_viscosity->dynamic_viscosity / p.density;
+  double nu = largest.viscosity / p.density;
   if (p.artificial_viscosity)
     nu += effective_kinematic_viscosity(p.artificial_viscosity->alpha, h, p.sound_speed);
   const std::array<StepLimit, 4> limits{
-      {{acoustic_share * h / (p.sound_speed + speed), "acoustic"},
+      {{acoustic_share * h / (p.sound_speed + largest.speed), "acoustic"},
        {nu > 0 ? viscous_share * h * h / nu : never, "viscous"},
-       {acceleration > 0 ? force_share * std::sqrt(h / acceleration) : never, "force"},
-       {friction_rate > 0 ? friction_share / friction_rate : never, "friction"}}};
+       {largest.acceleration > 0 ? force_share * std::sqrt(h / largest.acceleration) : never, "force"},
+       {largest.friction_rate > 0 ? friction_share / largest.friction_rate : never, "friction"}}};
   return *std::min_element(limits.begin(), limits.end(),
                            [](const auto& a, const auto& b) { return a.value < b.value; });
 }
@@ -62,6 +60,7 @@ FluidSolver::FluidSolver(const Parameters& parameters, const Scene& scene)
   fill_regions();
   fill_walls();
   check_overlaps();
+  largest_.viscosity = dynamics_.viscosity_at_rest();
   note_extremes();
 }
 
@@ -81,6 +80,10 @@ void FluidSolver::fill_regions() {
   for (auto* field : {&f.rho, &f.m, &f.V, &f.p, &f.p_rho2, &f.drho}) field->assign(size, 0.0);
   const auto& diffusion = parameters_.density_diffusion;
   if (diffusion && diffusion->gradient == DiffusionGradient::renormalised) resize(f.grad_rho, size);
+  if (dynamics_.viscosity_varies()) {
+    f.gdot.assign(size, 0.0);
+    f.eta.assign(size, dynamics_.viscosity_at_rest());
+  }
 
   const auto& state = dynamics_.equation_of_state();
   const double volume = std::pow(parameters_.spacing, dim), g = scene_.gravity.norm();
@@ -172,12 +175,11 @@ void FluidSolver::begin_window(const InterfaceMotion& motion, double dt) {
 }
 
 double FluidSolver::time_step_limit() const {
-  return parameters_.time_step_share *
-         smallest_limit(parameters_, largest_speed_, largest_acceleration_, friction_rate_).value;
+  return parameters_.time_step_share * smallest_limit(parameters_, largest_).value;
 }
 
 std::string_view FluidSolver::time_step_rule() const {
-  return smallest_limit(parameters_, largest_speed_, largest_acceleration_, friction_rate_).rule;
+  return smallest_limit(parameters_, largest_).rule;
 }
 
 void FluidSolver::move_boundaries(double time) {
@@ -230,11 +232,14 @@ void FluidSolver::advance(double dt) {
 }
 
 void FluidSolver::note_extremes() {
-  largest_speed_ = largest_norm(fluid_.v, fluid_.count);
-  largest_acceleration_ = largest_norm(fluid_.a, fluid_.count);
+  largest_.speed = largest_norm(fluid_.v, fluid_.count);
+  largest_.acceleration = largest_norm(fluid_.a, fluid_.count);
+  if (dynamics_.viscosity_varies())
+    largest_.viscosity = *std::max_element(fluid_.eta.begin(), fluid_.eta.begin() + fluid_.count);
   if (const auto& friction = dynamics_.friction()) {
     const double densest = *std::max_element(fluid_.rho.begin(), fluid_.rho.end());
-    friction_rate_ = friction->rate(dynamics_.equation_of_state().pressure(densest), parameters_.density);
+    largest_.friction_rate =
+        friction->rate(dynamics_.equation_of_state().pressure(densest), parameters_.density);
   }
 }
 

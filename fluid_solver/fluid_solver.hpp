@@ -12,6 +12,13 @@
 
 namespace toryu::fluid {
 
+/// What limits the time step.
+struct Extremes {
+  double speed = 0, acceleration = 0;  ///< [m/s], [m/s2]
+  double viscosity = 0;                ///< of the medium [Pa s]
+  double friction_rate = 0;            ///< of the fastest drag by friction, 0 without [1/s]
+};
+
 class FluidSolver : public Solver {
  public:
   /// Fills the regions and the walls of the scene. Throws BadInput if bodies overlap or nothing is filled.
@@ -67,7 +74,7 @@ class FluidSolver : public Solver {
   std::optional<std::size_t> interface_boundary_;
   MovingInterface interface_;
   double time_ = 0;
-  double largest_speed_ = 0, largest_acceleration_ = 0, friction_rate_ = 0;
+  Extremes largest_;
   Timers timers_;
 };
 

@@ -49,6 +49,12 @@ Frame FluidSolver::frame() const {
     pressure.values[i] = dynamics_.equation_of_state().pressure(fluid_.rho[i]);
   }
   frame.fields = {std::move(id), std::move(pressure), std::move(velocity), std::move(density)};
+  if (dynamics_.viscosity_varies()) {
+    frame.fields.push_back(
+        {"viscosity", "Pa.s", "of the last evaluation", 1, {fluid_.eta.begin(), fluid_.eta.begin() + n}});
+    frame.fields.push_back(
+        {"shear_rate", "1/s", "sqrt(2 D : D)", 1, {fluid_.gdot.begin(), fluid_.gdot.begin() + n}});
+  }
   return frame;
 }
 
@@ -90,7 +96,7 @@ std::vector<Observation> FluidSolver::observe() const {
                                {"elastic_energy", "J/m", elastic_energy()},
                                {"momentum_x", "N.s/m", p[0]},
                                {"momentum_y", "N.s/m", p[1]},
-                               {"largest_speed", "m/s", largest_speed_}};
+                               {"largest_speed", "m/s", largest_.speed}};
   for (std::size_t b = 0; b < boundaries_.size(); ++b) {
     const Vec force = b < given_.size() ? given_[b].force() : Vec(Vec::Zero());
     row.push_back({"force_from_" + boundaries_[b].name + "_x", "N/m", force[0]});

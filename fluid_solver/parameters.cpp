@@ -12,6 +12,10 @@ bool names_differ(const std::vector<Observer>& observers) {
   return names.size() == observers.size();
 }
 
+bool one_viscosity(const Parameters& p) {
+  return p.laminar_viscosity.has_value() + p.power_law.has_value() + p.carreau.has_value() <= 1;
+}
+
 }  // namespace
 
 void describe(ParameterTable& table, Region& region) {
@@ -46,6 +50,43 @@ void describe(ParameterTable& table, ArtificialViscosity& viscosity) {
 void describe(ParameterTable& table, LaminarViscosity& viscosity) {
   table.number("dynamic_viscosity", viscosity.dynamic_viscosity,
                {.unit = "Pa.s", .minimum = 0, .required = true, .help = "mu of (4)"});
+}
+
+void describe(ParameterTable& table, PowerLaw& law) {
+  const auto bound = [&](const std::string& key, double& value, const std::string& help) {
+    table.number(key, value,
+                 {.unit = "Pa.s", .minimum = 0, .above_minimum = true, .required = true, .help = help});
+  };
+  table.number("consistency", law.consistency,
+               {.unit = "Pa.s^n",
+                .minimum = 0,
+                .above_minimum = true,
+                .required = true,
+                .help = "m of eta = m gdot^(n-1)"});
+  table.number(
+      "exponent", law.exponent,
+      {.minimum = 0, .maximum = 2, .above_minimum = true, .required = true, .help = "n; below 1 thins"});
+  bound("smallest_viscosity", law.smallest_viscosity, "the medium is never thinner");
+  bound("largest_viscosity", law.largest_viscosity, "never thicker, as at rest; limits the time step");
+  table.require(law.smallest_viscosity <= law.largest_viscosity, "largest_viscosity",
+                "'largest_viscosity' must be at least 'smallest_viscosity'");
+}
+
+void describe(ParameterTable& table, Carreau& law) {
+  table.number(
+      "zero_shear_viscosity", law.zero_shear_viscosity,
+      {.unit = "Pa.s", .minimum = 0, .above_minimum = true, .required = true, .help = "eta_0, at rest"});
+  table.number(
+      "infinite_shear_viscosity", law.infinite_shear_viscosity,
+      {.unit = "Pa.s", .minimum = 0, .required = true, .help = "eta_inf, under the strongest shear"});
+  table.number("relaxation_time", law.relaxation_time,
+               {.unit = "s",
+                .minimum = 0,
+                .required = true,
+                .help = "lambda: shear rates above 1/lambda thin the medium"});
+  table.number(
+      "exponent", law.exponent,
+      {.minimum = 0, .maximum = 2, .above_minimum = true, .required = true, .help = "n; below 1 thins"});
 }
 
 void describe(ParameterTable& table, Friction& friction) {
@@ -124,12 +165,16 @@ void describe(ParameterTable& table, Parameters& p) {
   table.optional("hydrostatic_start", p.hydrostatic_start, "start at rest under gravity");
   table.optional("density_diffusion", p.density_diffusion, "delta-SPH, (18)-(21)");
   table.optional("artificial_viscosity", p.artificial_viscosity, "(23)-(24)");
-  table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of the medium");
+  table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of a Newtonian medium");
+  table.optional("power_law", p.power_law, "viscosity of a medium that thins or thickens under shear");
+  table.optional("carreau", p.carreau, "the same between two plateaus (Carreau 1972)");
   table.optional("friction", p.friction, "of the abrasive on the work pieces, (33)");
   table.group("wall_model", p.wall_model, "how walls act on the fluid, (27)-(29)");
   table.group("limits", p.limits, "bounds of physics");
   table.list("observer", p.observers, "numbers reported over time in fluid.csv");
   table.require(!p.regions.empty(), "region", "a fluid needs at least one [[fluid.region]]");
+  table.require(one_viscosity(p), p.power_law ? "power_law" : "carreau",
+                "only one of 'laminar_viscosity', 'power_law' and 'carreau' may be given");
   table.require(names_differ(p.observers), "observer", "two [[fluid.observer]] have the same name");
 }
 

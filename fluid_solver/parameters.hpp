@@ -43,6 +43,23 @@ struct LaminarViscosity {
 };
 void describe(ParameterTable& table, LaminarViscosity& viscosity);
 
+/// eta = consistency gdot^(exponent-1), kept between two bounds.
+struct PowerLaw {
+  double consistency = 0;         ///< m [Pa s^n]
+  double exponent = 1;            ///< n
+  double smallest_viscosity = 0;  ///< [Pa s]
+  double largest_viscosity = 0;   ///< [Pa s]
+};
+void describe(ParameterTable& table, PowerLaw& law);
+
+struct Carreau {
+  double zero_shear_viscosity = 0;      ///< eta_0 [Pa s]
+  double infinite_shear_viscosity = 0;  ///< eta_inf [Pa s]
+  double relaxation_time = 0;           ///< lambda [s]
+  double exponent = 1;                  ///< n
+};
+void describe(ParameterTable& table, Carreau& law);
+
 /// What the length d_s of (33) is: see terms/friction.hpp.
 enum class FrictionForm { normalised, as_printed };
 struct Friction {
@@ -93,6 +110,8 @@ struct Parameters {
   std::optional<DensityDiffusion> density_diffusion;
   std::optional<ArtificialViscosity> artificial_viscosity;
   std::optional<LaminarViscosity> laminar_viscosity;
+  std::optional<PowerLaw> power_law;
+  std::optional<Carreau> carreau;
   std::optional<Friction> friction;
   WallModel wall_model;
   Limits limits;

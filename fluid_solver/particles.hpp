@@ -17,6 +17,7 @@ struct Particles {
   // derived at each evaluation
   Field V, p, p_rho2;  ///< m/rho [m2], [Pa], p/rho^2
   VecField grad_rho;   ///< renormalised <grad rho>, only where the density diffusion wants it [kg/m4]
+  Field gdot, eta;     ///< shear rate [1/s] and viscosity [Pa s], only where the medium is not Newtonian
   // rates
   VecField a;  ///< [m/s2]
   Field drho;  ///< [kg/m3/s]
@@ -27,7 +28,7 @@ struct Particles {
 /// What a pair loop reads of its sources, fluid or boundary alike.
 struct Sources {
   std::array<const double*, dim> x, v, v_viscous, grad_rho;
-  const double *m, *V, *rho, *p_rho2;
+  const double *m, *V, *rho, *p_rho2, *eta;
 };
 
 inline std::array<const double*, dim> pointers(const VecField& field) {
@@ -38,7 +39,8 @@ inline std::array<const double*, dim> pointers(const VecField& field) {
 
 inline Sources sources(const Particles& f) {
   const auto v = pointers(f.v);
-  return {pointers(f.x), v, v, pointers(f.grad_rho), f.m.data(), f.V.data(), f.rho.data(), f.p_rho2.data()};
+  return {pointers(f.x),   v,           v, pointers(f.grad_rho), f.m.data(), f.V.data(), f.rho.data(),
+          f.p_rho2.data(), f.eta.data()};
 }
 
 }  // namespace toryu::fluid

@@ -9,7 +9,7 @@ namespace toryu::fluid {
 /// `lane_count` particles i.
 struct Targets {
   VecLanes x, v, v_viscous, grad_rho;
-  Lanes rho, p_rho2;
+  Lanes rho, p_rho2, eta;
 };
 
 /// The pairs of the particles i with one particle j.

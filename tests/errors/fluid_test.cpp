@@ -69,6 +69,18 @@ INSTANTIATE_TEST_SUITE_P(
               "[fluid.region]: error: overlaps a wall near (-0.075, 0.975) m: fluid and wall particles must "
               "be at "
               "least half a spacing apart"},
+        Fault{
+            "TwoViscosities",
+            "fluid.laminar_viscosity.dynamic_viscosity=1' --set 'fluid.power_law={consistency=2, "
+            "exponent=0.5, "
+            "smallest_viscosity=1, largest_viscosity=9}",
+            "--set fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=1, largest_viscosity=9}: "
+            "error: only one of 'laminar_viscosity', 'power_law' and 'carreau' may be given"},
+        Fault{
+            "BoundsOfTheViscosity",
+            "fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=9, largest_viscosity=1}",
+            "--set fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=9, largest_viscosity=1}: "
+            "error: 'largest_viscosity' must be at least 'smallest_viscosity'"},
         Fault{"WallInAWall", "wall.left.box.min=[-0.2,-0.1]",
               "[[wall]] 'left': error: overlaps the wall 'floor' near (-0.175, -0.075) m: particles of two "
               "walls "

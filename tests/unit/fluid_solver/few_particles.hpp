@@ -13,6 +13,7 @@ struct Point {
   Vec x = Vec::Zero(), v = Vec::Zero();
   double rho = 1000, m = 1, p = 0;
   Vec grad_rho = Vec::Zero();
+  double eta = 1;
 };
 
 /// What a pair loop reads of `points`.
@@ -29,21 +30,22 @@ struct FewSources {
       V.push_back(point.m / point.rho);
       rho.push_back(point.rho);
       p_rho2.push_back(point.p / (point.rho * point.rho));
+      eta.push_back(point.eta);
     }
   }
   Sources view() const {
-    return {pointers(x), pointers(v), pointers(v), pointers(grad_rho),
-            m.data(),    V.data(),    rho.data(),  p_rho2.data()};
+    return {pointers(x), pointers(v), pointers(v),   pointers(grad_rho), m.data(),
+            V.data(),    rho.data(),  p_rho2.data(), eta.data()};
   }
   VecField x, v, grad_rho;
-  Field m, V, rho, p_rho2;
+  Field m, V, rho, p_rho2, eta;
 };
 
 /// `i` in every lane.
 inline Targets targets(const Point& i) {
   const auto lanes = [](const Vec& value) { return VecLanes{Lanes(value[0]), Lanes(value[1])}; };
   const VecLanes v = lanes(i.v);
-  return {lanes(i.x), v, v, lanes(i.grad_rho), Lanes(i.rho), Lanes(i.p / (i.rho * i.rho))};
+  return {lanes(i.x), v, v, lanes(i.grad_rho), Lanes(i.rho), Lanes(i.p / (i.rho * i.rho)), Lanes(i.eta)};
 }
 
 /// What `add(targets, sources, j, pair, rates)` adds up for particle `i` over `others`.

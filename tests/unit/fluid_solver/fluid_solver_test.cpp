@@ -125,7 +125,13 @@ TEST(FluidSolver, TakesATermOfNoStrengthForNone) {
 TEST(FluidSolver, NeedsNoMemoryForTermsThatAreAbsent) {
   Setting setting = collapsing_column();
   setting.parameters.density_diffusion->gradient = DiffusionGradient::none;
-  EXPECT_TRUE(setting.solver().particles().grad_rho[0].empty());
+  setting.parameters.laminar_viscosity = LaminarViscosity{1};
+  FluidSolver solver = setting.solver();
+  solver.advance(solver.time_step_limit());
+  EXPECT_TRUE(solver.particles().grad_rho[0].empty());
+  EXPECT_TRUE(solver.particles().eta.empty());
+  EXPECT_TRUE(solver.particles().gdot.empty());
+  for (const auto& boundary : solver.boundaries()) EXPECT_TRUE(boundary.eta.empty());
 }
 
 TEST(FluidSolver, StandsOnTheFloorWithItsWeight) {

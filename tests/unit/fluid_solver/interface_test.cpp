@@ -47,6 +47,7 @@ struct Contact {
   std::string name;
   WallSlip slip;
   std::optional<Friction> friction;
+  std::optional<PowerLaw> power_law = {};
 };
 class Exchange : public testing::TestWithParam<Contact> {};
 
@@ -55,6 +56,10 @@ TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
   Setting setting = tank_with_a_plate();
   setting.parameters.wall_model.slip = GetParam().slip;
   setting.parameters.friction = GetParam().friction;
+  if (GetParam().power_law) {
+    setting.parameters.laminar_viscosity.reset();
+    setting.parameters.power_law = GetParam().power_law;
+  }
   FluidSolver solver = setting.solver();
   const Interface interface = plate();
   solver.attach(interface);
@@ -88,6 +93,8 @@ TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
 INSTANTIATE_TEST_SUITE_P(
     Walls, Exchange,
     testing::Values(Contact{"NoSlip", WallSlip::no_slip, {}}, Contact{"FreeSlip", WallSlip::free_slip, {}},
+                    Contact{"NoSlipThinning", WallSlip::no_slip, {}, PowerLaw{3.0, 0.5, 0.1, 30.0}},
+                    Contact{"FreeSlipThinning", WallSlip::free_slip, {}, PowerLaw{3.0, 0.5, 0.1, 30.0}},
                     Contact{"Friction", WallSlip::free_slip, Friction{.coefficient = 0.3}},
                     Contact{"FrictionAsPrinted", WallSlip::no_slip,
                             Friction{.coefficient = 0.3, .form = FrictionForm::as_printed}}),

@@ -7,6 +7,7 @@
 #include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/laminar_viscosity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
+#include "fluid_solver/terms/variable_viscosity.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 
 namespace toryu::fluid {
@@ -126,6 +127,20 @@ TEST(LaminarViscosity, SlowsThePairAndKeepsMomentum) {
   EXPECT_LT(unbalance(i_point, others[0], viscous(term)), 1e-14);
   const Vec a = first_lane(sum_over(i_point, {others[0]}, kernel, viscous(term)).a);
   EXPECT_LT(a.dot(i_point.v - others[0].v), 0);
+}
+
+TEST(VariableViscosity, TakesTheHarmonicMeanOfAPair) {
+  Point i = i_point;
+  i.eta = 3;
+  const std::vector<double> etas{1, 3, 6};  // means with 3: 1.5, 3, 4
+  const std::vector<double> means{1.5, 3, 4};
+  for (std::size_t k = 0; k < etas.size(); ++k) {
+    Point j = others[k];
+    j.eta = etas[k];
+    expect_near(first_lane(sum_over(i, {j}, kernel, viscous(VariableViscosityTerm{})).a),
+                first_lane(sum_over(i, {j}, kernel, viscous(LaminarViscosityTerm{means[k]})).a));
+    EXPECT_LT(unbalance(i, j, viscous(VariableViscosityTerm{})), 1e-14);
+  }
 }
 
 TEST(DensityDiffusion, IsTheSumOfEquation18) {

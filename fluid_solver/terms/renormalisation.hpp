@@ -1,0 +1,41 @@
+/// Renormalisation of gradients (21) (Randles & Libersky 1996): the moment of a particle's neighbours,
+///
+///     L_i^-1 = sum_j V_j (x_j - x_i) (x) gradW_ij,
+///
+/// by whose inverse a gradient of a linear field comes out exact, however the neighbours lie.
+#pragma once
+
+#include "fluid_solver/terms/pair.hpp"
+
+namespace toryu::fluid {
+
+/// Smallest eigenvalue of L^-1 (1 in a full lattice, about 1/2 at a straight free surface) that is inverted.
+inline constexpr double smallest_moment = 0.1;
+
+class Moment {
+ public:
+  /// Adds a neighbour; `V_grad` is V_j gradW_ij.
+  TORYU_INLINE void add(const VecLanes& x_ij, const VecLanes& V_grad) {
+    static_assert(dim == 2, "the inverse below is written for two dimensions");
+    xx_ -= x_ij[0] * V_grad[0];
+    xy_ -= x_ij[0] * V_grad[1];
+    yy_ -= x_ij[1] * V_grad[1];
+  }
+  /// Prepares `renormalised` when all neighbours are in.
+  TORYU_INLINE void invert() {
+    const Lanes determinant = xx_ * yy_ - xy_ * xy_, trace = xx_ + yy_;
+    // the smaller eigenvalue exceeds m where both do: det - m trace + m^2 > 0 and trace > 2 m
+    const auto regular = (determinant - smallest_moment * trace + smallest_moment * smallest_moment > 0.0) &
+                         (trace > 2.0 * smallest_moment);
+    share_ = select(regular, inverse(max(determinant, 1e-12)), 0.0);
+  }
+  /// L_i b; zero where L_i is near singular (few neighbours, one-sided).
+  TORYU_INLINE VecLanes renormalised(const VecLanes& b) const {
+    return {share_ * (yy_ * b[0] - xy_ * b[1]), share_ * (xx_ * b[1] - xy_ * b[0])};
+  }
+
+ private:
+  Lanes xx_ = 0.0, xy_ = 0.0, yy_ = 0.0, share_ = 0.0;
+};
+
+}  // namespace toryu::fluid

@@ -1,0 +1,181 @@
+// Media that are not Newtonian: laws, shear rate, what walls take, and the solver with them.
+#include "fluid_solver/terms/rheology.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "fluid_solver/terms/shear_rate.hpp"
+#include "tests/unit/fluid_solver/few_particles.hpp"
+#include "tests/unit/fluid_solver/scenes.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+TEST(PowerLaw, IsConsistencyTimesAPowerOfTheShearRate) {
+  const PowerLaw thinning{2.0, 0.5, 0.01, 100};
+  EXPECT_DOUBLE_EQ(viscosity(thinning, 4.0), 1.0);   // 2 * 4^-0.5
+  EXPECT_DOUBLE_EQ(viscosity(thinning, 0.25), 4.0);  // 2 * 0.25^-0.5
+  const PowerLaw thickening{2.0, 1.5, 0.01, 100};
+  EXPECT_DOUBLE_EQ(viscosity(thickening, 4.0), 4.0);  // 2 * 4^0.5
+  const PowerLaw newtonian{2.0, 1.0, 0.01, 100};
+  for (const double gdot : {0.0, 1e-9, 3.0, 1e9}) EXPECT_DOUBLE_EQ(viscosity(newtonian, gdot), 2.0);
+}
+
+TEST(PowerLaw, KeepsWithinItsBounds) {
+  const PowerLaw thinning{2.0, 0.5, 0.01, 100}, thickening{2.0, 1.5, 0.01, 100};
+  EXPECT_EQ(viscosity(thinning, 0.0), 100);
+  EXPECT_EQ(viscosity(thinning, 1e6), 0.01);
+  EXPECT_EQ(viscosity(thickening, 0.0), 0.01);
+  EXPECT_EQ(viscosity(thickening, 1e6), 100);
+}
+
+TEST(Carreau, GoesFromOnePlateauToTheOther) {
+  const Carreau law{10, 1, 2, 0.5};
+  EXPECT_DOUBLE_EQ(viscosity(law, 0.0), 10);
+  EXPECT_NEAR(viscosity(law, std::sqrt(15.0) / 2), 5.5, 1e-14);  // 1 + 9 * 16^-0.25
+  EXPECT_NEAR(viscosity(law, 1e12), 1, 1e-5);
+  EXPECT_DOUBLE_EQ(viscosity(Carreau{10, 1, 2, 1.0}, 7.0), 10);
+}
+
+TEST(Rheology, TreatsEachLaneByItself) {
+  Lanes gdot;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) gdot.value[lane] = 0.5 + static_cast<double>(lane);
+  const Carreau law{10, 1, 2, 0.5};
+  for (std::size_t lane = 0; lane < lane_count; ++lane)
+    EXPECT_DOUBLE_EQ(viscosity(law, gdot)[lane], viscosity(law, gdot[lane]));
+}
+
+// --- shear rate ---
+
+constexpr double d_0 = 0.1;
+const CubicSpline kernel(1.3 * d_0);
+
+/// Neighbours of the origin without symmetry, in the velocity field v_0 + A x; `half`: none above.
+std::vector<Point> neighbours(const Eigen::Matrix2d& A, bool half = false) {
+  std::vector<Point> points;
+  unsigned state = 1;
+  const auto noise = [&] {
+    state = state * 1664525u + 1013904223u;
+    return 0.6 * d_0 * (state / 4294967296.0 - 0.5);
+  };
+  for (int a = -3; a <= 3; ++a)
+    for (int b = -3; b <= (half ? 0 : 3); ++b) {
+      if (a == 0 && b == 0) continue;
+      Point point{Vec(a * d_0 + noise(), b * d_0 + noise())};
+      point.v = Vec(5, -7) + A * point.x;
+      point.m = 1000 * d_0 * d_0;
+      points.push_back(point);
+    }
+  return points;
+}
+
+double shear_rate(const std::vector<Point>& points) {
+  const FewSources sources(points);
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0u);
+  ShearRate gdot({Lanes(0), Lanes(0)}, {Lanes(5), Lanes(-7)});
+  gdot.add(sources.view(), all, kernel);
+  return gdot.value()[0];
+}
+
+const Eigen::Matrix2d shear{{0, 3}, {0, 0}}, rotation{{0, 4}, {-4, 0}}, stretch{{2, 0}, {0, -2}},
+    both{{1, 5}, {-2, 3}};
+
+TEST(ShearRate, IsExactInALinearVelocity) {
+  EXPECT_NEAR(shear_rate(neighbours(shear)), 3, 1e-12);
+  EXPECT_NEAR(shear_rate(neighbours(-shear)), 3, 1e-12);
+  EXPECT_NEAR(shear_rate(neighbours(rotation)), 0, 1e-6);
+  EXPECT_NEAR(shear_rate(neighbours(stretch)), 4, 1e-12);  // sqrt(2 (4 + 4))
+  EXPECT_NEAR(shear_rate(neighbours(both)), std::sqrt(2 * (1 + 9) + 9.0), 1e-12);
+}
+
+TEST(ShearRate, IsExactWhereNeighboursAreOneSided) {
+  EXPECT_NEAR(shear_rate(neighbours(both, true)), std::sqrt(29.0), 1e-12);
+}
+
+TEST(ShearRate, OfALonelyParticleIsZero) {
+  auto one = neighbours(both);
+  one.resize(1);
+  EXPECT_EQ(shear_rate(one), 0);
+  EXPECT_EQ(shear_rate({}), 0);
+}
+
+// --- walls ---
+
+TEST(WallViscosity, IsTheKernelMeanOfTheFluids) {
+  Boundary wall;
+  const Vec place(0, 0);
+  wall.place({place, Vec(5, 5)}, {d_0 * d_0, d_0 * d_0}, 1000, 0.3);
+  wall.eta.resize(padded(wall.count), -1);
+  Particles f;
+  f.count = 2;
+  resize(f.x, padded(2), 1e3);
+  f.eta.assign(padded(2), 0.0);
+  set(f.x, 0, Vec(0, 1.3 * d_0));   // s = 1, W = W(0)/4 by (11)
+  set(f.x, 1, Vec(0, 0.65 * d_0));  // s = 1/2, W = 0.71875 W(0)
+  f.eta[0] = 8;
+  f.eta[1] = 2;
+  StripOrder strips(0.3);
+  strips.index(f.x[0], f.count);
+  wall.fluid_near.build(wall.x, wall.count, f.x, strips, 1.1 * kernel.support());
+#pragma omp parallel
+  extrapolate_viscosity(wall, f, kernel);
+  const std::size_t k = wall.id[0] == 0 ? 0 : 1;
+  EXPECT_NEAR(wall.eta[k], (8 * 0.25 + 2 * 0.71875) / 0.96875, 1e-12);
+}
+
+// --- the solver ---
+
+Setting sheared_column(std::optional<PowerLaw> law) {
+  Setting setting = collapsing_column();
+  setting.parameters.power_law = law;
+  return setting;
+}
+
+TEST(FluidOfExponentOne, IsNewtonian) {
+  FluidSolver law = sheared_column(PowerLaw{20, 1.0, 0.1, 200}).solver();
+  Setting newtonian = sheared_column({});
+  newtonian.parameters.laminar_viscosity = LaminarViscosity{20};
+  FluidSolver same = newtonian.solver();
+  run_until(law, 0.05);
+  run_until(same, 0.05);
+  EXPECT_LT(largest_difference(positions(law), positions(same)), 1e-11);
+}
+
+TEST(ThinningFluid, HasTheViscosityOfItsShearRateAndShowsBoth) {
+  const PowerLaw law{20, 0.5, 0.1, 200};
+  FluidSolver solver = sheared_column(law).solver();
+  run_until(solver, 0.05);
+  const auto& f = solver.particles();
+  const auto frame = solver.frame();
+  ASSERT_EQ(frame.fields.size(), 6u);
+  EXPECT_EQ(frame.fields[4].name, "viscosity");
+  EXPECT_EQ(frame.fields[5].name, "shear_rate");
+  double largest = 0;
+  for (std::size_t i = 0; i < f.count; ++i) {
+    EXPECT_DOUBLE_EQ(f.eta[i], viscosity(law, f.gdot[i]));
+    EXPECT_EQ(frame.fields[4].values[i], f.eta[i]);
+    EXPECT_EQ(frame.fields[5].values[i], f.gdot[i]);
+    largest = std::max(largest, f.gdot[i]);
+  }
+  EXPECT_GT(largest, 1);
+}
+
+TEST(ThinningFluid, TakesTheStepOfItsLargestViscosity) {
+  FluidSolver solver = sheared_column(PowerLaw{20, 0.5, 0.1, 2e4}).solver();
+  const double h = 0.065;
+  const auto limit = [&](double eta) { return 0.125 * h * h * 1000 / eta; };
+  // with the artificial viscosity's 0.049 alpha h c_0 beside it
+  const double artificial = 1000 * 0.049 * 0.05 * h * 20;
+  EXPECT_NEAR(solver.time_step_limit(), limit(2e4 + artificial), 1e-12);  // at rest
+  EXPECT_EQ(solver.time_step_rule(), "viscous");
+  run_until(solver, 0.01);
+  const auto& f = solver.particles();
+  const double largest = *std::max_element(f.eta.begin(), f.eta.begin() + static_cast<long>(f.count));
+  EXPECT_LT(largest, 2e4);
+  EXPECT_NEAR(solver.time_step_limit(), limit(largest + artificial), 1e-12);
+}
+
+}  // namespace
+}  // namespace toryu::fluid
