@@ -225,10 +225,21 @@ void FluidSolver::advance(double dt) {
     interface_.add_load(boundary, given_[*interface_boundary_].force(), dt);
   }
   const auto timer = timers_.measure("step");
+  count_impulses(dt);
   advance_from(start, dt);
   time_ += dt;
   move_boundaries(time_);
   note_extremes();
+}
+
+/// Counts what the corrector is about to do, so that the sum is the change of momentum to rounding.
+void FluidSolver::count_impulses(double dt) {
+  impulses_.resize(boundaries_.size());
+  for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+    impulses_[b].total += dt * given_[b].force();
+    impulses_[b].friction += dt * given_[b].friction();
+  }
+  gravity_impulse_ += dt * std::reduce(fluid_.m.begin(), fluid_.m.end()) * scene_.gravity;
 }
 
 void FluidSolver::note_extremes() {

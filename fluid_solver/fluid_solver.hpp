@@ -58,6 +58,7 @@ class FluidSolver : public Solver {
   void check_overlaps() const;
   void move_boundaries(double time);
   void advance_from(const Step& start, double dt);
+  void count_impulses(double dt);
   void note_extremes();
   [[noreturn]] void fail(std::size_t particle, double time, const std::string& quantity, double value,
                          const std::string& limit) const;
@@ -71,6 +72,12 @@ class FluidSolver : public Solver {
   std::vector<const Wall*> moving_walls_;     ///< boundary b's, null where it stands still
   std::vector<std::vector<Vec>> wall_start_;  ///< where moving walls' particles began
   std::vector<Given> given_;
+  /// Impulse since the start [N.s per metre] that boundary b gave the fluid, and the friction's share of it.
+  struct Impulse {
+    Vec total = Vec::Zero(), friction = Vec::Zero();
+  };
+  std::vector<Impulse> impulses_;
+  Vec gravity_impulse_ = Vec::Zero();
   std::optional<std::size_t> interface_boundary_;
   MovingInterface interface_;
   double time_ = 0;

@@ -97,15 +97,21 @@ std::vector<Observation> FluidSolver::observe() const {
                                {"momentum_x", "N.s/m", p[0]},
                                {"momentum_y", "N.s/m", p[1]},
                                {"largest_speed", "m/s", largest_.speed}};
+  const auto push = [&](const std::string& name, const std::string& unit, const Vec& value) {
+    row.push_back({name + "_x", unit, value[0]});
+    row.push_back({name + "_y", unit, value[1]});
+  };
   for (std::size_t b = 0; b < boundaries_.size(); ++b) {
-    const Vec force = b < given_.size() ? given_[b].force() : Vec(Vec::Zero());
-    row.push_back({"force_from_" + boundaries_[b].name + "_x", "N/m", force[0]});
-    row.push_back({"force_from_" + boundaries_[b].name + "_y", "N/m", force[1]});
+    const std::string& name = boundaries_[b].name;
+    const bool counted = b < impulses_.size();  // after the first step
+    const Impulse impulse = counted ? impulses_[b] : Impulse{};
+    push("force_from_" + name, "N/m", counted ? given_[b].force() : Vec(Vec::Zero()));
+    push("impulse_from_" + name, "N.s/m", impulse.total);
     if (!dynamics_.friction() || !boundaries_[b].is_work_piece()) continue;
-    const Vec friction = b < given_.size() ? given_[b].friction() : Vec(Vec::Zero());
-    row.push_back({"friction_from_" + boundaries_[b].name + "_x", "N/m", friction[0]});
-    row.push_back({"friction_from_" + boundaries_[b].name + "_y", "N/m", friction[1]});
+    push("friction_from_" + name, "N/m", counted ? given_[b].friction() : Vec(Vec::Zero()));
+    push("friction_impulse_from_" + name, "N.s/m", impulse.friction);
   }
+  if (scene_.gravity.norm() > 0) push("impulse_of_gravity", "N.s/m", gravity_impulse_);
   for (const auto& observer : parameters_.observers)
     row.push_back(toryu::fluid::observe(observer, fluid_, parameters_.spacing, dynamics_.kernel(),
                                         dynamics_.equation_of_state()));
