@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Runs a case from nothing: installs what is missing, builds, starts the processes that the case needs, and writes
+# Runs a case or a study from nothing: installs what is missing, builds, starts the processes that the case needs, and writes
 # the results with a report. See ./run.sh --help.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 "$root/tools/install.sh" run
+! grep -q '^ *\[study\]' "${1-}" 2>/dev/null || "$root/tools/install.sh" study
 case ${1---help} in -h | --help) exec /usr/bin/python3 "$root/tools/launch.py" --help ;; esac
 if [ -f "$root/build/release/build.ninja" ]; then
   "$root/tools/build.sh" release fluid_solver solid_solver coupler

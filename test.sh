@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 without=(long benchmark browser)
-groups=(run test)
+groups=(run study test)
 case ${1-} in
   "") ;;
   --browser) without=(long benchmark) groups+=(browser) ;;

@@ -1,5 +1,5 @@
 """Runs a case with a built toryu: checks the input, starts the processes that the case needs, watches them, and
-closes with the report and a summary. `run.sh` calls it."""
+closes with the report and a summary; a study it hands on to tools/study. `run.sh` calls it."""
 
 import argparse
 import contextlib
@@ -26,7 +26,8 @@ ENVIRONMENT = {"OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "1000"}
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh", allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself.",
+        prog="run.sh", allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself. A file "
+        "with a table [study] is a study; its options: tools/study --help.",
         epilog="All other options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
                "4 a process was lost, 130 interrupted.")
     parser.add_argument("case", metavar="CASE")
@@ -41,6 +42,7 @@ def parse(arguments):
                                                                 "defaults and ranges")
     parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
     parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
+    parser.add_argument("--no-report", action="store_true", help="leave report.html out")
     parser.add_argument("--bin", metavar="DIR", default=ROOT / "build/release/bin", type=pathlib.Path,
                         help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
@@ -50,6 +52,15 @@ def parse(arguments):
             options.passed_on.append(f"--{name.replace('_', '-')}={value}")
     options.out = pathlib.Path(options.out or pathlib.Path("out") / results.case_name(options.case))
     return options
+
+
+def is_study(arguments):
+    """Whether the first plain argument is a file with a table [study]."""
+    path = next((pathlib.Path(a) for a in arguments if not a.startswith("-")), None)
+    try:
+        return path is not None and bool(re.search(r"^\s*\[study\]", path.read_text(encoding="utf-8"), re.MULTILINE))
+    except (OSError, ValueError):
+        return False  # a folder, or nothing that can be read
 
 
 def programs(options):
@@ -135,16 +146,18 @@ def sole_user(out):
 
 
 def report(options, code, words):
-    """Makes report.html and prints the summary; returns whether the report could be made."""
-    made = subprocess.run([PYTHON, ROOT / "tools/report", options.out, "--case", options.case,
+    """Makes report.html and prints the summary; returns whether the report could be made, if there is to be one."""
+    made = not options.no_report and subprocess.run([PYTHON, ROOT / "tools/report", options.out, "--case", options.case,
                            f"--exit-code={code}", f"--words={words}"], stdout=subprocess.DEVNULL).returncode == 0
     print(summary_text.of_run(options.case, options.out))
     if made:
         print(f"report  {options.out / 'report.html'}")
-    return made
+    return made or options.no_report
 
 
 def main(arguments):
+    if is_study(arguments):
+        os.execv(PYTHON, [PYTHON, str(ROOT / "tools/study"), *arguments])
     options = parse(arguments)
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
                 for name, executable in programs(options).items()}

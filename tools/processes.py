@@ -30,6 +30,20 @@ PR_SET_PDEATHSIG = 1
 libc = ctypes.CDLL(None, use_errno=True)
 
 
+def start(command, stream, environment=None):
+    """Starts a process in a group of its own that is asked to end if this one dies. `stream` takes what it says."""
+    parent = os.getpid()
+
+    def end_with_the_parent():
+        libc.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+        if os.getppid() != parent:
+            os._exit(INTERRUPTED)
+
+    return subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=stream,
+                            stderr=subprocess.STDOUT if stream else None, process_group=0,
+                            preexec_fn=end_with_the_parent)
+
+
 @dataclass
 class Process:
     name: str
@@ -93,17 +107,8 @@ class Run:
         return self._verdict()
 
     def _start(self, process):
-        parent = os.getpid()
-
-        def end_with_the_parent():
-            libc.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
-            if os.getppid() != parent:
-                os._exit(INTERRUPTED)
-
         stream = None if process.name == self.lead else subprocess.PIPE
-        process.popen = subprocess.Popen(
-            process.command, env=self.environment, stdin=subprocess.DEVNULL, stdout=stream,
-            stderr=subprocess.STDOUT if stream else None, process_group=0, preexec_fn=end_with_the_parent)
+        process.popen = start(process.command, stream, self.environment)
         process.pidfd = os.pidfd_open(process.popen.pid)
         self.selector.register(process.pidfd, selectors.EVENT_READ, lambda: self._ended(process))
         if stream:

@@ -30,7 +30,9 @@ def case_file(case):
 
 
 def case_name(case):
-    return case_file(case).resolve().parent.name
+    """cases/gate and cases/gate/case.toml -> gate; cases/gate/fine.toml -> gate_fine"""
+    path = case_file(case).resolve()
+    return path.parent.name if path.stem == "case" else f"{path.parent.name}_{path.stem}"
 
 
 def read_columns(path):

@@ -55,7 +55,9 @@ std::filesystem::path find_case_file(const std::filesystem::path& path) {
 }
 
 std::string case_name(const std::filesystem::path& file) {
-  return std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
+  const auto path = std::filesystem::absolute(file).lexically_normal();
+  const std::string folder = path.parent_path().filename().string();
+  return path.stem() == "case" ? folder : folder + "_" + path.stem().string();
 }
 
 CaseFile::CaseFile(const std::filesystem::path& path, const std::vector<std::string>& overrides)

@@ -1,0 +1,116 @@
+"""The charts that a study file declares: lines over an axis or a figure, heat maps over two axes."""
+
+import math
+
+import matplotlib.colors
+
+import drawing
+from table import text
+
+HEAT = "viridis"
+
+
+def draw(study, table, folder):
+    """(title, SVG for the page, where it lies) of every [[chart]]."""
+    drawn = []
+    for number, chart in enumerate(study.charts, 1):
+        made = heat_map(chart, study, table) if chart.colour else line_chart(chart, study, table)
+        name = f"chart_{number:02}"
+        drawn.append((chart.title, drawing.save(made, folder / name), f"charts/{name}"))
+    return drawn
+
+
+def axis_of(study, name):
+    return next((axis for axis in study.axes if axis.name == name), None)
+
+
+def panels_of(chart, study, table):
+    """(title, rows) of each panel."""
+    rows = [row for row in table.rows if all(row[name] == value for name, value in chart.at.items())]
+    axis = axis_of(study, chart.panels)
+    if axis is None:
+        return [("", rows)]
+    return [(f"{label(axis)} {value_text(value.name, axis.unit)}", [r for r in rows if r[axis.name] == value.name])
+            for value in axis.values]
+
+
+def label(axis):
+    return axis.name.replace("_", " ")
+
+
+def value_text(value, unit):
+    return f"{text(value) if isinstance(value, str) else f'{value:g}'} {unit}".strip()
+
+
+def line_chart(chart, study, table):
+    panels = panels_of(chart, study, table)
+    made, axes = drawing.figure(len(panels))
+    for panel, (title, rows) in zip(axes, panels):
+        panel.set_title(title)
+        for number, (name, points) in enumerate(lines_of(chart, study, rows)):
+            panel.plot(*zip(*points), marker=drawing.MARKERS[number % 7], color=drawing.LINES[number % 7], label=name,
+                       linestyle="-" if one_parameter(chart, study) else "none")
+        scale(chart, panel)
+        panel.set_xlabel(drawing.readable(chart.x, table.units[chart.x]))
+    axes[0].set_ylabel(drawing.readable(chart.y, table.units[chart.y]))
+    if chart.lines:
+        axis = axis_of(study, chart.lines)
+        axes[-1].legend(title=drawing.readable(axis.name, axis.unit), alignment="left", loc="center left",
+                        bbox_to_anchor=(1.0, 0.5))
+    return made
+
+
+def lines_of(chart, study, rows):
+    """(name, [(x, y), ...]) of each line; runs without the figure leave a gap."""
+    axis = axis_of(study, chart.lines)
+    groups = {value_text(v.name, ""): [r for r in rows if r[axis.name] == v.name] for v in axis.values} if axis \
+        else {"": rows}
+    return [(name, [(row[chart.x], row.get(chart.y, math.nan)) for row in group]) for name, group in groups.items() if group]
+
+
+def one_parameter(chart, study):
+    """Whether the points of a line follow each other along one axis."""
+    named = {chart.lines, chart.panels, *chart.at}
+    return sum(axis.name not in named for axis in study.axes) <= 1
+
+
+def scale(chart, panel):
+    if "x" in chart.log:
+        panel.set_xscale("log")
+    if "y" in chart.log:
+        panel.set_yscale("log")
+
+
+def heat_map(chart, study, table):
+    """A cell a run, with its figure written in; a failed run is hatched."""
+    across, along = axis_of(study, chart.x), axis_of(study, chart.y)
+    panels = panels_of(chart, study, table)
+    values = [v for row in table.rows if math.isfinite(v := row.get(chart.colour, math.nan))]
+    norm_of = matplotlib.colors.LogNorm if "colour" in chart.log else matplotlib.colors.Normalize
+    norm = norm_of(min(values), max(values)) if values else matplotlib.colors.Normalize()
+    made, axes = drawing.figure(len(panels))
+    for panel, (title, rows) in zip(axes, panels):
+        cells = {(row[chart.x], row[chart.y]): row.get(chart.colour, math.nan) for row in rows}
+        grid = [[cells.get((a.name, b.name), math.nan) for a in across.values] for b in along.values]
+        image = panel.imshow(grid, origin="lower", aspect="auto", cmap=HEAT, norm=norm)
+        for j, line in enumerate(grid):
+            for i, value in enumerate(line):
+                write_cell(panel, i, j, value, norm)
+        panel.set_title(title)
+        panel.grid(False)
+        panel.set_xticks(range(len(across.values)), [value_text(v.name, "") for v in across.values])
+        panel.set_yticks(range(len(along.values)), [value_text(v.name, "") for v in along.values])
+        panel.set_xlabel(drawing.readable(chart.x, across.unit))
+    axes[0].set_ylabel(drawing.readable(chart.y, along.unit))
+    made.colorbar(image, ax=axes, label=drawing.readable(chart.colour, table.units[chart.colour]))
+    return made
+
+
+def write_cell(panel, i, j, value, norm):
+    if math.isfinite(value):
+        panel.text(i, j, f"{value:.3g}", ha="center", va="center", fontsize=8.5,
+                   color="black" if norm(value) > 0.6 else "white")
+    else:
+        panel.fill_between([i - 0.5, i + 0.5], j - 0.5, j + 0.5, facecolor="none", hatch="////",
+                           edgecolor=drawing.PALETTE["soft"], linewidth=0)
+        panel.text(i, j, "failed", ha="center", va="center", fontsize=8.5, color=drawing.PALETTE["bad"])

@@ -1,0 +1,160 @@
+"""A TOML file read with its faults: each is told with its line, what was found, and what is allowed."""
+
+import difflib
+import re
+import tomllib
+
+REQUIRED = object()
+KINDS = {str: "text", bool: "true or false", float: "a number", list: "a list", dict: "a table"}
+
+
+class BadStudy(Exception):
+    """Faults of a study file, a line each, ready to be shown."""
+
+
+def did_you_mean(word, allowed):
+    near = difflib.get_close_matches(str(word), [str(a) for a in allowed], n=1, cutoff=0.5)
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
+def one_of(allowed):
+    return ", ".join(f"'{a}'" for a in allowed)
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def found(value):
+    if isinstance(value, str):
+        return f"'{value}'"
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def lines_of_keys(text):
+    """(table path, key) -> line, for every `[table]`, `[[item]]` (key "") and `key = ...` that starts a line."""
+    lines, counts, path = {}, {}, ()
+    for number, line in enumerate(text.splitlines(), 1):
+        if header := re.match(r"\s*(\[\[?)\s*([\w.\s-]+?)\s*\]", line):
+            parts = tuple(part.strip() for part in header[2].split("."))
+            path = ()
+            for depth, part in enumerate(parts):
+                last = depth == len(parts) - 1
+                here = (*path, part)
+                if last and header[1] == "[[":
+                    counts[here] = counts.get(here, -1) + 1
+                path = (*here, counts[here]) if here in counts else here
+            lines.setdefault((path, ""), number)
+        elif key := re.match(r"""\s*["']?([\w-]+)["']?\s*[.=]""", line):
+            lines.setdefault((path, key[1]), number)
+    return lines
+
+
+class Document:
+    """The file; its tables collect faults, `end` raises them all at once."""
+
+    def __init__(self, path):
+        self.path, self.faults = path, []
+        try:
+            self.text = path.read_text(encoding="utf-8")
+            self.content = tomllib.loads(self.text)
+        except OSError as error:
+            raise BadStudy(f"{path}: error: cannot be read: {error.strerror}") from None
+        except UnicodeDecodeError:
+            raise BadStudy(f"{path}: error: is no text in UTF-8") from None
+        except tomllib.TOMLDecodeError as error:
+            place = re.search(r" \(at line (\d+), column (\d+)\)", str(error))
+            where = f":{place[1]}:{place[2]}" if place else ""
+            raise BadStudy(f"{path}{where}: error: {str(error).replace(place[0] if place else '', '')}") from None
+        self.lines = lines_of_keys(self.text)
+
+    def root(self):
+        return Table(self, self.content, (), "the file")
+
+    def line(self, path, key):
+        """The line of a key, else of its table."""
+        while True:
+            if number := self.lines.get((path, key)) or self.lines.get((path, "")):
+                return number
+            if not path:
+                return None
+            path = path[:-1]
+
+    def fault(self, text, path=(), key=""):
+        self.faults.append((self.line(path, key) or 0, text))
+
+    def end(self):
+        if self.faults:
+            raise BadStudy("\n".join(f"{self.path}{f':{line}' if line else ''}: error: {text}"
+                                     for line, text in sorted(self.faults)))
+
+
+class Table:
+    """A table of the file. Every key that is asked for is known; `close` reports the others."""
+
+    def __init__(self, document, content, path, name):
+        self.document, self.content, self.path, self.name = document, content, path, name
+        self.known = []
+
+    def fault(self, text, key=""):
+        self.document.fault(text, self.path, key)
+
+    def has(self, key):
+        return key in self.content
+
+    def get(self, key, kind, default=REQUIRED, allowed=None):
+        """The value of `key` if it is of the kind and one of the allowed, else the default and a fault."""
+        self.known.append(key)
+        substitute = None if default is REQUIRED else default
+        if key not in self.content:
+            if default is REQUIRED:
+                self.fault(f"{self.name} needs '{key}', {KINDS[kind]}")
+            return substitute
+        value = self.content[key]
+        right = is_number(value) if kind is float else isinstance(value, kind)
+        if not right:
+            self.fault(f"'{key}' must be {KINDS[kind]}, found {found(value)}", key)
+            return substitute
+        if allowed is not None and value not in allowed:
+            self.fault(f"'{key}' must be one of {one_of(allowed)}, found {found(value)}{did_you_mean(value, allowed)}",
+                       key)
+            return substitute
+        return value
+
+    def texts(self, key, default=REQUIRED, allowed=None):
+        """A list of texts."""
+        values = self.get(key, list, default)
+        for value in values or []:
+            if not isinstance(value, str):
+                self.fault(f"'{key}' must be a list of texts, found {found(value)}", key)
+            elif allowed is not None and value not in allowed:
+                self.fault(f"'{key}' must hold some of {one_of(allowed)}, found '{value}'"
+                           f"{did_you_mean(value, allowed)}", key)
+        return [v for v in values or [] if isinstance(v, str)]
+
+    def numbers(self, key, count, default=None):
+        """A list of `count` ascending numbers, or the default."""
+        values = self.get(key, list, default)
+        if values is not None and values != default and not (
+                len(values) == count and all(map(is_number, values)) and values == sorted(values)):
+            self.fault(f"'{key}' must be {count} ascending numbers, found {found(values)}", key)
+            return default
+        return values
+
+    def table(self, key):
+        """The table under `key`, or None."""
+        content = self.get(key, dict, None)
+        return None if content is None else Table(self.document, content, (*self.path, key), f"[{key}]")
+
+    def tables(self, key):
+        """The tables of the list [[key]]."""
+        items = self.get(key, list, [])
+        if not all(isinstance(item, dict) for item in items):
+            self.fault(f"'{key}' must be tables, [[{key}]]", key)
+            return []
+        return [Table(self.document, item, (*self.path, key, i), f"[[{key}]] {i + 1}") for i, item in enumerate(items)]
+
+    def close(self):
+        for key in self.content:
+            if key not in self.known:
+                self.fault(f"unknown key '{key}' in {self.name}{did_you_mean(key, self.known)}", key)

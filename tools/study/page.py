@@ -1,0 +1,125 @@
+"""`study.html`: one page that needs no network and no other file."""
+
+import datetime
+import html
+import math
+import os
+import pathlib
+import platform
+import string
+
+import data
+import results
+import tables
+from processes import DONE
+from progress import duration
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def write(path, study, table, drawn, answers, versions):
+    """`drawn`: (title, SVG, file without ending) of each chart."""
+    records = [row["record"] for row in table.rows]
+    text = string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
+        title=html.escape(study.title), name=html.escape(study.name),
+        style=(HERE.parent / "report/style.css").read_text(encoding="utf-8"),
+        script=(HERE / "page.js").read_text(encoding="utf-8"), state=state(records), tiles=tiles(study, table, records),
+        answers="".join(f'<section id="answer"><h2>{html.escape(a.title)}</h2><p class="answer">'
+                        f"{html.escape(a.sentence)}</p>{a.html}</section>" for a in answers),
+        charts="".join(map(figure, drawn)), table=runs(study, table), axes=axes(study), fixed=fixed(study, records),
+        provenance=provenance(records, versions), study=html.escape(study.text),
+        case=html.escape(study.case.read_text(encoding="utf-8")))
+    part = path.with_name(path.name + ".part")
+    part.write_text(text, encoding="utf-8")
+    os.replace(part, path)
+
+
+def state(records):
+    failed = sum(r.exit_code != DONE for r in records)
+    if not failed:
+        return '<span class="badge good">All runs done</span>'
+    return f'<span class="badge stopped">Done; {failed} of {len(records)} runs ended by their physics</span>'
+
+
+def tiles(study, table, records):
+    processor = [v for v in table.column("processor_time") if math.isfinite(v)]
+    names = ", ".join(axis.name.replace("_", " ") for axis in study.axes)
+    parts = [tables.tile("runs", str(len(records)), " × ".join(str(len(axis.values)) for axis in study.axes)),
+             tables.tile("axes", str(len(study.axes)), names),
+             tables.tile("elapsed, all runs", duration(sum(r.elapsed for r in records)),
+                         f"{duration(sum(processor))} of processor"),
+             tables.tile("at a time", " or ".join(sorted({str(r.jobs) for r in records})), "runs, each with "
+                         f"{' or '.join(sorted({str(r.threads) for r in records}))} of {os.cpu_count()} cores")]
+    return "".join(parts)
+
+
+def figure(chart):
+    title, svg, place = chart
+    return (f'<figure class="drawn"><figcaption>{html.escape(title)} <span class="files">'
+            f'<a href="{place}.png">PNG</a> <a href="{place}.svg">SVG</a></span></figcaption>{svg}</figure>')
+
+
+def heading(name, unit):
+    unit = f' <span class="unit">{html.escape(data.pretty(unit))}</span>' if unit else ""
+    return f"<th>{html.escape(name.replace('_', ' '))}{unit}</th>"
+
+
+def cell(value):
+    if isinstance(value, str):
+        return tables.cell(value)
+    if not math.isfinite(value):
+        return tables.cell("–", class_="number")
+    return tables.cell(f"{value:.4g}", class_="number", data_value=repr(float(value)))
+
+
+def sortable(headings, rows):
+    """`rows`: (run key, class, cells as HTML)."""
+    body = "".join(f'<tr data-run="{key}" class="{kind}">{"".join(cells)}</tr>' for key, kind, cells in rows)
+    return (f'<div class="scroll"><table class="sortable"><thead><tr>{"".join(headings)}</tr></thead>'
+            f"<tbody>{body}</tbody></table></div>")
+
+
+def runs(study, table):
+    failed = any(row["record"].exit_code != DONE for row in table.rows)
+    headings = [heading(name, unit) for name, unit in table.units.items()]
+    headings += ["<th>why it ended</th>"] * failed + ["<th>results</th>"]
+    rows = []
+    for row in table.rows:
+        record = row["record"]
+        cells = [cell(row.get(name, math.nan)) for name in table.units]
+        cells += [tables.cell(record.cause, class_="cause")] * failed
+        place = f"runs/{record.folder.name}/" + ("report.html" if study.keep_frames else "")
+        cells.append(f'<td><a href="{place}">{record.folder.name}</a></td>')
+        rows.append((record.folder.name, "failed" if record.exit_code != DONE else "", cells))
+    return sortable(headings, rows)
+
+
+def axes(study):
+    rows = []
+    for axis in study.axes:
+        for value in axis.values:
+            sets = ", ".join(f"{key} = {text(inner)}" for key, inner in value.overrides.items())
+            rows.append([axis.name.replace("_", " ") if value is axis.values[0] else "",
+                         f"{text(value.name)} {data.pretty(axis.unit)}", sets or "as in the case"])
+    return tables.table(["axis", "value", "sets"], rows)
+
+
+def text(value):
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def fixed(study, records):
+    """Overrides with one and the same value in all runs that no axis names."""
+    named = {key for axis in study.axes for value in axis.values for key in value.overrides}
+    rows = [[key, value] for key, value in records[0].setting.overrides.items() if key not in named]
+    return tables.table(["key of the case", "value"], [["case", str(study.case.name)], *rows])
+
+
+def provenance(records, versions):
+    made = next((s["provenance"] for r in records for s in results.read_summaries(r.folder).values()
+                 if "provenance" in s), {})
+    rows = [["programs", "; ".join(versions)]]
+    rows += [[key, str(made[key])] for key in ("compiler", "flags", "cpu") if key in made]
+    rows += [["machine", f"{platform.system()} {platform.release()}, {os.cpu_count()} cores"],
+             ["page made", datetime.datetime.now().astimezone().strftime("%Y-%m-%d %H:%M %Z")]]
+    return tables.table(["", ""], rows)

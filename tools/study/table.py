@@ -1,0 +1,50 @@
+"""The table of a study: one row a run, its values, its figures, how it ended."""
+
+import csv
+import math
+import os
+from dataclasses import dataclass
+
+import metrics
+
+
+@dataclass
+class Table:
+    units: dict[str, str]  # column -> unit, in order; the first are the axes
+    rows: list[dict]  # column -> value, and "record"
+
+    def column(self, name):
+        return [row.get(name, math.nan) for row in self.rows]
+
+
+def build(study, records, views):
+    """`views`: special views; each adds `units()` and `figures(record)`."""
+    units = study.units()
+    for view in views:
+        units |= view.units()
+    rows = []
+    for record in records:
+        row = {"record": record} | record.setting.values | metrics.of_run(study, record)
+        for view in views:
+            row |= view.figures(record)
+        rows.append(row)
+    return Table(units, rows)
+
+
+def text(value):
+    if isinstance(value, float):
+        return f"{value:.6g}" if math.isfinite(value) else ""
+    return str(value)
+
+
+def write(table, path):
+    part = path.with_name(path.name + ".part")
+    with open(part, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow([f"{name}[{unit}]" if unit else name for name, unit in table.units.items()] +
+                        ["exit_code", "cause", "run"])
+        for row in table.rows:
+            record = row["record"]
+            writer.writerow([text(row.get(name, math.nan)) for name in table.units] +
+                            [record.exit_code, record.cause, f"runs/{record.folder.name}"])
+    os.replace(part, path)
