@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs a case or a study from nothing: installs what is missing, builds, starts the processes that the case needs, and writes
-# the results with a report. See ./run.sh --help.
+# Runs a case or a study from nothing: installs what is missing, builds, starts the processes that the case needs, and
+# writes the results with a report. See ./run.sh --help.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 

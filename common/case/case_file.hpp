@@ -16,7 +16,7 @@ namespace toryu {
 /// The file that a user means by `path`: a case.toml, or a folder that holds one. Throws BadInput if there is
 /// none.
 std::filesystem::path find_case_file(const std::filesystem::path& path);
-/// The name of the folder of a case file: the case's.
+/// The name of a case: that of its folder, with "_NAME" unless the file is called case.toml.
 std::string case_name(const std::filesystem::path& file);
 
 class CaseFile {

@@ -45,14 +45,15 @@ def value_text(value, unit):
 def line_chart(chart, study, table):
     panels = panels_of(chart, study, table)
     made, axes = drawing.figure(len(panels))
+    (x_factor, x_label), (y_factor, y_label) = (factor_and_label(name, study, table) for name in (chart.x, chart.y))
     for panel, (title, rows) in zip(axes, panels):
         panel.set_title(title)
-        for number, (name, points) in enumerate(lines_of(chart, study, rows)):
+        for number, (name, points) in enumerate(lines_of(chart, study, rows, x_factor, y_factor)):
             panel.plot(*zip(*points), marker=drawing.MARKERS[number % 7], color=drawing.LINES[number % 7], label=name,
                        linestyle="-" if one_parameter(chart, study) else "none")
-        scale(chart, panel)
-        panel.set_xlabel(drawing.readable(chart.x, table.units[chart.x]))
-    axes[0].set_ylabel(drawing.readable(chart.y, table.units[chart.y]))
+        scale(chart, study, panel)
+        panel.set_xlabel(x_label)
+    axes[0].set_ylabel(y_label)
     if chart.lines:
         axis = axis_of(study, chart.lines)
         axes[-1].legend(title=drawing.readable(axis.name, axis.unit), alignment="left", loc="center left",
@@ -60,12 +61,23 @@ def line_chart(chart, study, table):
     return made
 
 
-def lines_of(chart, study, rows):
+def factor_and_label(name, study, table):
+    """Of an axis as the study gives it, of a figure in a readable size."""
+    if axis_of(study, name):
+        return 1, drawing.readable(name, table.units[name])
+    return drawing.scaled(name, table.units[name], table.column(name))
+
+
+def lines_of(chart, study, rows, x_factor, y_factor):
     """(name, [(x, y), ...]) of each line; runs without the figure leave a gap."""
     axis = axis_of(study, chart.lines)
     groups = {value_text(v.name, ""): [r for r in rows if r[axis.name] == v.name] for v in axis.values} if axis \
         else {"": rows}
-    return [(name, [(row[chart.x], row.get(chart.y, math.nan)) for row in group]) for name, group in groups.items() if group]
+    def point(row):
+        return (row.get(chart.x, math.nan) * x_factor if x_factor != 1 else row.get(chart.x, math.nan),
+                row.get(chart.y, math.nan) * y_factor)
+
+    return [(name, [point(row) for row in group]) for name, group in groups.items() if group]
 
 
 def one_parameter(chart, study):
@@ -74,9 +86,14 @@ def one_parameter(chart, study):
     return sum(axis.name not in named for axis in study.axes) <= 1
 
 
-def scale(chart, panel):
+def scale(chart, study, panel):
+    """Logarithmic where asked for; the marks of an axis of the study stand at its values."""
+    axis = axis_of(study, chart.x)
     if "x" in chart.log:
         panel.set_xscale("log")
+    if axis and len(axis.values) <= 8:
+        panel.set_xticks([v.name for v in axis.values], [value_text(v.name, "") for v in axis.values])
+        panel.set_xticks([], minor=True)
     if "y" in chart.log:
         panel.set_yscale("log")
 
@@ -85,12 +102,13 @@ def heat_map(chart, study, table):
     """A cell a run, with its figure written in; a failed run is hatched."""
     across, along = axis_of(study, chart.x), axis_of(study, chart.y)
     panels = panels_of(chart, study, table)
-    values = [v for row in table.rows if math.isfinite(v := row.get(chart.colour, math.nan))]
+    factor, label_of_colour = factor_and_label(chart.colour, study, table)
+    values = [v * factor for v in table.column(chart.colour) if math.isfinite(v)]
     norm_of = matplotlib.colors.LogNorm if "colour" in chart.log else matplotlib.colors.Normalize
     norm = norm_of(min(values), max(values)) if values else matplotlib.colors.Normalize()
     made, axes = drawing.figure(len(panels))
     for panel, (title, rows) in zip(axes, panels):
-        cells = {(row[chart.x], row[chart.y]): row.get(chart.colour, math.nan) for row in rows}
+        cells = {(row[chart.x], row[chart.y]): row.get(chart.colour, math.nan) * factor for row in rows}
         grid = [[cells.get((a.name, b.name), math.nan) for a in across.values] for b in along.values]
         image = panel.imshow(grid, origin="lower", aspect="auto", cmap=HEAT, norm=norm)
         for j, line in enumerate(grid):
@@ -102,7 +120,7 @@ def heat_map(chart, study, table):
         panel.set_yticks(range(len(along.values)), [value_text(v.name, "") for v in along.values])
         panel.set_xlabel(drawing.readable(chart.x, across.unit))
     axes[0].set_ylabel(drawing.readable(chart.y, along.unit))
-    made.colorbar(image, ax=axes, label=drawing.readable(chart.colour, table.units[chart.colour]))
+    made.colorbar(image, ax=axes, label=label_of_colour)
     return made
 
 

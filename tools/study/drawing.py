@@ -1,6 +1,7 @@
 """How charts look: matplotlib in the colours of the pages, saved as PNG and SVG, and as SVG for a page."""
 
 import io
+import math
 import pathlib
 import re
 
@@ -9,12 +10,15 @@ import matplotlib
 matplotlib.use("svg")
 
 import matplotlib.figure  # noqa: E402
-import matplotlib.ticker  # noqa: E402
+
+import data  # noqa: E402
 
 STYLE = pathlib.Path(__file__).resolve().parents[1] / "report/style.css"
 # The light palette of the pages: name -> colour. On a page each colour becomes its variable again, so that the
 # charts follow the reader's choice of light or dark.
-PALETTE = dict(re.findall(r"--(\w+): (#[0-9a-f]{6});", STYLE.read_text(encoding="utf-8").split("@media")[0]))
+PALETTE = {name: colour for name, colour in re.findall(r"--(\w+): (#[0-9a-f]{6});",
+                                                       STYLE.read_text(encoding="utf-8").split("@media")[0])
+           if name != "accent"}  # the same as c0
 LINES = [PALETTE[f"c{i}"] for i in range(7)]
 MARKERS = "osD^vPX"
 WIDTH, HEIGHT = 6.2, 3.6  # [inch] of one panel
@@ -61,5 +65,11 @@ def for_page(text):
 
 
 def readable(name, unit):
-    words = name.replace("_", " ")
+    words, unit = name.replace("_", " "), data.pretty(unit)
     return f"{words}  [{unit}]" if unit else words
+
+
+def scaled(name, unit, values):
+    """Factor and label that bring figures to a readable size: 1e6, "removed depth  [µm]"."""
+    factor, unit = data.scaled(unit, max((abs(v) for v in values if math.isfinite(v)), default=0))
+    return factor, readable(name, unit)

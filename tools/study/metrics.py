@@ -3,15 +3,18 @@
 import math
 
 import results
+from processes import DONE
 from study_file import OF_RUN
 
 
 def of_run(study, record):
-    """Name -> value of all metrics; nan where the run left none."""
+    """Name -> value of all metrics; nan where the run left none. A run that failed has its times only: what its series
+    say of a process that did not come to its end would look like a result."""
     summaries = results.read_summaries(record.folder)
     figures = times(summaries)
     for metric in study.metrics:
-        figures[metric.name] = metric.scale * take(metric, study, record, summaries, figures)
+        if record.exit_code == DONE or metric.run:
+            figures[metric.name] = metric.scale * take(metric, study, record, summaries, figures)
     return figures
 
 

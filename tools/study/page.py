@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import platform
+import re
 import string
 
 import data
@@ -15,6 +16,7 @@ from processes import DONE
 from progress import duration
 
 HERE = pathlib.Path(__file__).resolve().parent
+SCALE = 1.24  # pixels of the page for a point of a chart
 
 
 def write(path, study, table, drawn, answers, versions):
@@ -55,8 +57,18 @@ def tiles(study, table, records):
 
 def figure(chart):
     title, svg, place = chart
-    return (f'<figure class="drawn"><figcaption>{html.escape(title)} <span class="files">'
+    width = float(re.search(r'viewBox="0 0 ([\d.]+)', svg)[1]) * SCALE
+    return (f'<figure class="drawn" style="flex-basis: {width:.0f}px"><figcaption>{html.escape(title)} <span class="files">'
             f'<a href="{place}.png">PNG</a> <a href="{place}.svg">SVG</a></span></figcaption>{svg}</figure>')
+
+
+def column(name, table, study):
+    """Heading of an axis, as the study gives it, or of a figure with the factor that brings it to a readable size."""
+    if name in (axis.name for axis in study.axes):
+        return 1, heading(name, table.units[name])
+    factor, unit = data.scaled(table.units[name], max((abs(v) for v in table.column(name)
+                                                       if not isinstance(v, str) and math.isfinite(v)), default=0))
+    return factor, heading(name, unit)
 
 
 def heading(name, unit):
@@ -64,12 +76,12 @@ def heading(name, unit):
     return f"<th>{html.escape(name.replace('_', ' '))}{unit}</th>"
 
 
-def cell(value):
+def cell(value, factor=1):
     if isinstance(value, str):
         return tables.cell(value)
     if not math.isfinite(value):
         return tables.cell("–", class_="number")
-    return tables.cell(f"{value:.4g}", class_="number", data_value=repr(float(value)))
+    return f'<td class="number" data-value="{float(value)!r}">{value * factor:.4g}</td>'
 
 
 def sortable(headings, rows):
@@ -81,12 +93,12 @@ def sortable(headings, rows):
 
 def runs(study, table):
     failed = any(row["record"].exit_code != DONE for row in table.rows)
-    headings = [heading(name, unit) for name, unit in table.units.items()]
-    headings += ["<th>why it ended</th>"] * failed + ["<th>results</th>"]
+    factors, headings = zip(*(column(name, table, study) for name in table.units))
+    headings = [*headings, *["<th>why it ended</th>"] * failed, "<th>results</th>"]
     rows = []
     for row in table.rows:
         record = row["record"]
-        cells = [cell(row.get(name, math.nan)) for name in table.units]
+        cells = [cell(row.get(name, math.nan), factor) for name, factor in zip(table.units, factors)]
         cells += [tables.cell(record.cause, class_="cause")] * failed
         place = f"runs/{record.folder.name}/" + ("report.html" if study.keep_frames else "")
         cells.append(f'<td><a href="{place}">{record.folder.name}</a></td>')

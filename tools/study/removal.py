@@ -1,0 +1,130 @@
+"""Abrasive removal of each run: depth along the work pieces a cycle, evenness, the pressure that the pistons need."""
+
+import math
+import tomllib
+from dataclasses import dataclass, field
+
+import h5py
+import numpy as np
+
+import removal_charts
+import results
+import surface
+from processes import DONE
+from removal_answer import Answer, Wanted, answer_of
+
+UNITS = {"removed_per_cycle": "m", "removed_area_per_cycle": "m2", "evenness": "", "piston_pressure": "Pa"}
+ANSWER_UNITS = {"cycles_needed": "", "time_needed": "s", "evenness_then": "", "roughness_then": "m"}
+
+
+@dataclass
+class Removed:
+    """What came off in one run: cumulative depth at the end of each cycle, over all contours one after the other."""
+
+    contours: list[surface.Contour]
+    depth: np.ndarray  # cycles x points [m]
+    period: float  # [s]
+    roughness: np.ndarray  # [m] at the start and the end of each cycle; nan if the run has none
+
+    @property
+    def area(self):
+        return np.concatenate([c.area for c in self.contours])
+
+    def mean(self, depth):
+        return float(np.average(depth, weights=self.area))
+
+    def a_cycle(self):
+        """Depth [m] that each point loses in a cycle after the first: with the first the medium starts from rest."""
+        return (self.depth[-1] - self.depth[0]) / (len(self.depth) - 1)
+
+    def after(self, cycles):
+        """Depth [m] of each point after that many cycles."""
+        return self.depth[0] + (cycles - 1) * self.a_cycle()
+
+
+@dataclass
+class Removal:
+    """The table [removal]: a study's view of what comes off."""
+
+    pistons: list[str]  # boundaries of the fluid
+    piston_area: float  # [m2 per metre depth]
+    cycle: float  # [s] period of the pistons' table of velocities, before their `motion.time`
+    wanted: Wanted | None
+    runs: dict[str, Removed] = field(default_factory=dict)  # run -> what came off, filled by `figures`
+
+    def units(self):
+        return UNITS | (ANSWER_UNITS if self.wanted else {})
+
+    def figures(self, record):
+        """Name -> value; empty if the run failed or holds fewer than two whole cycles."""
+        removed = read_run(self, record.folder) if record.exit_code == DONE else None
+        if removed is None:
+            return {}
+        self.runs[record.folder.name] = removed
+        a_cycle = removed.a_cycle()
+        figures = {"removed_per_cycle": removed.mean(a_cycle), "evenness": evenness(removed, a_cycle),
+                   "removed_area_per_cycle": float(a_cycle @ removed.area),
+                   "piston_pressure": piston_pressure(self, record.folder, removed.period)}
+        return figures | (self.wanted.figures(removed) if self.wanted else {})
+
+    def charts(self, study, table, folder):
+        return removal_charts.draw(self, study, table, folder)
+
+    def answer(self, study, table) -> Answer | None:
+        return answer_of(self.wanted, study, table) if self.wanted else None
+
+
+def read(table):
+    """The table [removal] of a study file."""
+    area, cycle = table.get("piston_area", float), table.get("cycle", float)
+    for key, value in (("piston_area", area), ("cycle", cycle)):
+        if value is not None and not value > 0:
+            table.fault(f"'{key}' must be above 0, found {value}", key)
+    pistons = table.texts("pistons")
+    if table.has("pistons") and not pistons:
+        table.fault("'pistons' needs at least one wall", "pistons")
+    answer = table.table("answer")
+    wanted = Wanted.read(answer) if answer else None
+    table.close()
+    return Removal(pistons, area, cycle, wanted)
+
+
+def period_of(view, folder):
+    """Period [s] of the pistons in the run."""
+    case = tomllib.loads((folder / "used_case.toml").read_text(encoding="utf-8"))
+    times = [wall.get("motion", {}).get("time", 1.0) for wall in case.get("wall", []) if wall.get("name") in view.pistons]
+    return view.cycle * (times[0] if times else 1.0)
+
+
+def read_run(view, folder):
+    path = folder / "surface.h5"
+    if not path.is_file():
+        return None
+    period = period_of(view, folder)
+    with h5py.File(path) as file:
+        time = file["time"][:]
+        ends = period * np.arange(1, math.floor(time[-1] / period + 1e-3) + 1) if len(time) else []
+        if len(ends) < 2:
+            return None
+        contours = surface.contours(file)
+        depth = file["preston_depth"][:][:, np.concatenate([c.rows for c in contours])]
+    at_ends = np.column_stack([np.interp(ends, time, column) for column in depth.T])
+    series = results.read_series(folder, "fluid")
+    roughness = np.interp([0, *ends], series["time[s]"], series["roughness_mean[m]"]) if "roughness_mean[m]" in series \
+        else np.full(len(ends) + 1, math.nan)
+    return Removed(contours, at_ends, period, roughness)
+
+
+def evenness(removed, depth):
+    """Largest over mean."""
+    mean = removed.mean(depth)
+    return float(depth.max()) / mean if mean > 0 else math.nan
+
+
+def piston_pressure(view, folder, period):
+    """Largest pressure [Pa] that a piston exerts after the first cycle."""
+    series = results.read_series(folder, "fluid")
+    time = np.array(series["time[s]"])
+    forces = [np.hypot(*(np.array(series[f"force_from_{piston}_{axis}[N/m]"]) for axis in "xy"))
+              for piston in view.pistons if f"force_from_{piston}_x[N/m]" in series]
+    return float(max(force[time >= period].max() for force in forces)) / view.piston_area if forces else math.nan

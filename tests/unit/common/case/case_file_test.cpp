@@ -205,6 +205,7 @@ TEST(CaseFile, NameOfTheFolderDoesNotDependOnHowItIsWritten) {
   EXPECT_EQ(case_name("case.toml"), here);
   EXPECT_EQ(case_name("./case.toml"), here);
   EXPECT_EQ(case_name("cases/gate//case.toml"), "gate");
+  EXPECT_EQ(case_name("cases/gate/fine.toml"), "gate_fine");
 }
 
 TEST(CaseFile, HasASectionUnlessItIsTakenAway) {

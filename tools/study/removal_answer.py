@@ -1,0 +1,140 @@
+"""Which setting takes off the wanted depth: cycles, time, evenness, pressure; ranked, and said in a sentence."""
+
+import html
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+import page
+import tables
+from progress import duration
+
+MOST_CYCLES = 1_000_000  # beyond that a setting removes nothing
+
+
+@dataclass
+class Wanted:
+    """The table [removal.answer]."""
+
+    depth: float  # [m], mean over the work pieces
+    evenness_at_most: float
+    pressure_at_most: float  # [Pa]
+    first: str  # what decides among the settings that meet the limits: "evenness", "time" or "pressure"
+
+    @staticmethod
+    def read(table):
+        wanted = Wanted(table.get("wanted_depth", float), table.get("evenness_at_most", float, math.inf),
+                        table.get("pressure_at_most", float, math.inf),
+                        table.get("first", str, "evenness", allowed=list(BY)))
+        if wanted.depth is not None and not wanted.depth > 0:
+            table.fault(f"'wanted_depth' must be above 0, found {wanted.depth}", "wanted_depth")
+        if wanted.evenness_at_most < 1:
+            table.fault(f"'evenness_at_most' is the largest depth over the mean, so at least 1, found "
+                        f"{wanted.evenness_at_most}", "evenness_at_most")
+        table.close()
+        return wanted
+
+    def figures(self, removed):
+        """Whole cycles until the mean depth is reached, as the cycles after the first go on alike, and what is then."""
+        a_cycle = removed.mean(removed.a_cycle())
+        missing = self.depth - removed.mean(removed.depth[0])
+        cycles = 1 if missing <= 0 else 1 + math.ceil(missing / a_cycle - 1e-9) if a_cycle > 0 else math.inf
+        if cycles > MOST_CYCLES:
+            return {}
+        depth = removed.after(cycles)
+        return {"cycles_needed": cycles, "time_needed": cycles * removed.period,
+                "evenness_then": float(depth.max()) / removed.mean(depth), "roughness_then": roughness(removed, cycles)}
+
+    def met(self, row):
+        return (math.isfinite(row.get("cycles_needed", math.nan)) and row["evenness_then"] <= self.evenness_at_most
+                and not row["piston_pressure"] > self.pressure_at_most)
+
+    def limits(self):
+        """The limits in words."""
+        return " and ".join(([f"an evenness of at most {self.evenness_at_most:g}"] if math.isfinite(self.evenness_at_most)
+                             else []) +
+                            ([f"at most {metric(self.pressure_at_most, 'Pa')} at the piston"]
+                             if math.isfinite(self.pressure_at_most) else []))
+
+
+BY = {"evenness": ("evenness_then", "most evenly"), "time": ("time_needed", "fastest"),
+      "pressure": ("piston_pressure", "with the least pressure")}
+
+
+def roughness(removed, cycles):
+    """[m] after that many cycles: what a cycle leaves of what can still go is the same share in every cycle."""
+    return float(np.interp(cycles, np.arange(len(removed.roughness)), removed.roughness, right=math.nan))
+
+
+@dataclass
+class Answer:
+    title: str
+    sentence: str
+    html: str
+
+
+def metric(value, unit):
+    """5e-06, "m" -> 5 µm"""
+    power = 3 * math.floor(math.log10(abs(value)) / 3 + 1e-9) if value else 0
+    power = min(6, max(-9, power))
+    prefix = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}[power]
+    return f"{value / 10 ** power:.3g} {prefix}{unit}"
+
+
+def setting_text(study, row):
+    return ", ".join(f"{axis.name.replace('_', ' ')} {page.text(row[axis.name])} {axis.unit}".strip() for axis in study.axes)
+
+
+def figures_text(row):
+    text = f"{row['cycles_needed']} cycles in {duration(row['time_needed'])}, the largest depth {row['evenness_then']:.2f} " \
+           "times the mean"
+    return text + (f", {metric(row['piston_pressure'], 'Pa')} at the piston" if math.isfinite(row["piston_pressure"]) else "")
+
+
+def ranked(wanted, table):
+    """Rows that reach the depth, those within the limits first, the best first."""
+    key = BY[wanted.first][0]
+    reached = [row for row in table.rows if "cycles_needed" in row]
+    return sorted(reached, key=lambda row: (not wanted.met(row), row[key], row["time_needed"]))
+
+
+def answer_of(wanted, study, table):
+    rows = ranked(wanted, table)
+    title = f"To remove {metric(wanted.depth, 'm')}"
+    if not rows:
+        return Answer(title, "No run shows what a cycle removes: it takes two whole cycles and a work piece that is "
+                             "touched.", "")
+    met = [row for row in rows if wanted.met(row)]
+    limits, how = wanted.limits(), BY[wanted.first][1]
+    if met:
+        best = met[0]
+        sentence = f"{metric(wanted.depth, 'm')} come off {how} with {setting_text(study, best)}: {figures_text(best)}."
+        if limits:
+            sentence += f" {len(met)} of {len(table.rows)} settings keep {limits}."
+        fastest = min(met, key=lambda row: row["time_needed"])
+        if fastest["time_needed"] < best["time_needed"]:
+            sentence += f" The fastest{' of them' if limits else ''}: {setting_text(study, fastest)}; {figures_text(fastest)}."
+    else:
+        best = min(rows, key=lambda row: excess(wanted, row))
+        sentence = f"None of the {len(table.rows)} settings removes {metric(wanted.depth, 'm')} with {limits}. Nearest: " \
+                   f"{setting_text(study, best)}; {figures_text(best)}."
+    return Answer(title, sentence, ranking(wanted, study, table, rows))
+
+
+def excess(wanted, row):
+    """How far beyond the limits, as a factor."""
+    return max(row["evenness_then"] / wanted.evenness_at_most, row["piston_pressure"] / wanted.pressure_at_most)
+
+
+def ranking(wanted, study, table, rows):
+    """All settings in the order of the answer, as a table for the page."""
+    columns = [axis.name for axis in study.axes] + ["cycles_needed", "time_needed", "evenness_then", "roughness_then",
+                                                    "piston_pressure"]
+    columns = [name for name in columns if name in rows[0] and rows[0][name] == rows[0][name]]
+    factors, headings = zip(*(page.column(name, table, study) for name in columns))
+    headings = ["<th>rank</th>", *headings, "<th>within the limits</th>"]
+    body = [(row["record"].folder.name, "", [page.cell(rank), *map(page.cell, (row[name] for name in columns), factors),
+                                             tables.cell("yes" if wanted.met(row) else "no")])
+            for rank, row in enumerate(rows, 1)]
+    return (f"<details><summary>{html.escape('All settings, ranked')}</summary>{page.sortable(headings, body)}</details>")
