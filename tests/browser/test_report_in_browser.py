@@ -1,5 +1,5 @@
 """The report of a made-up run in headless Chromium: it draws, the slider and the colours change the picture, the
-console stays empty. Debian's chromium, chromium-driver and python3-selenium."""
+console stays empty."""
 
 import pathlib
 import subprocess
@@ -7,20 +7,16 @@ import sys
 import tempfile
 import unittest
 
-from selenium import webdriver
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/unit/tools"))
+sys.path[:0] = [str(ROOT / "tests/unit/tools"), str(ROOT / "tests/browser")]
 
 import made_up_run  # noqa: E402
+from browser import start_browser  # noqa: E402
 
-QUIET = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-         "--disable-background-networking", "--disable-component-update", "--disable-sync"]
 # Opaque pixels of the canvas, and a sum over them that changes with any pixel.
 PICTURE = """
 const canvas = document.getElementById("particles");
@@ -40,11 +36,7 @@ class ReportInBrowser(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        options = Options()
-        for argument in QUIET + [f"--user-data-dir={cls.folder / 'browser'}", "--window-size=1280,1000"]:
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        cls.browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        cls.browser = start_browser(cls.folder)
         cls.addClassCleanup(cls.browser.quit)
 
     def open(self, name, sides=("fluid", "solid")):
