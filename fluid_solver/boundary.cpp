@@ -94,13 +94,20 @@ void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Cub
     const std::size_t first = active[k] * lane_count;
     const VecLanes x_w = load(boundary.x, first);
     Lanes sum_W = 0.0, sum_eta = 0.0;
+    TensorLanes mean = zero_tensor();
     for (const std::uint32_t i : boundary.fluid_near.sources(active[k])) {
       const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
       const Lanes W = kernel.value(square_root(dot(x_wi, x_wi)));
       sum_W += W;
       sum_eta += fluid.eta[i] * W;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b) mean[a][b] += fluid.eta_grad_v[a][b][i] * W;
     }
-    store(sum_eta * inverse(max(sum_W, smallest_sum)), boundary.eta, first);
+    const Lanes share = inverse(max(sum_W, smallest_sum));
+    for (auto& row : mean)
+      for (auto& component : row) component *= share;
+    store(sum_eta * share, boundary.eta, first);
+    store(mean, boundary.eta_grad_v, first);
   }
 }
 

@@ -24,10 +24,11 @@ struct Boundary {
   VecField x, v, acceleration;    ///< prescribed [m], [m/s], [m/s2]
   Field V, m, rho;                ///< volume [m2], mass of fluid in its place [kg/m], its density
   // extrapolated from the fluid
-  Field p, p_rho2;     ///< (29) [Pa]
-  Field eta;           ///< viscosity [Pa s], only where the medium is not Newtonian
-  VecField v_viscous;  ///< v_w-f = 2 v_w - v~_w, which the viscous terms use (28)
-  VecField force;      ///< what the fluid does to the particle [N per metre depth], where asked for
+  Field p, p_rho2;         ///< (29) [Pa]
+  Field eta;               ///< viscosity [Pa s], only where the medium is not Newtonian
+  TensorField eta_grad_v;  ///< as of the fluid's particles
+  VecField v_viscous;      ///< v_w-f = 2 v_w - v~_w, which the viscous terms use (28)
+  VecField force;          ///< what the fluid does to the particle [N per metre depth], where asked for
   /// Outward area vector at the start [m per metre depth], zero inside; empty if this is no work piece.
   VecField area_vector;
   // where there is friction, of a work piece alone
@@ -62,14 +63,14 @@ void Boundary::move(Motion&& motion) {
 }
 
 inline Sources sources(const Boundary& b) {
-  return {pointers(b.x), pointers(b.v), pointers(b.v_viscous), {},          b.m.data(),
-          b.V.data(),    b.rho.data(),  b.p_rho2.data(),       b.eta.data()};
+  return {pointers(b.x), pointers(b.v), pointers(b.v_viscous), {},           b.m.data(),
+          b.V.data(),    b.rho.data(),  b.p_rho2.data(),       b.eta.data(), pointers(b.eta_grad_v)};
 }
 
 /// Extrapolates pressure (29) and velocity (27) from the fluid to the particles of `boundary` near it.
 void extrapolate(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel, const Vec& gravity);
 
-/// Extrapolates the viscosity of a medium that is not Newtonian likewise.
+/// Extrapolates viscosity and eta grad v of a medium that is not Newtonian likewise, as kernel means.
 void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel);
 
 }  // namespace toryu::fluid

@@ -1,7 +1,7 @@
 #include "fluid_solver/dynamics.hpp"
 
 #include "fluid_solver/terms/density_gradient.hpp"
-#include "fluid_solver/terms/shear_rate.hpp"
+#include "fluid_solver/terms/velocity_gradient.hpp"
 
 namespace toryu::fluid {
 
@@ -14,6 +14,9 @@ Lanes load_if_there(const Field& field, std::size_t first) {
 VecLanes load_if_there(const VecField& field, std::size_t first) {
   return field[0].empty() ? zero_vector() : load(field, first);
 }
+TensorLanes load_if_there(const TensorField& field, std::size_t first) {
+  return field[0][0].empty() ? zero_tensor() : load(field, first);
+}
 
 Targets load_targets(const Particles& f, std::size_t first) {
   const VecLanes v = load(f.v, first);
@@ -23,12 +26,19 @@ Targets load_targets(const Particles& f, std::size_t first) {
           load_if_there(f.grad_rho, first),
           load(f.rho, first),
           load(f.p_rho2, first),
-          load_if_there(f.eta, first)};
+          load_if_there(f.eta, first),
+          load_if_there(f.eta_grad_v, first)};
 }
 
 Targets load_targets(const Boundary& b, std::size_t first) {
-  return {load(b.x, first),   load(b.v, first),      load(b.v_viscous, first),   zero_vector(),
-          load(b.rho, first), load(b.p_rho2, first), load_if_there(b.eta, first)};
+  return {load(b.x, first),
+          load(b.v, first),
+          load(b.v_viscous, first),
+          zero_vector(),
+          load(b.rho, first),
+          load(b.p_rho2, first),
+          load_if_there(b.eta, first),
+          load_if_there(b.eta_grad_v, first)};
 }
 
 // Each term joins in where it has something to say.
@@ -190,14 +200,18 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
 #pragma omp for schedule(dynamic, 8)
           for (std::size_t c = 0; c < fluid.clusters(); ++c) {
             const std::size_t first = c * lane_count;
-            ShearRate gdot(load(fluid.x, first), load(fluid.v, first));
-            gdot.add(sources(fluid), neighbours.sources(c), kernel_);
+            VelocityGradient gradient(load(fluid.x, first), load(fluid.v, first));
+            gradient.add(sources(fluid), neighbours.sources(c), kernel_);
             if (viscous_walls())
               for (const auto& wall : boundaries)
-                gdot.add(sources(wall), wall.near_fluid.sources(c), kernel_);
-            const Lanes gdot_i = gdot.value();
-            store(gdot_i, fluid.gdot, first);
-            store(viscosity(law, gdot_i), fluid.eta, first);
+                gradient.add(sources(wall), wall.near_fluid.sources(c), kernel_);
+            TensorLanes grad_v = gradient.value();
+            const Lanes gdot = shear_rate(grad_v), eta = viscosity(law, gdot);
+            for (auto& row : grad_v)
+              for (auto& component : row) component *= eta;
+            store(gdot, fluid.gdot, first);
+            store(eta, fluid.eta, first);
+            store(grad_v, fluid.eta_grad_v, first);
           }
           if (viscous_walls())
             for (auto& wall : boundaries) extrapolate_viscosity(wall, fluid, kernel_);
@@ -212,7 +226,10 @@ void Dynamics::evaluate(Particles& fluid, const ClusterList& neighbours, std::ve
   given.resize(boundaries.size());
   for (auto& part : given) part.by_cluster.resize(fluid.clusters());
   if (viscosity_varies())
-    for (auto& boundary : boundaries) boundary.eta.resize(boundary.V.size());
+    for (auto& boundary : boundaries) {
+      boundary.eta.resize(boundary.V.size());
+      resize(boundary.eta_grad_v, boundary.V.size());
+    }
   {
     const auto timer = timers.measure("pressure, walls and density gradient");
 #pragma omp parallel

@@ -83,6 +83,7 @@ void FluidSolver::fill_regions() {
   if (dynamics_.viscosity_varies()) {
     f.gdot.assign(size, 0.0);
     f.eta.assign(size, dynamics_.viscosity_at_rest());
+    resize(f.eta_grad_v, size);
   }
 
   const auto& state = dynamics_.equation_of_state();

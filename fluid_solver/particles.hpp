@@ -17,7 +17,9 @@ struct Particles {
   // derived at each evaluation
   Field V, p, p_rho2;  ///< m/rho [m2], [Pa], p/rho^2
   VecField grad_rho;   ///< renormalised <grad rho>, only where the density diffusion wants it [kg/m4]
-  Field gdot, eta;     ///< shear rate [1/s] and viscosity [Pa s], only where the medium is not Newtonian
+  // only where the medium is not Newtonian
+  Field gdot, eta;         ///< shear rate [1/s], viscosity [Pa s]
+  TensorField eta_grad_v;  ///< [a][b]: eta dv_b/dx_a [Pa]
   // rates
   VecField a;  ///< [m/s2]
   Field drho;  ///< [kg/m3/s]
@@ -29,6 +31,7 @@ struct Particles {
 struct Sources {
   std::array<const double*, dim> x, v, v_viscous, grad_rho;
   const double *m, *V, *rho, *p_rho2, *eta;
+  std::array<std::array<const double*, dim>, dim> eta_grad_v;
 };
 
 inline std::array<const double*, dim> pointers(const VecField& field) {
@@ -37,10 +40,24 @@ inline std::array<const double*, dim> pointers(const VecField& field) {
   return first;
 }
 
+inline std::array<std::array<const double*, dim>, dim> pointers(const TensorField& field) {
+  std::array<std::array<const double*, dim>, dim> first{};
+  for (int a = 0; a < dim; ++a) first[a] = pointers(field[a]);
+  return first;
+}
+
 inline Sources sources(const Particles& f) {
   const auto v = pointers(f.v);
-  return {pointers(f.x),   v,           v, pointers(f.grad_rho), f.m.data(), f.V.data(), f.rho.data(),
-          f.p_rho2.data(), f.eta.data()};
+  return {pointers(f.x),
+          v,
+          v,
+          pointers(f.grad_rho),
+          f.m.data(),
+          f.V.data(),
+          f.rho.data(),
+          f.p_rho2.data(),
+          f.eta.data(),
+          pointers(f.eta_grad_v)};
 }
 
 }  // namespace toryu::fluid

@@ -10,6 +10,8 @@ namespace toryu {
 
 using VecField = std::array<Field, dim>;
 using VecLanes = std::array<Lanes, dim>;
+using TensorField = std::array<VecField, dim>;
+using TensorLanes = std::array<VecLanes, dim>;
 
 TORYU_INLINE VecLanes load(const VecField& field, std::size_t first) {
   VecLanes value;
@@ -19,8 +21,19 @@ TORYU_INLINE VecLanes load(const VecField& field, std::size_t first) {
 TORYU_INLINE void store(const VecLanes& value, VecField& field, std::size_t first) {
   for (int a = 0; a < dim; ++a) store(value[a], field[a], first);
 }
+TORYU_INLINE TensorLanes load(const TensorField& field, std::size_t first) {
+  TensorLanes value;
+  for (int a = 0; a < dim; ++a) value[a] = load(field[a], first);
+  return value;
+}
+TORYU_INLINE void store(const TensorLanes& value, TensorField& field, std::size_t first) {
+  for (int a = 0; a < dim; ++a) store(value[a], field[a], first);
+}
 inline void resize(VecField& field, std::size_t size, double value = 0.0) {
   for (auto& component : field) component.resize(size, value);
+}
+inline void resize(TensorField& field, std::size_t size) {
+  for (auto& row : field) resize(row, size);
 }
 inline Vec at(const VecField& field, std::size_t i) {
   Vec value;
@@ -34,6 +47,12 @@ inline void set(VecField& field, std::size_t i, const Vec& value) {
 TORYU_INLINE VecLanes zero_vector() {
   VecLanes zero;
   for (auto& component : zero) component = 0.0;
+  return zero;
+}
+
+TORYU_INLINE TensorLanes zero_tensor() {
+  TensorLanes zero;
+  for (auto& row : zero) row = zero_vector();
   return zero;
 }
 

@@ -10,6 +10,7 @@ namespace toryu::fluid {
 struct Targets {
   VecLanes x, v, v_viscous, grad_rho;
   Lanes rho, p_rho2, eta;
+  TensorLanes eta_grad_v;
 };
 
 /// The pairs of the particles i with one particle j.

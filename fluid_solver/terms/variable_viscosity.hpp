@@ -1,10 +1,19 @@
-/// Viscosity that differs from particle to particle: the form of laminar_viscosity.hpp with the harmonic mean
-/// of a pair, sum_j m_j 2 eta_ij/(rho_i rho_j) x_ij . gradW_ij/(r_ij^2 + 0.01 h^2) v_ij,
+/// Viscosity that differs from particle to particle: the divergence of the stress eta (grad v + grad v^T) in
+/// two parts, both equal and opposite pair by pair:
 ///
+///     sum_j m_j 2 eta_ij/(rho_i rho_j) x_ij . gradW_ij/(r_ij^2 + 0.01 h^2) v_ij,
 ///     eta_ij = 2 eta_i eta_j/(eta_i + eta_j)
 ///
-/// (Cleary & Monaghan 1999 for conduction). eta_ij = eta_ji, so momentum is kept pair by pair; where eta
-/// jumps the stress is continuous. Wall particles have the kernel mean of the fluid's viscosity.
+/// is div(eta grad v), laminar_viscosity.hpp with the harmonic mean of a pair (Cleary & Monaghan 1999 for
+/// conduction): where eta jumps the stress is continuous. And
+///
+///     sum_j m_j/(rho_i rho_j) [(eta grad v)_i + (eta grad v)_j] . gradW_ij
+///
+/// is div(eta grad v^T), which is grad eta . grad v^T where the flow keeps its volume: nothing in a Newtonian
+/// medium and in a straight channel, but half of the force where a flow that stretches meets a gradient of
+/// viscosity. Without it a medium that turns as a whole would feel a force.
+///
+/// Wall particles have the kernel means of the fluid's eta and eta grad v.
 #pragma once
 
 #include "fluid_solver/terms/pair.hpp"
@@ -15,9 +24,15 @@ struct VariableViscosityTerm {
   TORYU_INLINE void viscous(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
                             Rates& rates) const {
     const Lanes eta_i = i.eta, eta_j = source.eta[j];
-    const Lanes factor = (4.0 * source.m[j]) * (eta_i * eta_j) * pair.G * pair.r2 *
-                         inverse((eta_i + eta_j) * i.rho * source.rho[j] * pair.soft_r2);
-    for (int a = 0; a < dim; ++a) rates.a[a] += factor * (i.v_viscous[a] - source.v_viscous[a][j]);
+    // one division for 1/(rho_i rho_j) and for the rest of the first part
+    const Lanes rho_rho = i.rho * source.rho[j], below = (eta_i + eta_j) * pair.soft_r2;
+    const Lanes both = (source.m[j] * pair.G) * inverse(rho_rho * below);
+    const Lanes along_v = 4.0 * (eta_i * eta_j) * pair.r2 * both, along_x = both * below;
+    for (int a = 0; a < dim; ++a) {
+      Lanes T_x = 0.0;
+      for (int b = 0; b < dim; ++b) T_x += (i.eta_grad_v[a][b] + source.eta_grad_v[a][b][j]) * pair.x_ij[b];
+      rates.a[a] += along_v * (i.v_viscous[a] - source.v_viscous[a][j]) + along_x * T_x;
+    }
   }
 };
 

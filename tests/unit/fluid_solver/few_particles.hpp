@@ -14,6 +14,7 @@ struct Point {
   double rho = 1000, m = 1, p = 0;
   Vec grad_rho = Vec::Zero();
   double eta = 1;
+  Eigen::Matrix2d eta_grad_v = Eigen::Matrix2d::Zero();  ///< (a, b): eta dv_b/dx_a
 };
 
 /// What a pair loop reads of `points`.
@@ -21,6 +22,7 @@ struct FewSources {
   explicit FewSources(const std::vector<Point>& points) {
     const std::size_t n = points.size();
     for (auto* field : {&x, &v, &grad_rho}) resize(*field, n);
+    resize(eta_grad_v, n);
     for (const auto& point : points) {
       const std::size_t j = m.size();
       set(x, j, point.x);
@@ -31,13 +33,15 @@ struct FewSources {
       rho.push_back(point.rho);
       p_rho2.push_back(point.p / (point.rho * point.rho));
       eta.push_back(point.eta);
+      for (int a = 0; a < dim; ++a) set(eta_grad_v[a], j, point.eta_grad_v.row(a));
     }
   }
   Sources view() const {
     return {pointers(x), pointers(v), pointers(v),   pointers(grad_rho), m.data(),
-            V.data(),    rho.data(),  p_rho2.data(), eta.data()};
+            V.data(),    rho.data(),  p_rho2.data(), eta.data(),         pointers(eta_grad_v)};
   }
   VecField x, v, grad_rho;
+  TensorField eta_grad_v;
   Field m, V, rho, p_rho2, eta;
 };
 
@@ -45,7 +49,14 @@ struct FewSources {
 inline Targets targets(const Point& i) {
   const auto lanes = [](const Vec& value) { return VecLanes{Lanes(value[0]), Lanes(value[1])}; };
   const VecLanes v = lanes(i.v);
-  return {lanes(i.x), v, v, lanes(i.grad_rho), Lanes(i.rho), Lanes(i.p / (i.rho * i.rho)), Lanes(i.eta)};
+  return {lanes(i.x),
+          v,
+          v,
+          lanes(i.grad_rho),
+          Lanes(i.rho),
+          Lanes(i.p / (i.rho * i.rho)),
+          Lanes(i.eta),
+          {lanes(i.eta_grad_v.row(0)), lanes(i.eta_grad_v.row(1))}};
 }
 
 /// What `add(targets, sources, j, pair, rates)` adds up for particle `i` over `others`.

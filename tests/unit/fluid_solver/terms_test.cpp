@@ -132,15 +132,56 @@ TEST(LaminarViscosity, SlowsThePairAndKeepsMomentum) {
 TEST(VariableViscosity, TakesTheHarmonicMeanOfAPair) {
   Point i = i_point;
   i.eta = 3;
-  const std::vector<double> etas{1, 3, 6};  // means with 3: 1.5, 3, 4
-  const std::vector<double> means{1.5, 3, 4};
+  const std::vector<double> etas{1, 3, 6}, means{1.5, 3, 4};
   for (std::size_t k = 0; k < etas.size(); ++k) {
     Point j = others[k];
     j.eta = etas[k];
     expect_near(first_lane(sum_over(i, {j}, kernel, viscous(VariableViscosityTerm{})).a),
                 first_lane(sum_over(i, {j}, kernel, viscous(LaminarViscosityTerm{means[k]})).a));
-    EXPECT_LT(unbalance(i, j, viscous(VariableViscosityTerm{})), 1e-14);
   }
+}
+
+TEST(VariableViscosity, AddsTheDivergenceOfTheTransposedGradientAndKeepsMomentum) {
+  Point i = i_point;
+  i.eta_grad_v << 3, -5, 7, 2;
+  Vec sum = Vec::Zero();
+  for (Point j : {others[0], others[1], others[2]}) {
+    j.eta_grad_v << -4, 1, 6, j.m * 100;
+    sum = j.m / (i.rho * j.rho) * (i.eta_grad_v + j.eta_grad_v) * grad_W(i.x, j.x, h);
+    const Vec along_v = first_lane(sum_over(i, {j}, kernel, viscous(LaminarViscosityTerm{1})).a);
+    expect_near(first_lane(sum_over(i, {j}, kernel, viscous(VariableViscosityTerm{})).a), along_v + sum);
+    EXPECT_LT(unbalance(i, j, viscous(VariableViscosityTerm{})), 1e-13);
+  }
+}
+
+/// Force per volume on the middle of a lattice in the velocity grad_v^T x, where eta = 10 + slope . x.
+Vec viscous_force(const Eigen::Matrix2d& grad_v, const Vec& slope) {
+  const double d_0 = h / 1.3;
+  std::vector<Point> points;
+  for (int column = -3; column <= 3; ++column)
+    for (int row = -3; row <= 3; ++row) {
+      Point point{Vec(column * d_0, row * d_0)};
+      point.v = grad_v.transpose() * point.x;
+      point.m = 1000 * d_0 * d_0;
+      point.eta = 10 + slope.dot(point.x);
+      point.eta_grad_v = point.eta * grad_v;
+      points.push_back(point);
+    }
+  const Point middle = points[24];
+  return middle.rho * first_lane(sum_over(middle, points, kernel, viscous(VariableViscosityTerm{})).a);
+}
+
+TEST(VariableViscosity, IsTheDivergenceOfTheWholeStress) {
+  const Vec slope(20, 30);
+  Eigen::Matrix2d stretch, shear, rotation;  // (a, b): dv_b/dx_a
+  stretch << 2, 0, 0, -2;
+  shear << 0, 0, 3, 0;
+  rotation << 0, 4, -4, 0;
+  for (const auto& grad_v : {stretch, shear}) {
+    const Vec exact = (grad_v + grad_v.transpose()) * slope;
+    EXPECT_LT((viscous_force(grad_v, slope) - exact).norm(), 0.03 * exact.norm());
+  }
+  EXPECT_LT(viscous_force(rotation, slope).norm(), 0.03 * (rotation * slope).norm());
 }
 
 TEST(DensityDiffusion, IsTheSumOfEquation18) {
