@@ -5,7 +5,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 "$root/tools/install.sh" run
-! grep -q '^ *\[study\]' "${1-}" 2>/dev/null || "$root/tools/install.sh" study
+! grep -qs -d skip '^ *\[study\]' -- "$@" </dev/null || "$root/tools/install.sh" study
 case ${1---help} in -h | --help) exec /usr/bin/python3 "$root/tools/launch.py" --help ;; esac
 if [ -f "$root/build/release/build.ninja" ]; then
   "$root/tools/build.sh" release fluid_solver solid_solver coupler

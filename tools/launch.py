@@ -54,13 +54,12 @@ def parse(arguments):
     return options
 
 
-def is_study(arguments):
-    """Whether the first plain argument is a file with a table [study]."""
-    path = next((pathlib.Path(a) for a in arguments if not a.startswith("-")), None)
+def is_study(path):
+    """Whether `path` is a file with a table [study]."""
     try:
-        return path is not None and bool(re.search(r"^\s*\[study\]", path.read_text(encoding="utf-8"), re.MULTILINE))
+        return bool(re.search(r"^\s*\[study\]", pathlib.Path(path).read_text(encoding="utf-8"), re.MULTILINE))
     except (OSError, ValueError):
-        return False  # a folder, or nothing that can be read
+        return False  # a folder, an option, or nothing that can be read
 
 
 def programs(options):
@@ -156,7 +155,7 @@ def report(options, code, words):
 
 
 def main(arguments):
-    if is_study(arguments):
+    if any(map(is_study, arguments)):
         os.execv(PYTHON, [PYTHON, str(ROOT / "tools/study"), *arguments])
     options = parse(arguments)
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]

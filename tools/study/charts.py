@@ -89,13 +89,10 @@ def one_parameter(chart, study):
 def scale(chart, study, panel):
     """Logarithmic where asked for; the marks of an axis of the study stand at its values."""
     axis = axis_of(study, chart.x)
-    if "x" in chart.log:
-        panel.set_xscale("log")
+    for which in chart.log:
+        drawing.logarithmic(panel, which)
     if axis and len(axis.values) <= 8:
         panel.set_xticks([v.name for v in axis.values], [value_text(v.name, "") for v in axis.values])
-        panel.set_xticks([], minor=True)
-    if "y" in chart.log:
-        panel.set_yscale("log")
 
 
 def heat_map(chart, study, table):

@@ -65,4 +65,4 @@ def placed(study, line, extra):
     for axis in study.axes:
         if any(key[1] in value.overrides for value in axis.values):
             return f"{study.path}{f':{axis.line}' if axis.line else ''}: error: [[axis]] '{axis.name}': {line}"
-    return f"{study.path}: error: [study] set: {line}"
+    return f"{study.path}{f':{study.set_line}' if study.set_line else ''}: error: [study] set: {line}"

@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("svg")
 
 import matplotlib.figure  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 
 import data  # noqa: E402
 
@@ -21,7 +22,7 @@ PALETTE = {name: colour for name, colour in re.findall(r"--(\w+): (#[0-9a-f]{6})
            if name != "accent"}  # the same as c0
 LINES = [PALETTE[f"c{i}"] for i in range(7)]
 MARKERS = "osD^vPX"
-WIDTH, HEIGHT = 6.2, 3.6  # [inch] of one panel
+WIDTH, HEIGHT = 6.2, 3.6  # [inch] of a single panel; several share twice the width, that of the page
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 9.5,
@@ -34,12 +35,10 @@ matplotlib.rcParams.update({
 })
 
 
-def figure(columns=1, rows=1, width=WIDTH, height=HEIGHT):
-    """A figure and its panels, row by row."""
-    made = matplotlib.figure.Figure(figsize=(width if columns == 1 else 0.72 * width * columns, height * rows),
-                                    layout="constrained")
-    axes = made.subplots(rows, columns, squeeze=False, sharey=True)
-    return made, list(axes.flat)
+def figure(columns=1):
+    """A figure and its panels side by side."""
+    made = matplotlib.figure.Figure(figsize=(WIDTH if columns == 1 else 2 * WIDTH, HEIGHT), layout="constrained")
+    return made, list(made.subplots(1, columns, squeeze=False, sharey=True).flat)
 
 
 def save(made, path):
@@ -62,6 +61,15 @@ def for_page(text):
     for name, colour in PALETTE.items():
         text = text.replace(colour, f"var(--{name})")
     return text
+
+
+def logarithmic(panel, which):
+    """Makes the "x" or "y" axis logarithmic, with plain numbers at 1, 2, 5, 10, ..."""
+    getattr(panel, f"set_{which}scale")("log")
+    axis = getattr(panel, f"{which}axis")
+    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axis.set_minor_locator(matplotlib.ticker.NullLocator())
 
 
 def readable(name, unit):

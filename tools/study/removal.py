@@ -13,6 +13,7 @@ import surface
 from processes import DONE
 from removal_answer import Answer, Wanted, answer_of
 
+DEPTHS = ("preston_depth", "archard_depth")  # the first that a run has counts
 UNITS = {"removed_per_cycle": "m", "removed_area_per_cycle": "m2", "evenness": "", "piston_pressure": "Pa"}
 ANSWER_UNITS = {"cycles_needed": "", "time_needed": "s", "evenness_then": "", "roughness_then": "m"}
 
@@ -24,7 +25,7 @@ class Removed:
     contours: list[surface.Contour]
     depth: np.ndarray  # cycles x points [m]
     period: float  # [s]
-    roughness: np.ndarray  # [m] at the start and the end of each cycle; nan if the run has none
+    roughness: dict[str, float] | None  # of the case: initial, final, decay_depth [m]
 
     @property
     def area(self):
@@ -40,6 +41,13 @@ class Removed:
     def after(self, cycles):
         """Depth [m] of each point after that many cycles."""
         return self.depth[0] + (cycles - 1) * self.a_cycle()
+
+    def roughness_at(self, depth):
+        """Mean roughness [m] once `depth` is off: each point decays as fluid_solver's removal says; nan without it."""
+        if self.roughness is None:
+            return math.nan
+        first, last, decay = (self.roughness[name] for name in ("initial", "final", "decay_depth"))
+        return self.mean(last + (first - last) * np.exp(-depth / decay))
 
 
 @dataclass
@@ -89,30 +97,29 @@ def read(table):
     return Removal(pistons, area, cycle, wanted)
 
 
-def period_of(view, folder):
-    """Period [s] of the pistons in the run."""
-    case = tomllib.loads((folder / "used_case.toml").read_text(encoding="utf-8"))
-    times = [wall.get("motion", {}).get("time", 1.0) for wall in case.get("wall", []) if wall.get("name") in view.pistons]
-    return view.cycle * (times[0] if times else 1.0)
-
-
 def read_run(view, folder):
+    """What came off in the run, or None if it has no work piece or holds fewer than two whole cycles."""
     path = folder / "surface.h5"
     if not path.is_file():
         return None
-    period = period_of(view, folder)
+    case = tomllib.loads((folder / "used_case.toml").read_text(encoding="utf-8"))
+    period = view.cycle * time_factor(case, view.pistons)
     with h5py.File(path) as file:
         time = file["time"][:]
         ends = period * np.arange(1, math.floor(time[-1] / period + 1e-3) + 1) if len(time) else []
         if len(ends) < 2:
             return None
         contours = surface.contours(file)
-        depth = file["preston_depth"][:][:, np.concatenate([c.rows for c in contours])]
+        law = next(name for name in DEPTHS if name in file)
+        depth = file[law][:][:, np.concatenate([c.rows for c in contours])]
     at_ends = np.column_stack([np.interp(ends, time, column) for column in depth.T])
-    series = results.read_series(folder, "fluid")
-    roughness = np.interp([0, *ends], series["time[s]"], series["roughness_mean[m]"]) if "roughness_mean[m]" in series \
-        else np.full(len(ends) + 1, math.nan)
-    return Removed(contours, at_ends, period, roughness)
+    return Removed(contours, at_ends, period, case.get("fluid", {}).get("removal", {}).get("roughness"))
+
+
+def time_factor(case, pistons):
+    """What multiplies the times of the pistons' table in this run."""
+    factors = [wall.get("motion", {}).get("time", 1.0) for wall in case.get("wall", []) if wall.get("name") in pistons]
+    return factors[0] if factors else 1.0
 
 
 def evenness(removed, depth):

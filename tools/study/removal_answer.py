@@ -4,8 +4,7 @@ import html
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
+import data
 import page
 import tables
 from progress import duration
@@ -44,7 +43,7 @@ class Wanted:
             return {}
         depth = removed.after(cycles)
         return {"cycles_needed": cycles, "time_needed": cycles * removed.period,
-                "evenness_then": float(depth.max()) / removed.mean(depth), "roughness_then": roughness(removed, cycles)}
+                "evenness_then": float(depth.max()) / removed.mean(depth), "roughness_then": removed.roughness_at(depth)}
 
     def met(self, row):
         return (math.isfinite(row.get("cycles_needed", math.nan)) and row["evenness_then"] <= self.evenness_at_most
@@ -54,17 +53,12 @@ class Wanted:
         """The limits in words."""
         return " and ".join(([f"an evenness of at most {self.evenness_at_most:g}"] if math.isfinite(self.evenness_at_most)
                              else []) +
-                            ([f"at most {metric(self.pressure_at_most, 'Pa')} at the piston"]
+                            ([f"at most {in_words(self.pressure_at_most, 'Pa')} at the piston"]
                              if math.isfinite(self.pressure_at_most) else []))
 
 
 BY = {"evenness": ("evenness_then", "most evenly"), "time": ("time_needed", "fastest"),
       "pressure": ("piston_pressure", "with the least pressure")}
-
-
-def roughness(removed, cycles):
-    """[m] after that many cycles: what a cycle leaves of what can still go is the same share in every cycle."""
-    return float(np.interp(cycles, np.arange(len(removed.roughness)), removed.roughness, right=math.nan))
 
 
 @dataclass
@@ -74,12 +68,10 @@ class Answer:
     html: str
 
 
-def metric(value, unit):
+def in_words(value, unit):
     """5e-06, "m" -> 5 µm"""
-    power = 3 * math.floor(math.log10(abs(value)) / 3 + 1e-9) if value else 0
-    power = min(6, max(-9, power))
-    prefix = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}[power]
-    return f"{value / 10 ** power:.3g} {prefix}{unit}"
+    factor, unit = data.scaled(unit, abs(value))
+    return f"{value * factor:.3g} {unit}"
 
 
 def setting_text(study, row):
@@ -89,7 +81,7 @@ def setting_text(study, row):
 def figures_text(row):
     text = f"{row['cycles_needed']} cycles in {duration(row['time_needed'])}, the largest depth {row['evenness_then']:.2f} " \
            "times the mean"
-    return text + (f", {metric(row['piston_pressure'], 'Pa')} at the piston" if math.isfinite(row["piston_pressure"]) else "")
+    return text + (f", {in_words(row['piston_pressure'], 'Pa')} at the piston" if math.isfinite(row["piston_pressure"]) else "")
 
 
 def ranked(wanted, table):
@@ -101,7 +93,7 @@ def ranked(wanted, table):
 
 def answer_of(wanted, study, table):
     rows = ranked(wanted, table)
-    title = f"To remove {metric(wanted.depth, 'm')}"
+    title = f"To remove {in_words(wanted.depth, 'm')}"
     if not rows:
         return Answer(title, "No run shows what a cycle removes: it takes two whole cycles and a work piece that is "
                              "touched.", "")
@@ -109,7 +101,7 @@ def answer_of(wanted, study, table):
     limits, how = wanted.limits(), BY[wanted.first][1]
     if met:
         best = met[0]
-        sentence = f"{metric(wanted.depth, 'm')} come off {how} with {setting_text(study, best)}: {figures_text(best)}."
+        sentence = f"{in_words(wanted.depth, 'm')} come off {how} with {setting_text(study, best)}: {figures_text(best)}."
         if limits:
             sentence += f" {len(met)} of {len(table.rows)} settings keep {limits}."
         fastest = min(met, key=lambda row: row["time_needed"])
@@ -117,7 +109,7 @@ def answer_of(wanted, study, table):
             sentence += f" The fastest{' of them' if limits else ''}: {setting_text(study, fastest)}; {figures_text(fastest)}."
     else:
         best = min(rows, key=lambda row: excess(wanted, row))
-        sentence = f"None of the {len(table.rows)} settings removes {metric(wanted.depth, 'm')} with {limits}. Nearest: " \
+        sentence = f"None of the {len(table.rows)} settings removes {in_words(wanted.depth, 'm')} with {limits}. Nearest: " \
                    f"{setting_text(study, best)}; {figures_text(best)}."
     return Answer(title, sentence, ranking(wanted, study, table, rows))
 

@@ -2,13 +2,14 @@
 
 import math
 
+import matplotlib.colors
 import numpy as np
 
+import data
 import drawing
-from removal_answer import metric, ranked, setting_text
+from removal_answer import ranked, setting_text
 
 NAMED = 3  # settings drawn in colour, the others in grey
-PREFIX = {"nm": 1e9, "µm": 1e6, "mm": 1e3}
 
 
 def draw(view, study, table, folder):
@@ -40,7 +41,7 @@ def along(view, study, rows, best):
     contours = view.runs[rows[0]["record"].folder.name].contours
     curves = [(row, *depth_of(view, row)) for row in rows]
     curves = [(row, removed, depth) for row, removed, depth in curves if depth is not None]
-    unit = unit_of(max((float(depth.max()) for _, _, depth in curves), default=0))
+    factor, unit = data.scaled("m", max((float(depth.max()) for _, _, depth in curves), default=0))
     made, axes = drawing.figure(len(contours))
     rank = {row["record"].folder.name: i for i, row in enumerate(best)}
     for row, removed, depth in sorted(curves, key=lambda curve: -rank.get(curve[0]["record"].folder.name, 99)):
@@ -49,7 +50,7 @@ def along(view, study, rows, best):
         for panel, contour in zip(axes, removed.contours):
             part = depth[start:start + len(contour.rows)]
             start += len(contour.rows)
-            panel.plot(contour.arc_length * 1e3, part * PREFIX[unit], gid=f"run-{run}",
+            panel.plot(contour.arc_length * 1e3, part * factor, gid=f"run-{run}",
                        **({"color": drawing.LINES[place], "label": label(study, row), "zorder": 3} if place < NAMED else
                           {"color": drawing.PALETTE["wall"], "linewidth": 0.9}))
     for panel, contour in zip(axes, contours):
@@ -61,28 +62,25 @@ def along(view, study, rows, best):
     axes[0].set_ylabel(f"removed depth  [{unit}]")
     if view.wanted:
         for panel in axes:
-            panel.axhline(view.wanted.depth * PREFIX[unit], color=drawing.PALETTE["soft"], linewidth=0.8, linestyle="--")
+            panel.axhline(view.wanted.depth * factor, color=drawing.PALETTE["soft"], linewidth=0.8, linestyle="--")
     handles, labels = axes[0].get_legend_handles_labels()
     axes[-1].legend(handles[::-1], labels[::-1], title="the best, in order", alignment="left", loc="center left",
                     bbox_to_anchor=(1.0, 0.5), labelspacing=0.9)
     return made
 
 
-def unit_of(largest):
-    return next((unit for unit, factor in PREFIX.items() if largest * factor < 1000), "mm")
-
-
 def window(wanted, study, best):
     """Every setting by time and evenness; colour is the pressure."""
     made, (panel,) = drawing.figure()
     pressures = [row["piston_pressure"] for row in best]
-    low, high = (min(pressures), max(pressures)) if np.isfinite(pressures).all() else (0, 1)
+    factor, pressure_label = drawing.scaled("pressure at the piston", "Pa", pressures)
+    scale = matplotlib.colors.Normalize(factor * np.nanmin(pressures), factor * np.nanmax(pressures))
     for row in best:
-        mark = panel.scatter([row["time_needed"]], [row["evenness_then"]], c=[row["piston_pressure"]], vmin=low, vmax=high,
+        mark = panel.scatter([row["time_needed"]], [row["evenness_then"]], c=[row["piston_pressure"] * factor], norm=scale,
                              cmap="viridis", s=46, marker="o" if wanted.met(row) else "X",
                              edgecolors=drawing.PALETTE["ink"], linewidths=0.6, zorder=3)
         mark.set_gid(f"run-{row['record'].folder.name}")
-    panel.set_xscale("log")
+    drawing.logarithmic(panel, "x")
     panel.set_xlabel("time until the wanted depth is reached  [s]")
     panel.set_ylabel("largest depth over mean")
     if math.isfinite(wanted.evenness_at_most):
@@ -90,9 +88,7 @@ def window(wanted, study, best):
     if wanted.met(best[0]):
         panel.annotate(label(study, best[0]), (best[0]["time_needed"], best[0]["evenness_then"]), xytext=(10, 6),
                        textcoords="offset points", fontsize=8.5, color=drawing.PALETTE["ink"])
-    beyond = [row for row in best if not wanted.met(row)]
-    if beyond:
+    if not all(map(wanted.met, best)):
         panel.set_title(f"×: beyond the limits ({wanted.limits()})", fontsize=9)
-    if high > 1:
-        made.colorbar(mark, ax=panel, label=f"pressure at the piston  [Pa], up to {metric(high, 'Pa')}")
+    made.colorbar(mark, ax=panel, label=pressure_label)
     return made

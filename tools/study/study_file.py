@@ -62,6 +62,7 @@ class Study:
     title: str
     case: pathlib.Path
     overrides: dict[str, object]
+    set_line: int | None  # where the file gives them
     keep_frames: bool
     axes: list[Axis]
     metrics: list[Metric]
@@ -98,7 +99,7 @@ def read(path, views=()):
     if head.has("case") and not case.is_file():
         head.fault(f"'case' must be a case file beside the study, found '{case}', which is no file", "case")
     study = Study(path, document.text, head.get("title", str), case, flat(head.get("set", dict, {})),
-                  head.get("keep_frames", bool, False), [], [], [])
+                  document.line(head.path, "set"), head.get("keep_frames", bool, False), [], [], [])
     head.close()
     study.axes = [_axis(table) for table in root.tables("axis")]
     study.metrics = [_metric(table) for table in root.tables("metric")]

@@ -44,7 +44,8 @@ END = 3.0
 times = [END * k / 300 for k in range(301)]
 rows = [f"{t},{values['fluid.x'] + values['fluid.y'] * t},0,{300 * values['fluid.x'] * min(t, 1.5)}" for t in times]
 (out / "fluid.csv").write_text("time[s],speed[m/s],force_from_piston_x[N/m],force_from_piston_y[N/m]\n" + "\n".join(rows))
-(out / "used_case.toml").write_text('[[wall]]\nname = "piston"\nmotion = { time = 0.5 }\n')
+(out / "used_case.toml").write_text('[[wall]]\nname = "piston"\nmotion = { time = 0.5 }\n'
+                                  '[fluid.removal]\nroughness = { initial = 2e-6, final = 5e-7, decay_depth = 1e-5 }\n')
 (out / "fluid_summary.toml").write_text(f"""participant = "fluid"
 exit_code = {code}
 last_words = "{'particle 7 left the domain' if code else ''}"
