@@ -120,14 +120,19 @@ void FluidSolver::fill_walls() {
   for (const auto& wall : scene_.walls) {
     const auto points = fill({wall.box}, {}, parameters_.spacing);
     const std::string place = fmt::format("[[wall]] '{}'", wall.name);
+    const bool on_its_own = wall.motion || wall.work_piece;
     if (points.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
+    if (on_its_own && (wall.name == "walls" || wall.name == "interface"))
+      throw BadInput({{place, 0, 0,
+                       "results call the walls at rest 'walls', the solid 'interface'; this "
+                       "one, a body of its own, needs another name"}});
     if (const auto overlap = taken.take(points, wall.name))
       throw BadInput(
           {{place, 0, 0,
             fmt::format("overlaps the wall '{}' near ({:.6g}, {:.6g}) m: particles of two walls must be "
                         "at least half a spacing apart",
                         overlap->with, overlap->place[0], overlap->place[1])}});
-    if (wall.motion || wall.work_piece)
+    if (on_its_own)
       add(wall.name, points, &wall);
     else
       still.insert(still.end(), points.begin(), points.end());

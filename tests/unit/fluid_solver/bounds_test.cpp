@@ -107,6 +107,21 @@ TEST(Bodies, AreWallsOfSomeParticles) {
   EXPECT_EQ(refusal(setting), "[[wall]] 'thin': error: holds no particle at this spacing");
 }
 
+TEST(Bodies, AreToldApartByName) {
+  Setting setting = one_block();
+  setting.scene.walls = {{"walls", {Vec(-0.1, -0.15), Vec(0.3, 0.0)}, {}}};
+  EXPECT_EQ(refusal(setting), "none");
+  const std::string text =
+      ": error: results call the walls at rest 'walls', the solid 'interface'; this one, a body of its own, "
+      "needs another name";
+  setting.scene.walls[0].work_piece = true;
+  EXPECT_EQ(refusal(setting), "[[wall]] 'walls'" + text);
+  setting.scene.walls[0] = {"interface", setting.scene.walls[0].box, Motion{{{0.0, 1.0, 0.0}}}};
+  EXPECT_EQ(refusal(setting), "[[wall]] 'interface'" + text);
+  setting.scene.walls[0].name = "piston";
+  EXPECT_EQ(refusal(setting), "none");
+}
+
 TEST(Bodies, MustHoldFluid) {
   Setting setting = one_block();
   setting.parameters.holes = {{Vec(-1, -1), Vec(1, 1)}};
