@@ -10,7 +10,6 @@ namespace toryu {
 /// xx, xy, yx, yy.
 template <class T>
 using Tensor = std::array<T, 4>;
-using TensorField = Tensor<Field>;
 
 template <class T>
 Tensor<T> product(const Tensor<T>& a, const Tensor<T>& b) {
@@ -25,13 +24,13 @@ struct Symmetric {
   Tensor<T> full() const { return {xx, xy, xy, yy}; }
 };
 
-inline Tensor<Lanes> load(const TensorField& field, std::size_t first) {
+inline Tensor<Lanes> load(const Tensor<Field>& field, std::size_t first) {
   return {load(field[0], first), load(field[1], first), load(field[2], first), load(field[3], first)};
 }
-inline void store(const Tensor<Lanes>& value, TensorField& field, std::size_t first) {
+inline void store(const Tensor<Lanes>& value, Tensor<Field>& field, std::size_t first) {
   for (std::size_t n = 0; n < value.size(); ++n) store(value[n], field[n], first);
 }
-inline void resize(TensorField& field, std::size_t size) {
+inline void resize(Tensor<Field>& field, std::size_t size) {
   for (auto& component : field) component.resize(size, 0.0);
 }
 

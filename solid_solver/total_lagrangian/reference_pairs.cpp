@@ -59,7 +59,7 @@ void ReferencePairs::displacement_gradient(const VecField& u, std::size_t cluste
   H = product(sum, shape(cluster));
 }
 
-VecLanes ReferencePairs::force_density(const VecField& u, const TensorField& T, double k,
+VecLanes ReferencePairs::force_density(const VecField& u, const Tensor<Field>& T, double k,
                                        std::size_t cluster) const {
   const std::size_t i = cluster * lane_count;
   const VecLanes X_i = load(X_, i), u_i = load(u, i);
@@ -80,7 +80,7 @@ VecLanes ReferencePairs::force_density(const VecField& u, const TensorField& T, 
           f[1] + load(T[2], i) * wX_sum[0] + load(T[3], i) * wX_sum[1] + k * penalty[1]};
 }
 
-Lanes ReferencePairs::unseen_motion(const VecField& u, const TensorField& H, std::size_t cluster) const {
+Lanes ReferencePairs::unseen_motion(const VecField& u, const Tensor<Field>& H, std::size_t cluster) const {
   const std::size_t i = cluster * lane_count;
   const VecLanes X_i = load(X_, i), u_i = load(u, i);
   const Tensor<Lanes> H_i = load(H, i);

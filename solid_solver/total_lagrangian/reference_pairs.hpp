@@ -21,7 +21,7 @@ class ReferencePairs {
 
   /// f_i/V_i = sum_j V_j [(T_i + T_j) gradW_ij + k (u_i - u_j) W'_ij/R_ij]: equal and opposite for a pair.
   /// T [Pa] is any tensor of a particle, k [Pa] the stiffness of the pair penalty.
-  VecLanes force_density(const VecField& u, const TensorField& T, double k, std::size_t cluster) const;
+  VecLanes force_density(const VecField& u, const Tensor<Field>& T, double k, std::size_t cluster) const;
 
   /// sum_j V_j g(x_ij, v_ij) x_ij W'_ij/R_ij: central forces between present positions, for viscosity.
   template <class Central>
@@ -29,7 +29,7 @@ class ReferencePairs {
                                  Central&& g) const;
 
   /// sum_j V_j |u_ij - H_i X_ij|^2 (-W'_ij/R_ij) [1]: what H_i does not see.
-  Lanes unseen_motion(const VecField& u, const TensorField& H, std::size_t cluster) const;
+  Lanes unseen_motion(const VecField& u, const Tensor<Field>& H, std::size_t cluster) const;
 
   Tensor<Lanes> shape(std::size_t cluster) const;  ///< L
 
@@ -38,7 +38,7 @@ class ReferencePairs {
   ClusterList list_;
   std::vector<std::size_t> start_;  ///< of a cluster's weights
   Field weight_;                    ///< V_j W'_ij/R_ij in lanes i, source by source [1/m2]; 0 for i = j
-  TensorField L_;
+  Tensor<Field> L_;
 };
 
 template <class Central>

@@ -51,10 +51,10 @@ class TotalLagrangian final : public SolidModel {
   Field volume_;
   std::unique_ptr<ReferencePairs> pairs_;
   SaintVenantKirchhoff material_;
-  double penalty_;  ///< alpha E [Pa]
-  TensorField H_;   ///< displacement gradient
-  TensorField T_;   ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
-  VecField x_;      ///< present positions, if walls act on the solid [m]
+  double penalty_;   ///< alpha E [Pa]
+  Tensor<Field> H_;  ///< displacement gradient
+  Tensor<Field> T_;  ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
+  VecField x_;       ///< present positions, if walls act on the solid [m]
   double highest_frequency_ = 0;
 };
 

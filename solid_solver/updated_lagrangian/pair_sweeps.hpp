@@ -25,7 +25,7 @@ struct UpdatedState {
 struct UpdatedRates {
   Field rho;           ///< [kg/(m3 s)]
   Symmetric<Field> s;  ///< [Pa/s]
-  TensorField T;       ///< sigma/rho^2, times L if renormalised [m5/(kg s2)]
+  Tensor<Field> T;     ///< sigma/rho^2, times L if renormalised [m5/(kg s2)]
   Symmetric<Field> R;  ///< artificial stress [m5/(kg s2)]
 };
 

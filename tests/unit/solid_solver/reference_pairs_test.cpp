@@ -67,7 +67,7 @@ TEST(ReferencePairs, DisplacementGradientIsThatOfTheFormula) {
 TEST(ReferencePairs, ForceIsThatOfTheFormula) {
   const Five five;
   const ReferencePairs pairs(five.X, five.volume, Five::count, h, strip_width);
-  TensorField T;
+  Tensor<Field> T;
   resize(T, padded(Five::count));
   const auto tensor = [](std::size_t i) {
     Mat value;
@@ -109,7 +109,7 @@ TEST(ReferencePairs, GradientOfALinearDisplacementIsExact) {
 TEST(ReferencePairs, UnseenMotionIsWhatTheGradientLeaves) {
   const Five five;
   const ReferencePairs pairs(five.X, five.volume, Five::count, h, strip_width);
-  TensorField H;
+  Tensor<Field> H;
   resize(H, padded(Five::count));
   for (std::size_t i = 0; i < Five::count; ++i)
     for (std::size_t n = 0; n < 4; ++n)
