@@ -86,11 +86,13 @@ bool DetachmentObserver::look(const std::vector<Vec>& x, double time) {
   return list_.size() > before;
 }
 
-double DetachmentObserver::largest_stretch(const std::vector<Vec>& x) const {
-  double largest = 1.0;
-  for (const auto& [i, j] : adjacent_)
-    largest = std::max(largest, (x[i] - x[j]).norm() / (body_.X[i] - body_.X[j]).norm());
-  return largest;
+Stretches DetachmentObserver::stretches(const std::vector<Vec>& x) const {
+  Stretches found;
+  for (const auto& [i, j] : adjacent_) {
+    const double stretch = (x[i] - x[j]).norm() / (body_.X[i] - body_.X[j]).norm();
+    found = {std::max(found.largest, stretch), std::min(found.smallest, stretch)};
+  }
+  return found;
 }
 
 }  // namespace toryu

@@ -7,6 +7,7 @@
 /// particles that were adjacent.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -25,6 +26,11 @@ struct DetachedParticle {
   Vec position;  ///< when found [m]
 };
 
+struct Stretches {
+  double largest = 1, smallest = 1;
+  double strain() const { return std::max(largest - 1.0, 1.0 - smallest); }
+};
+
 class DetachmentObserver {
  public:
   /// `parameters` are those of a body that has clamps.
@@ -40,7 +46,8 @@ class DetachmentObserver {
   const std::vector<char>& detached() const { return detached_; }
   /// All that have come off so far, each once, in the order of time.
   const std::vector<DetachedParticle>& list() const { return list_; }
-  double largest_stretch(const std::vector<Vec>& x) const;
+  /// Of the pairs that were adjacent, present over initial distance.
+  Stretches stretches(const std::vector<Vec>& x) const;
 
  private:
   std::vector<char> reached_from_clamps(const std::vector<Vec>& x);

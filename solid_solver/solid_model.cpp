@@ -236,7 +236,9 @@ void SolidModel::observe_detachment(std::vector<Observation>& row) const {
   }
   row.push_back({"detached_particles", "1", count});
   row.push_back({"detached_mass", "kg/m", sum});
-  row.push_back({"largest_stretch", "1", detachment_->largest_stretch(positions())});
+  const Stretches stretches = detachment_->stretches(positions());
+  row.push_back({"largest_stretch", "1", stretches.largest});
+  row.push_back({"largest_strain", "1", stretches.strain()});
   row.push_back({"largest_von_mises_stress", "Pa", largest});
 }
 
