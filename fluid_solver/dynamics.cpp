@@ -140,7 +140,8 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity)
     : parameters_(parameters),
       gravity_(gravity),
       kernel_(parameters.h()),
-      state_{parameters.density, parameters.sound_speed, parameters.stiffness_exponent} {
+      state_{parameters.density, parameters.sound_speed, parameters.stiffness_exponent,
+             parameters.background_pressure ? parameters.background_pressure->pressure : 0.0} {
   const double h = parameters.h(), c_0 = parameters.sound_speed;
   if (const auto& d = parameters.density_diffusion) {
     if (d->gradient == DiffusionGradient::renormalised)
@@ -174,7 +175,7 @@ void Dynamics::wall_densities(Boundary& boundary) const {
 #pragma omp for schedule(static)
   for (std::size_t k = 0; k < active.size(); ++k)
     for (std::size_t w = active[k] * lane_count; w < (active[k] + 1) * lane_count; ++w) {
-      boundary.rho[w] = state_.density(std::max(boundary.p[w], -0.5 * state_.p_0()));
+      boundary.rho[w] = state_.density(std::max(boundary.p[w], state_.p_b - 0.5 * state_.p_0()));
       boundary.m[w] = boundary.rho[w] * boundary.V[w];
       boundary.p_rho2[w] = boundary.p[w] / (boundary.rho[w] * boundary.rho[w]);
     }
@@ -294,6 +295,9 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
   terms.push_back(
       {"equation of state", "p = rho_0 c_0^2/gamma [(rho/rho_0)^gamma - 1]", "Monaghan 1994, eq. 3",
        fmt::format("rho_0 {} kg/m3, c_0 {} m/s, gamma {}", state_.rho_0, state_.c_0, state_.gamma)});
+  if (parameters_.background_pressure)
+    terms.push_back({"background pressure", "p_b added to the equation of state",
+                     "Colagrossi, Bouscasse, Antuono & Marrone 2012", fmt::format("p_b {} Pa", state_.p_b)});
   terms.push_back({"continuity", "Drho_i/Dt = rho_i sum_j V_j v_ij . gradW_ij", "eq. 18",
                    fmt::format("cubic spline, h = {:.4g} m = {} d_0", h, parameters_.smoothing_ratio)});
   terms.push_back({"pressure", "- sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2) gradW_ij", "eq. 22", ""});

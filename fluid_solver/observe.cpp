@@ -78,7 +78,7 @@ double FluidSolver::elastic_energy() const {
   for (std::size_t i = 0; i < fluid_.count; ++i) {
     const double ratio = fluid_.rho[i] / s.rho_0;
     const double growth = n > 0 ? (std::pow(ratio, n) - 1) / n : std::log(ratio);
-    sum += fluid_.m[i] * s.p_0() / s.rho_0 * (growth + 1 / ratio - 1);
+    sum += fluid_.m[i] / s.rho_0 * (s.p_0() * (growth + 1 / ratio - 1) + s.p_b * (1 - 1 / ratio));
   }
   return sum;
 }

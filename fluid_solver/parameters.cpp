@@ -29,6 +29,14 @@ void describe(ParameterTable& table, HydrostaticStart& start) {
                {.unit = "m", .required = true, .help = "height of the free surface, against gravity"});
 }
 
+void describe(ParameterTable& table, BackgroundPressure& background) {
+  table.number("pressure", background.pressure,
+               {.unit = "Pa",
+                .minimum = 0,
+                .required = true,
+                .help = "of the medium at rest density; keeps a closed medium from tearing under suction"});
+}
+
 void describe(ParameterTable& table, DensityDiffusion& diffusion) {
   table.number("delta", diffusion.delta,
                {.minimum = 0, .maximum = 1, .help = "coefficient of (18); Marrone et al. 2011 take 0.1"});
@@ -163,6 +171,8 @@ void describe(ParameterTable& table, Parameters& p) {
   table.list("region", p.regions, "where there is fluid at the start");
   table.list("hole", p.holes, "cut out of the regions");
   table.optional("hydrostatic_start", p.hydrostatic_start, "start at rest under gravity");
+  table.optional("background_pressure", p.background_pressure,
+                 "shifts (3); for a medium enclosed on all sides, a free surface would burst");
   table.optional("density_diffusion", p.density_diffusion, "delta-SPH, (18)-(21)");
   table.optional("artificial_viscosity", p.artificial_viscosity, "(23)-(24)");
   table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of a Newtonian medium");

@@ -24,6 +24,12 @@ struct HydrostaticStart {
 };
 void describe(ParameterTable& table, HydrostaticStart& start);
 
+/// The pressure at which a closed medium is held, at rest density [Pa].
+struct BackgroundPressure {
+  double pressure = 0;
+};
+void describe(ParameterTable& table, BackgroundPressure& background);
+
 /// What the linear part of the density is taken from before it is diffused.
 enum class DiffusionGradient { renormalised, none };
 struct DensityDiffusion {
@@ -107,6 +113,7 @@ struct Parameters {
   std::vector<Region> regions;
   std::vector<Box> holes;
   std::optional<HydrostaticStart> hydrostatic_start;
+  std::optional<BackgroundPressure> background_pressure;
   std::optional<DensityDiffusion> density_diffusion;
   std::optional<ArtificialViscosity> artificial_viscosity;
   std::optional<LaminarViscosity> laminar_viscosity;

@@ -1,4 +1,9 @@
-/// Equation of state (3): p = p_0 [(rho/rho_0)^gamma - 1], p_0 = rho_0 c_0^2/gamma (Monaghan 1994).
+/// Equation of state (3): p = p_0 [(rho/rho_0)^gamma - 1] + p_b, p_0 = rho_0 c_0^2/gamma (Monaghan 1994).
+///
+/// The background pressure p_b is 0 unless the case gives one. It stands for the pressure at which a machine
+/// holds its medium: the rest density then belongs to p_b, and the medium falls below p = 0 only where a
+/// suction exceeds it. Numerically, sum_j 2 p_b V_j gradW_ij pushes particles apart where they are crowded, so
+/// that they stay evenly spread (Colagrossi, Bouscasse, Antuono & Marrone 2012).
 #pragma once
 
 #include <cmath>
@@ -10,6 +15,7 @@ namespace toryu::fluid {
 struct EquationOfState {
   double rho_0, c_0;
   int gamma;
+  double p_b = 0;
 
   double p_0() const { return rho_0 * c_0 * c_0 / gamma; }
 
@@ -18,10 +24,10 @@ struct EquationOfState {
     const T ratio = rho * (1.0 / rho_0);
     T power = ratio;
     for (int k = 1; k < gamma; ++k) power *= ratio;
-    return p_0() * (power - 1.0);
+    return p_0() * (power - 1.0) + p_b;
   }
   /// Density at pressure p [Pa].
-  double density(double p) const { return rho_0 * std::pow(p / p_0() + 1.0, 1.0 / gamma); }
+  double density(double p) const { return rho_0 * std::pow((p - p_b) / p_0() + 1.0, 1.0 / gamma); }
 };
 
 }  // namespace toryu::fluid
