@@ -59,6 +59,11 @@ TORYU_INLINE void add_viscous(const auto& term, const Targets& i, const Sources&
   if constexpr (requires { term.viscous(i, s, j, p, r); }) term.viscous(i, s, j, p, r);
 }
 
+TORYU_INLINE void add_at_wall(const auto& term, const Targets& i, const Sources& s, std::size_t j,
+                              const Pair& p, Rates& r) {
+  if constexpr (requires { term.at_wall(i, s, j, p, r); }) term.at_wall(i, s, j, p, r);
+}
+
 Vec lane_sums(const Lanes& m, const VecLanes& after, const VecLanes& before) {
   Vec sum;
   for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * (after[a] - before[a]));
@@ -98,6 +103,7 @@ void rates_of_cluster(const Sweep& sweep, Particles& fluid, const ClusterList& n
       const Pair pair = make_pair(sweep.kernel, i, wall, j);
       (add_density(term, i, wall, j, pair, rates), ...);
       (add_momentum(term, i, wall, j, pair, rates), ...);
+      (add_at_wall(term, i, wall, j, pair, rates), ...);
       if (sweep.viscous_walls) (add_viscous(term, i, wall, j, pair, rates), ...);
     }
     given[b].by_cluster[cluster] = lane_sums(load(fluid.m, first), rates.a, before);
@@ -117,6 +123,7 @@ void reaction_on_cluster(const Sweep& sweep, const Particles& fluid, Boundary& b
   for (const std::uint32_t i : boundary.fluid_near.sources(cluster)) {
     const Pair pair = make_pair(sweep.kernel, w, own, i);
     (add_momentum(term, w, own, i, pair, rates), ...);
+    (add_at_wall(term, w, own, i, pair, rates), ...);
     if (sweep.viscous_walls) (add_viscous(term, w, own, i, pair, rates), ...);
   }
   for (int a = 0; a < dim; ++a) store(load(boundary.m, first) * rates.a[a], boundary.force[a], first);
@@ -152,6 +159,11 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity)
   if (const auto& a = parameters.artificial_viscosity)
     artificial_ = ArtificialViscosityTerm{a->alpha, a->beta, h, c_0};
   if (const auto& l = parameters.laminar_viscosity) viscous_ = LaminarViscosityTerm{l->dynamic_viscosity};
+  if (const auto& r = parameters.wall_repulsion) {
+    const double d_0 = parameters.spacing;
+    repulsion_ = WallRepulsionTerm{r->strength * c_0 * c_0 / (parameters.density * d_0 * d_0 * d_0),
+                                   1 / (r->range * d_0)};
+  }
   if (parameters.power_law) rheology_ = *parameters.power_law;
   if (parameters.carreau) rheology_ = *parameters.carreau;
   if (viscosity_varies()) viscous_ = VariableViscosityTerm{};
@@ -262,7 +274,7 @@ void Dynamics::evaluate(Particles& fluid, const ClusterList& neighbours, std::ve
           rates_of_cluster(sweep, fluid, neighbours, boundaries, given, c, Continuity{}, Pressure{},
                            terms...);
       },
-      diffusion_, artificial_, viscous_);
+      diffusion_, artificial_, viscous_, repulsion_);
   if (!friction_) return;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].is_work_piece()) {
@@ -281,7 +293,7 @@ void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
         for (std::size_t k = 0; k < active.size(); ++k)
           reaction_on_cluster(sweep, fluid, boundary, active[k], Pressure{}, terms...);
       },
-      artificial_, viscous_);
+      artificial_, viscous_, repulsion_);
   react_by_friction(fluid, boundary);
 }
 
@@ -324,6 +336,10 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
         {"Carreau", "eta = eta_inf + (eta_0 - eta_inf) (1 + (lambda gdot)^2)^((n-1)/2)", "Carreau 1972",
          fmt::format("eta_0 {} Pa s, eta_inf {} Pa s, lambda {} s, n {}", law->zero_shear_viscosity,
                      law->infinite_shear_viscosity, law->relaxation_time, law->exponent)});
+  if (const auto& r = parameters_.wall_repulsion)
+    terms.push_back({"wall repulsion", "m_i m_w/(rho_0 d_0^2) B c_0^2/d_0 (1 - r/r_0), r < r_0",
+                     "in the manner of Monaghan & Kajtar 2009",
+                     fmt::format("B {}, r_0 {} d_0", r->strength, r->range)});
   if (friction_)
     terms.push_back({"friction", "F_s = mu_A sum_f V_f max(p_f, 0) d_s v_fs/sqrt(v_fs^2 + eps^2) W_sf",
                      "eq. 33, mended", friction_->parameters()});

@@ -19,6 +19,7 @@
 #include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/terms/rheology.hpp"
 #include "fluid_solver/terms/variable_viscosity.hpp"
+#include "fluid_solver/terms/wall_repulsion.hpp"
 
 namespace toryu::fluid {
 
@@ -71,6 +72,7 @@ class Dynamics {
   std::variant<Absent, DensityDiffusionTerm<false>, DensityDiffusionTerm<true>> diffusion_;
   std::variant<Absent, ArtificialViscosityTerm> artificial_;
   std::variant<Absent, LaminarViscosityTerm, VariableViscosityTerm> viscous_;
+  std::variant<Absent, WallRepulsionTerm> repulsion_;
   std::variant<Absent, PowerLaw, Carreau> rheology_;
   std::optional<WorkPieceFriction> friction_;
 };

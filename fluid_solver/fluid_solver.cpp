@@ -230,12 +230,32 @@ void FluidSolver::advance(double dt) {
     dynamics_.react(fluid_, boundary);
     interface_.add_load(boundary, given_[*interface_boundary_].force(), dt);
   }
+  note_surface(dt);
   const auto timer = timers_.measure("step");
   count_impulses(dt);
   advance_from(start, dt);
   time_ += dt;
   move_boundaries(time_);
   note_extremes();
+}
+
+void FluidSolver::note_surface(double dt) {
+  if (!surface_record_) return;
+  const auto timer = timers_.measure("surface of the work pieces");
+  for (std::size_t b = 0; b < boundaries_.size(); ++b)
+    if (b != interface_boundary_) dynamics_.react_by_friction(fluid_, boundaries_[b]);
+  surface_record_->add(boundaries_, fluid_, dynamics_.kernel(), dt);
+}
+
+void FluidSolver::record_surface(const std::filesystem::path& out) {
+  if (!parameters_.removal) return;
+  surface_record_.emplace(*parameters_.removal);
+  surface_record_->attach(boundaries_);
+  surface_record_->open(out);
+}
+
+void FluidSolver::record(double time) {
+  if (surface_record_) surface_record_->write(time);
 }
 
 /// Counts what the corrector is about to do, so that the sum is the change of momentum to rounding.

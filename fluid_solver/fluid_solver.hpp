@@ -9,6 +9,7 @@
 #include "fluid_solver/dynamics.hpp"
 #include "fluid_solver/interface.hpp"
 #include "fluid_solver/neighbours.hpp"
+#include "fluid_solver/surface_record.hpp"
 
 namespace toryu::fluid {
 
@@ -31,8 +32,13 @@ class FluidSolver : public Solver {
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;
+  /// A row of surface.h5, where `record_surface` was called.
+  void record(double time) override;
   std::vector<ActiveTerm> active_terms() const override { return dynamics_.active_terms(); }
   std::size_t particle_count() const override { return fluid_.count; }
+
+  /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.
+  void record_surface(const std::filesystem::path& out);
 
   // the coupled run's side
   /// How far the kernel sees [m].
@@ -58,6 +64,7 @@ class FluidSolver : public Solver {
   void check_overlaps() const;
   void move_boundaries(double time);
   void advance_from(const Step& start, double dt);
+  void note_surface(double dt);
   void count_impulses(double dt);
   void note_extremes();
   [[noreturn]] void fail(std::size_t particle, double time, const std::string& quantity, double value,
@@ -78,6 +85,7 @@ class FluidSolver : public Solver {
   };
   std::vector<Impulse> impulses_;
   Vec gravity_impulse_ = Vec::Zero();
+  std::optional<SurfaceRecord> surface_record_;
   std::optional<std::size_t> interface_boundary_;
   MovingInterface interface_;
   double time_ = 0;

@@ -28,6 +28,7 @@ RunRecord::Counts particle_counts(const FluidSolver& solver) {
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
+  solver.record_surface(options.out);
   RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
   run_recorded(record, [&] { run_alone(scene, solver, record, 1); });
 }
@@ -61,6 +62,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     throw;
   }
   const double joined = link.waiting_time();  // the record's time begins now
+  solver.record_surface(options.out);
   RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
   run_recorded(
       record, [&] { take_turns(link, solver, record); }, [&] { link.leave(); },

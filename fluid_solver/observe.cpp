@@ -115,6 +115,8 @@ std::vector<Observation> FluidSolver::observe() const {
   for (const auto& observer : parameters_.observers)
     row.push_back(toryu::fluid::observe(observer, fluid_, parameters_.spacing, dynamics_.kernel(),
                                         dynamics_.equation_of_state()));
+  if (surface_record_)
+    for (const auto& observation : surface_record_->observe()) row.push_back(observation);
   return row;
 }
 

@@ -110,6 +110,45 @@ void describe(ParameterTable& table, Friction& friction) {
                 .help = "below about this sliding speed friction is a linear drag; 0: c_0/1000"});
 }
 
+void describe(ParameterTable& table, WallRepulsion& repulsion) {
+  table.number(
+      "strength", repulsion.strength,
+      {.minimum = 0, .maximum = 10, .help = "B, of the order of 1: the stiffness of the fluid itself"});
+  table.number(
+      "range", repulsion.range,
+      {.minimum = 0.1, .maximum = 1.0, .help = "r_0/d_0 below which it is felt; a corner lies 0.71 away"});
+}
+
+void describe(ParameterTable& table, Archard& law) {
+  table.number("wear_coefficient", law.wear_coefficient,
+               {.minimum = 0, .required = true, .help = "K of dh/dt = (K/H) p v (Archard 1953)"});
+  table.number(
+      "hardness", law.hardness,
+      {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = true, .help = "H of the work piece"});
+}
+
+void describe(ParameterTable& table, Roughness& roughness) {
+  table.number("initial", roughness.initial,
+               {.unit = "m", .minimum = 0, .required = true, .help = "Ra at the start"});
+  table.number("final", roughness.final,
+               {.unit = "m", .minimum = 0, .required = true, .help = "Ra that the grain leaves in the end"});
+  table.number("decay_depth", roughness.decay_depth,
+               {.unit = "m",
+                .minimum = 0,
+                .above_minimum = true,
+                .required = true,
+                .help = "removed depth after which Ra - Ra_final has fallen to 1/e"});
+}
+
+void describe(ParameterTable& table, Removal& removal) {
+  table.number("preston_coefficient", removal.preston_coefficient,
+               {.unit = "1/Pa", .minimum = 0, .help = "k of dh/dt = k p v (Preston 1927); 0: not used"});
+  table.optional("archard", removal.archard, "Archard's law beside or instead of Preston's");
+  table.optional("roughness", removal.roughness, "decay of the roughness with the removed depth");
+  table.require(removal.preston_coefficient > 0 || removal.archard, "preston_coefficient",
+                "[fluid.removal] needs a preston_coefficient or [fluid.removal.archard]");
+}
+
 void describe(ParameterTable& table, WallModel& model) {
   table.choice("slip", model.slip, {"no_slip", "free_slip"},
                {.help = "whether viscous terms act at walls (28)"});
@@ -179,6 +218,8 @@ void describe(ParameterTable& table, Parameters& p) {
   table.optional("power_law", p.power_law, "viscosity of a medium that thins or thickens under shear");
   table.optional("carreau", p.carreau, "the same between two plateaus (Carreau 1972)");
   table.optional("friction", p.friction, "of the abrasive on the work pieces, (33)");
+  table.optional("wall_repulsion", p.wall_repulsion, "keeps particles off the sharp corners of walls");
+  table.optional("removal", p.removal, "what comes off the work pieces; writes surface.h5");
   table.group("wall_model", p.wall_model, "how walls act on the fluid, (27)-(29)");
   table.group("limits", p.limits, "bounds of physics");
   table.list("observer", p.observers, "numbers reported over time in fluid.csv");

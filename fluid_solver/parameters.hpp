@@ -75,6 +75,36 @@ struct Friction {
 };
 void describe(ParameterTable& table, Friction& friction);
 
+/// Keeps particles from cutting the corners of walls, see terms/wall_repulsion.hpp.
+struct WallRepulsion {
+  double strength = 1.0;  ///< B
+  double range = 0.8;     ///< r_0/d_0
+};
+void describe(ParameterTable& table, WallRepulsion& repulsion);
+
+/// Wear by Archard (1953): depth = K/H times the integral of p v dt.
+struct Archard {
+  double wear_coefficient = 0;  ///< K
+  double hardness = 0;          ///< H of the work piece [Pa]
+};
+void describe(ParameterTable& table, Archard& law);
+
+/// Decay of the roughness where material comes off: Ra = final + (initial - final) exp(-depth/decay_depth).
+/// Where each cycle removes the same depth this is the Ra(n) = Ra_f + (Ra_0 - Ra_f) exp(-k n) that is fitted
+/// to experiments, k = depth per cycle/decay_depth.
+struct Roughness {
+  double initial = 0, final = 0, decay_depth = 0;  ///< [m]
+};
+void describe(ParameterTable& table, Roughness& roughness);
+
+/// What comes off the work pieces. One law gives the depth; with both, Preston's counts.
+struct Removal {
+  double preston_coefficient = 0;  ///< k of dh/dt = k p v (Preston 1927) [1/Pa]; 0: not used
+  std::optional<Archard> archard;
+  std::optional<Roughness> roughness;
+};
+void describe(ParameterTable& table, Removal& removal);
+
 enum class WallSlip { no_slip, free_slip };
 enum class WallDensity { rest, from_pressure };
 struct WallModel {
@@ -120,6 +150,8 @@ struct Parameters {
   std::optional<PowerLaw> power_law;
   std::optional<Carreau> carreau;
   std::optional<Friction> friction;
+  std::optional<WallRepulsion> wall_repulsion;
+  std::optional<Removal> removal;
   WallModel wall_model;
   Limits limits;
   std::vector<Observer> observers;

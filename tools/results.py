@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 PARTICIPANTS = ("fluid", "solid", "coupler")
 # All that the programs and the report write into a results folder; nothing else there is ever removed.
-WRITTEN = ["used_case.toml", "log.txt", "interface.h5", "detached.csv", "report.html"]
+WRITTEN = ["used_case.toml", "log.txt", "interface.h5", "surface.h5", "detached.csv", "report.html"]
 WRITTEN += [pattern.format(p) for p in PARTICIPANTS
             for pattern in ("{}.csv", "{}.hdf.series", "{}_summary.toml", "frames/{}_??????.hdf")]
 

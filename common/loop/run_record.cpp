@@ -15,7 +15,7 @@ bool Schedule::reached(double time) {
 }
 
 RunRecord::RunRecord(const std::string& participant, const Options& options, const Scene& scene,
-                     const Solver& solver, const Counts& counts, const Timers& timers)
+                     Solver& solver, const Counts& counts, const Timers& timers)
     : solver_(solver),
       solver_timers_(timers),
       out_(options.out),
@@ -45,6 +45,7 @@ void RunRecord::at(double time) {
   if (series_due_.reached(time) || every_step_) {
     const auto scope = timers_.measure("series");
     series_.write(time, solver_.observe());
+    solver_.record(time);
   }
   if (frames_due_.reached(time)) {
     const auto scope = timers_.measure("frames");

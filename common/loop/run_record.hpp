@@ -33,7 +33,7 @@ class RunRecord {
   using Counts = std::vector<std::pair<std::string, long>>;
   /// `participant` is "fluid" or "solid"; `counts` says how many particles each body holds; `timers` are the
   /// solver's own.
-  RunRecord(const std::string& participant, const Options& options, const Scene& scene, const Solver& solver,
+  RunRecord(const std::string& participant, const Options& options, const Scene& scene, Solver& solver,
             const Counts& counts, const Timers& timers);
 
   /// Checks the state at `time` [s], and writes what is due.
@@ -48,7 +48,7 @@ class RunRecord {
 
  private:
   using Clock = std::chrono::steady_clock;
-  const Solver& solver_;
+  Solver& solver_;
   const Timers& solver_timers_;
   std::filesystem::path out_;
   FrameWriter frames_;

@@ -57,6 +57,8 @@ class Solver {
   virtual Frame frame() const = 0;
   /// Energies, momentum, observers; the same names in the same order at each call.
   virtual std::vector<Observation> observe() const = 0;
+  /// Adds rows to files of the solver's own, as often as the series.
+  virtual void record(double /*time*/) {}
   virtual std::vector<ActiveTerm> active_terms() const = 0;
   virtual std::size_t particle_count() const = 0;
 };

@@ -2,8 +2,8 @@
 ///
 /// The background pressure p_b is 0 unless the case gives one. It stands for the pressure at which a machine
 /// holds its medium: the rest density then belongs to p_b, and the medium falls below p = 0 only where a
-/// suction exceeds it. Numerically, sum_j 2 p_b V_j gradW_ij pushes particles apart where they are crowded, so
-/// that they stay evenly spread (Colagrossi, Bouscasse, Antuono & Marrone 2012).
+/// suction exceeds it. Numerically, sum_j 2 p_b V_j gradW_ij pushes particles apart where they are crowded,
+/// so that they stay evenly spread (Colagrossi, Bouscasse, Antuono & Marrone 2012).
 #pragma once
 
 #include <cmath>

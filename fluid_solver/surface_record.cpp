@@ -1,0 +1,147 @@
+#include "fluid_solver/surface_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace toryu::fluid {
+
+namespace {
+
+constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+/// Below this sum of V_f W_sf (0.25 at a plane interface) there is no contact to speak of.
+constexpr double least_contact_sum = 1e-3;
+
+/// Kernel means about one surface particle.
+struct Contact {
+  double pressure = 0;         ///< [Pa]
+  Vec velocity = Vec::Zero();  ///< of the medium against the surface [m/s]
+};
+
+Contact contact_of(const Boundary& surface, std::size_t k, const Particles& fluid,
+                   const CubicSpline& kernel) {
+  const Vec x_s = at(surface.x, k), v_s = at(surface.v, k);
+  Contact mean;
+  double sum = 0;
+  for (const std::uint32_t f : surface.fluid_near.sources(k / lane_count)) {
+    const double r = (at(fluid.x, f) - x_s).norm();
+    if (r >= kernel.support()) continue;
+    const double V_W = fluid.V[f] * kernel.value(r);
+    sum += V_W;
+    mean.pressure += V_W * std::max(fluid.p[f], 0.0);
+    mean.velocity += V_W * (at(fluid.v, f) - v_s);
+  }
+  if (sum < least_contact_sum) return {};
+  mean.pressure /= sum;
+  mean.velocity /= sum;
+  return mean;
+}
+
+}  // namespace
+
+void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
+  place_.assign(boundaries.size(), {});
+  std::uint32_t work_piece = 0;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    const Boundary& body = boundaries[b];
+    if (!body.is_work_piece()) continue;
+    names_ += (names_.empty() ? "" : ";") + body.name;
+    std::vector<std::size_t> slot(
+        body.count);  // by id, so that the record has one order however particles are sorted
+    for (std::size_t k = 0; k < body.count; ++k) slot[body.id[k]] = k;
+    place_[b].assign(body.count, none);
+    for (std::size_t id = 0; id < body.count; ++id) {
+      const Vec A = at(body.area_vector, slot[id]), x = at(body.x, slot[id]);
+      if (A.isZero(0)) continue;
+      place_[b][id] = static_cast<std::uint32_t>(size());
+      work_piece_.push_back(work_piece);
+      area_.push_back(A.norm());
+      const Vec n = A.normalized();
+      normal_.insert(normal_.end(), n.begin(), n.end());
+      position_.insert(position_.end(), x.begin(), x.end());
+    }
+    ++work_piece;
+  }
+  for (auto* sum : {&pressure_, &speed_, &friction_work_, &sliding_pressure_}) sum->assign(size(), 0.0);
+  traction_.assign(dim * size(), 0.0);
+}
+
+void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid,
+                        const CubicSpline& kernel, double dt) {
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    const Boundary& body = boundaries[b];
+    if (place_[b].empty()) continue;
+    const bool rubbed = !body.friction_force[0].empty();
+    for (std::size_t k = 0; k < body.count; ++k) {
+      const std::uint32_t s = place_[b][body.id[k]];
+      if (s == none) continue;
+      const Contact contact = contact_of(body, k, fluid, kernel);
+      const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
+      const double sliding = (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
+      pressure_[s] += contact.pressure * dt;
+      speed_[s] += sliding * dt;
+      sliding_pressure_[s] += contact.pressure * sliding * dt;
+      if (!rubbed) continue;
+      const Vec tau = at(body.friction_force, k) / area_[s];
+      Eigen::Map<Vec>(&traction_[dim * s]) += tau * dt;
+      friction_work_[s] += tau.dot(contact.velocity) * dt;
+    }
+  }
+  since_row_ += dt;
+}
+
+void SurfaceRecord::open(const std::filesystem::path& out) {
+  file_ = std::make_unique<HdfSeriesFile>(out / "surface.h5");
+  const hsize_t count = size();
+  file_->constant("start_position", "m", {count, dim}, position_);
+  file_->constant("normal", "1", {count, dim}, normal_);
+  file_->constant("area", "m", {count}, area_);
+  file_->constant("work_piece", "1", {count}, std::span<const std::uint32_t>(work_piece_));
+  file_->attribute("work_piece", "names", names_);
+  file_->series("time", "s", {});
+  file_->series("contact_pressure", "Pa", {count});
+  file_->series("sliding_speed", "m/s", {count});
+  file_->series("friction_traction", "Pa", {count, dim});
+  file_->series("friction_work", "J/m2", {count});
+  file_->series("sliding_pressure", "Pa.m", {count});
+  if (removal_.preston_coefficient > 0) file_->series("preston_depth", "m", {count});
+  if (removal_.archard) file_->series("archard_depth", "m", {count});
+}
+
+void SurfaceRecord::write(double time) {
+  const auto scaled = [](std::vector<double> values, double factor) {
+    for (double& value : values) value *= factor;
+    return values;
+  };
+  const double share = since_row_ > 0 ? 1 / since_row_ : 0.0;
+  const auto p = scaled(pressure_, share), v = scaled(speed_, share), tau = scaled(traction_, share);
+  const auto preston = scaled(sliding_pressure_, removal_.preston_coefficient);
+  const auto archard = scaled(sliding_pressure_, archard_rate());
+  // the last two, as many of them as there are laws
+  const double* first_law = removal_.preston_coefficient > 0 ? preston.data() : archard.data();
+  file_->append({&time, p.data(), v.data(), tau.data(), friction_work_.data(), sliding_pressure_.data(),
+                 first_law, archard.data()});
+  for (auto* sum : {&pressure_, &speed_, &traction_}) std::fill(sum->begin(), sum->end(), 0.0);
+  since_row_ = 0;
+}
+
+std::vector<Observation> SurfaceRecord::observe() const {
+  double surface = 0, removed = 0, largest = 0, rough = 0;
+  const auto& ra = removal_.roughness;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const double h = depth(k);
+    surface += area_[k];
+    removed += area_[k] * h;
+    largest = std::max(largest, h);
+    if (ra) rough += area_[k] * (ra->final + (ra->initial - ra->final) * std::exp(-h / ra->decay_depth));
+  }
+  if (surface == 0) surface = 1;  // nothing to wear
+  std::vector<Observation> row{{"removed_depth_mean", "m", removed / surface},
+                               {"removed_depth_largest", "m", largest},
+                               {"removed_area", "m2", removed}};
+  if (ra) row.push_back({"roughness_mean", "m", rough / surface});
+  return row;
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,65 @@
+/// What the medium does to the surface of the work pieces, particle by particle: contact, sliding and what
+/// comes off, recorded over time in `surface.h5`.
+///
+/// Of the fluid within the kernel's reach, at each surface particle s of area A_s and outward normal n_s:
+///
+///     p_s = sum_f V_f max(p_f, 0) W_sf / sum_f V_f W_sf                         contact pressure
+///     v_s = |mean of v_f - v_s, less its part along n_s|                        sliding speed
+///     tau_s = F_s/A_s, F_s the friction force (33); dw/dt = tau_s . (mean of v_f - v_s)      friction work
+///     dh/dt = k p_s v_s (Preston 1927), (K/H) p_s v_s (Archard 1953)            removed depth
+///
+/// The surface stays where it is: depths are far below a particle's spacing.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "common/output/hdf5_series.hpp"
+#include "common/run/solver.hpp"
+#include "fluid_solver/boundary.hpp"
+#include "fluid_solver/parameters.hpp"
+
+namespace toryu::fluid {
+
+class SurfaceRecord {
+ public:
+  explicit SurfaceRecord(const Removal& removal) : removal_(removal) {}
+
+  /// Takes the particles with a face (area > 0) of the work pieces among `boundaries`, as they stand.
+  void attach(const std::vector<Boundary>& boundaries);
+  /// Adds a step of `dt` [s] with the fluid and friction forces of its last evaluation.
+  void add(const std::vector<Boundary>& boundaries, const Particles& fluid, const CubicSpline& kernel,
+           double dt);
+  /// Makes `out`/surface.h5.
+  void open(const std::filesystem::path& out);
+  /// Appends a row: means since the last one, and the sums so far.
+  void write(double time);
+
+  std::size_t size() const { return area_.size(); }
+  /// Depth removed so far from surface particle k, by the law that counts [m].
+  double depth(std::size_t k) const { return wear_rate() * sliding_pressure_[k]; }
+  /// Removed depth (mean over the surface, largest) [m], area [m2 per metre depth], roughness [m].
+  std::vector<Observation> observe() const;
+
+ private:
+  /// Depth [m] per integral of p v dt [Pa m].
+  double wear_rate() const {
+    return removal_.preston_coefficient > 0 ? removal_.preston_coefficient : archard_rate();
+  }
+  double archard_rate() const {
+    return removal_.archard ? removal_.archard->wear_coefficient / removal_.archard->hardness : 0.0;
+  }
+
+  Removal removal_;
+  std::string names_;  ///< of the work pieces, joined by ";"
+  std::vector<std::uint32_t> work_piece_;
+  std::vector<std::vector<std::uint32_t>> place_;  ///< by boundary: id -> place here, or `none`
+  std::vector<double> position_, normal_, area_;
+  // integrals over time: since the last row, and since the start
+  std::vector<double> pressure_, speed_, traction_;       ///< [Pa s], [m], [Pa s]
+  std::vector<double> friction_work_, sliding_pressure_;  ///< [J/m2], [Pa m]
+  double since_row_ = 0;
+  std::unique_ptr<HdfSeriesFile> file_;
+};
+
+}  // namespace toryu::fluid
