@@ -8,6 +8,7 @@
 #include "fluid_solver/terms/laminar_viscosity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/terms/variable_viscosity.hpp"
+#include "fluid_solver/terms/wall_repulsion.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 
 namespace toryu::fluid {
@@ -225,6 +226,23 @@ TEST(EquationOfState, IsEquation3AndItsInverse) {
     EXPECT_NEAR(state.pressure(rho), p, 1e-12 * std::abs(p));
     EXPECT_NEAR(state.density(p), rho, 1e-12 * rho);
   }
+}
+
+TEST(EquationOfState, HoldsTheRestDensityAtTheBackgroundPressure) {
+  const EquationOfState state{1000, 20, 7, 300};
+  EXPECT_DOUBLE_EQ(state.pressure(1000.0), 300);
+  EXPECT_DOUBLE_EQ(state.density(300), 1000);
+  EXPECT_NEAR(state.density(state.pressure(980.0)), 980, 1e-10);
+}
+
+TEST(WallRepulsion, IsThePrintedForceWithinItsRangeAndKeepsMomentum) {
+  const double d_0 = 0.1, r_0 = 0.8 * d_0, B = 2, c_0 = 20, rho_0 = 1000;
+  const WallRepulsionTerm term{B * c_0 * c_0 / (rho_0 * d_0 * d_0 * d_0), 1 / r_0};
+  const auto add = [&](auto&&... a) { term.at_wall(a...); };
+  const Point i{{0.03, 0.04}, {0, 0}, 1000, 9}, w{{0, 0}, {0, 0}, 1000, 10}, beyond{{0.03, -0.05}, {0, 0}};
+  const double r = 0.05, a = w.m / (rho_0 * d_0 * d_0) * B * c_0 * c_0 / d_0 * (1 - r / r_0);
+  expect_near(first_lane(sum_over(i, {w, beyond}, kernel, add).a), a * Vec(0.6, 0.8));
+  EXPECT_LT(unbalance(i, w, add), 1e-14);
 }
 
 TEST(EquationOfState, HasTheSoundSpeedAsTheSlopeOfPressure) {

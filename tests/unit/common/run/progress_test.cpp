@@ -39,7 +39,7 @@ TEST(Progress, RewritesItsLineOnATerminal) {
   dup2(terminal, STDERR_FILENO);
   {
     Progress progress(1, "window");
-    progress.update(0.1, 1);  // too early for a line
+    progress.update(0.1, 1);  // too early for a line, unless the machine is very busy
     usleep(250000);
     progress.update(0.5, 2);
     progress.update(1, 3);
@@ -48,7 +48,7 @@ TEST(Progress, RewritesItsLineOnATerminal) {
   char buffer[1000] = {};
   ASSERT_GT(read(controller, buffer, sizeof buffer - 1), 0);
   EXPECT_THAT(std::string(buffer),
-              testing::MatchesRegex("\rt 0.5.*windows/s.*\x1b\\[K\rt 1.0.*\x1b\\[K\r\n"));
+              testing::MatchesRegex("(\rt 0.1.*)?\rt 0.5.*windows/s.*\x1b\\[K\rt 1.0.*\x1b\\[K\r\n"));
   for (const int descriptor : {controller, terminal, standard_error}) close(descriptor);
 }
 

@@ -1,0 +1,149 @@
+// What is recorded of a work piece's surface, by sums worked by hand.
+#include "fluid_solver/surface_record.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "tests/unit/fluid_solver/scenes.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+constexpr double d_0 = 0.1, h = 1.2 * d_0, dt = 0.01;
+const CubicSpline kernel(h);
+
+struct Medium {
+  Vec x, v;
+  double p, V;
+};
+
+/// A surface particle at the origin that looks upwards, one inside below it, and the medium above.
+struct Contacting {
+  explicit Contacting(const std::vector<Medium>& medium, const Vec& surface_velocity = Vec::Zero(),
+                      const Vec& friction_force = Vec::Zero()) {
+    Boundary& body = boundaries.emplace_back();
+    body.name = "piece";
+    body.place({Vec(0, 0), Vec(0, -d_0)}, {d_0 * d_0, d_0 * d_0}, 1000, 0.3);
+    body.make_work_piece({Vec(0, d_0), Vec(0, 0)});
+    resize(body.friction_force, padded(body.count));
+    body.move([&](std::uint32_t id) {
+      return Kinematics{Vec(0, id == 0 ? 0.0 : -d_0), surface_velocity, Vec::Zero()};
+    });
+    for (std::size_t k = 0; k < body.count; ++k)
+      if (body.id[k] == 0) set(body.friction_force, k, friction_force);
+    fluid.count = medium.size();
+    for (auto* field : {&fluid.x, &fluid.v}) resize(*field, padded(fluid.count));
+    for (auto* field : {&fluid.p, &fluid.V}) field->resize(padded(fluid.count), 0.0);
+    for (std::size_t k = 0; k < medium.size(); ++k) {
+      set(fluid.x, k, medium[k].x);
+      set(fluid.v, k, medium[k].v);
+      fluid.p[k] = medium[k].p;
+      fluid.V[k] = medium[k].V;
+    }
+    StripOrder strips(10);
+    strips.index(fluid.x[0], fluid.count);
+    body.fluid_near.build(body.x, body.count, fluid.x, strips, 2 * h);
+  }
+  std::map<std::string, double> after(const Removal& removal, int steps = 1) {
+    SurfaceRecord record(removal);
+    record.attach(boundaries);
+    EXPECT_EQ(record.size(), 1u);  // the particle inside has no face
+    for (int n = 0; n < steps; ++n) record.add(boundaries, fluid, kernel, dt);
+    std::map<std::string, double> values;
+    for (const auto& observation : record.observe()) values[observation.name] = observation.value;
+    values["area_of_record"] = record.depth(0);
+    return values;
+  }
+  std::vector<Boundary> boundaries;
+  Particles fluid;
+};
+
+const Removal preston{.preston_coefficient = 1e-6, .archard = {}, .roughness = {}};
+
+TEST(SurfaceRecord, PrestonTakesPressureTimesSlidingSpeed) {
+  Contacting one({{Vec(0, 0.08), Vec(3, 0.7), 50, 0.01}});
+  EXPECT_NEAR(one.after(preston)["removed_depth_mean"], 1e-6 * 50 * 3 * dt,
+              1e-15);  // 0.7 is along the normal
+  EXPECT_NEAR(one.after(preston, 4)["removed_depth_largest"], 4 * 1e-6 * 50 * 3 * dt, 1e-15);
+  EXPECT_NEAR(one.after(preston)["removed_area"], d_0 * 1e-6 * 50 * 3 * dt, 1e-16);
+}
+
+TEST(SurfaceRecord, MeansAreWeightedByVolumeAndKernel) {
+  const Medium near{Vec(0, 0.06), Vec(2, 0), 40, 0.01}, far{Vec(0.12, 0.12), Vec(5, 0), 100, 0.02};
+  const double w_near = 0.01 * kernel.value(0.06), w_far = 0.02 * kernel.value(0.12 * std::sqrt(2.0));
+  const double p = (w_near * 40 + w_far * 100) / (w_near + w_far),
+               v = (w_near * 2 + w_far * 5) / (w_near + w_far);
+  EXPECT_NEAR(Contacting({near, far}).after(preston)["removed_depth_mean"], 1e-6 * p * v * dt, 1e-15);
+}
+
+TEST(SurfaceRecord, SlidingIsRelativeToTheSurface) {
+  Contacting same({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}}, Vec(3, 0));
+  EXPECT_NEAR(same.after(preston)["removed_depth_mean"], 0, 1e-18);
+}
+
+TEST(SurfaceRecord, NothingComesOffUnderSuctionOrWithoutContact) {
+  EXPECT_EQ(Contacting({{Vec(0, 0.08), Vec(3, 0), -50, 0.01}}).after(preston)["removed_depth_mean"], 0);
+  EXPECT_EQ(Contacting({{Vec(0, 0.24), Vec(3, 0), 50, 0.01}}).after(preston)["removed_depth_mean"], 0);
+}
+
+TEST(SurfaceRecord, ArchardCountsWherePrestonIsNotGiven) {
+  const Removal archard{.preston_coefficient = 0, .archard = Archard{2e-3, 4e8}, .roughness = {}};
+  Contacting one({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}});
+  EXPECT_NEAR(one.after(archard)["removed_depth_mean"], 2e-3 / 4e8 * 50 * 3 * dt, 1e-20);
+}
+
+TEST(SurfaceRecord, RoughnessDecaysWithTheDepth) {
+  const double depth = 1e-6 * 50 * 3 * dt;
+  Removal removal = preston;
+  removal.roughness = Roughness{.initial = 2e-6, .final = 0.5e-6, .decay_depth = depth};
+  Contacting one({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}});
+  EXPECT_NEAR(one.after(removal)["roughness_mean"], 0.5e-6 + 1.5e-6 * std::exp(-1), 1e-15);
+  EXPECT_NEAR(one.after(removal, 3)["roughness_mean"], 0.5e-6 + 1.5e-6 * std::exp(-3), 1e-15);
+}
+
+/// Rows of a dataset of surface.h5.
+std::vector<double> read(const std::filesystem::path& path, const std::string& name) {
+  const HdfHandle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
+  const HdfHandle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+  const HdfHandle space(H5Dget_space(dataset), H5Sclose, name);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  return values;
+}
+
+TEST(SurfaceRecord, FileHasMeansSinceTheLastRowAndSumsSinceTheStart) {
+  const auto out = std::filesystem::path(testing::TempDir()) / "surface_record";
+  std::filesystem::create_directories(out);
+  Contacting one({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}}, Vec::Zero(), Vec(0.02, 0));
+  {
+    SurfaceRecord record(preston);
+    record.attach(one.boundaries);
+    record.open(out);
+    record.write(0);
+    for (int n = 0; n < 2; ++n) record.add(one.boundaries, one.fluid, kernel, dt);
+    record.write(2 * dt);
+    record.add(one.boundaries, one.fluid, kernel, dt);
+    record.write(3 * dt);
+  }
+  const auto path = out / "surface.h5";
+  using testing::DoubleNear;
+  using testing::ElementsAre;
+  const auto near = [](double value) { return DoubleNear(value, 1e-12 * std::max(1.0, std::abs(value))); };
+  EXPECT_THAT(read(path, "time"), ElementsAre(0, 2 * dt, 3 * dt));
+  EXPECT_THAT(read(path, "contact_pressure"), ElementsAre(0, near(50), near(50)));
+  EXPECT_THAT(read(path, "sliding_speed"), ElementsAre(0, near(3), near(3)));
+  EXPECT_THAT(read(path, "friction_traction"), ElementsAre(0, 0, near(0.2), 0, near(0.2), 0));  // F_s/A_s
+  EXPECT_THAT(read(path, "friction_work"), ElementsAre(0, near(0.2 * 3 * 2 * dt), near(0.2 * 3 * 3 * dt)));
+  EXPECT_THAT(read(path, "sliding_pressure"), ElementsAre(0, near(150 * 2 * dt), near(150 * 3 * dt)));
+  EXPECT_THAT(read(path, "preston_depth"),
+              ElementsAre(0, near(1e-6 * 150 * 2 * dt), near(1e-6 * 150 * 3 * dt)));
+  EXPECT_THAT(read(path, "normal"), ElementsAre(0, 1));
+  EXPECT_THAT(read(path, "area"), ElementsAre(d_0));
+}
+
+}  // namespace
+}  // namespace toryu::fluid
