@@ -236,11 +236,11 @@ TEST(EquationOfState, HoldsTheRestDensityAtTheBackgroundPressure) {
 }
 
 TEST(WallRepulsion, IsThePrintedForceWithinItsRangeAndKeepsMomentum) {
-  const double d_0 = 0.1, r_0 = 0.8 * d_0, B = 2, c_0 = 20, rho_0 = 1000;
-  const WallRepulsionTerm term{B * c_0 * c_0 / (rho_0 * d_0 * d_0 * d_0), 1 / r_0};
+  const double d_0 = 0.1, r_0 = 0.8 * d_0, B = 2, c = 20, rho_0 = 1000;
+  const WallRepulsionTerm term{B * c * c / (rho_0 * d_0 * d_0 * d_0), 1 / r_0};
   const auto add = [&](auto&&... a) { term.at_wall(a...); };
   const Point i{{0.03, 0.04}, {0, 0}, 1000, 9}, w{{0, 0}, {0, 0}, 1000, 10}, beyond{{0.03, -0.05}, {0, 0}};
-  const double r = 0.05, a = w.m / (rho_0 * d_0 * d_0) * B * c_0 * c_0 / d_0 * (1 - r / r_0);
+  const double r = 0.05, a = w.m / (rho_0 * d_0 * d_0) * B * c * c / d_0 * (1 - r / r_0);
   expect_near(first_lane(sum_over(i, {w, beyond}, kernel, add).a), a * Vec(0.6, 0.8));
   EXPECT_LT(unbalance(i, w, add), 1e-14);
 }
