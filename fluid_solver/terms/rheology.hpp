@@ -1,12 +1,11 @@
 /// Generalised Newtonian media: the viscosity eta [Pa s] as a function of the shear rate gdot [1/s].
 ///
-///     power law (Ostwald 1925, de Waele 1923):  eta = m gdot^(n-1), kept between two bounds
-///     Carreau (1972):                           eta = eta_inf + (eta_0 - eta_inf) (1 + (lambda
-///     gdot)^2)^((n-1)/2)
+///     power law:  eta = m gdot^(n-1), kept between two bounds        (Ostwald 1925, de Waele 1923)
+///     Carreau:    eta = eta_inf + (eta_0 - eta_inf) (1 + (lambda gdot)^2)^((n-1)/2)  (Carreau 1972)
 ///
-/// n < 1 thins under shear, n = 1 is Newtonian. Media of abrasive flow machining have n of 0.2 to 0.8 and 10
-/// to 1e4 Pa s. The power law alone has no viscosity at rest (n < 1) or none but zero (n > 1): its bounds
-/// stand for the plateaus that real media have; the largest also sets the time step.
+/// n < 1 thins under shear, n = 1 is Newtonian, n > 1 thickens. Media of abrasive flow machining thin, at 10
+/// to 1e4 Pa s. Without bounds the power law's viscosity at rest would be infinite (n < 1) or zero (n > 1):
+/// the bounds stand for the plateaus that real media have, and the largest limits the time step.
 #pragma once
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "fluid_solver/terms/rheology.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <numeric>
 
@@ -178,6 +179,18 @@ TEST(ThinningFluid, HasTheViscosityOfItsShearRateAndShowsBoth) {
     largest = std::max(largest, f.gdot[i]);
   }
   EXPECT_GT(largest, 1);
+}
+
+TEST(ThinningFluid, GivesTheSameBitsForAnyNumberOfThreads) {
+  std::vector<std::vector<Vec>> x;
+  for (const int threads : {1, 2}) {
+    omp_set_num_threads(threads);
+    FluidSolver solver = sheared_column(PowerLaw{20, 0.5, 0.1, 200}).solver();
+    run_until(solver, 0.02);
+    x.push_back(positions(solver));
+  }
+  omp_set_num_threads(1);
+  EXPECT_EQ(x[0], x[1]);
 }
 
 TEST(ThinningFluid, TakesTheStepOfItsLargestViscosity) {

@@ -1,0 +1,62 @@
+/// Developed flow of a generalised Newtonian medium between two plates at rest, by numerical integration: the
+/// shear stress tau(y) = -dp/dx |y - w/2| is a straight line whatever the rheology, eta(gdot) gdot = tau
+/// gives the shear rate, and its integral the velocity (Bird, Armstrong & Hassager 1987, section 4.2).
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace toryu::fluid {
+
+class SlitSolution {
+ public:
+  /// `eta` [Pa s] of the shear rate [1/s]; plates at y = 0 and `width` [m]; `mean` velocity [m/s].
+  SlitSolution(std::function<double(double)> eta, double width, double mean)
+      : eta_(std::move(eta)), half_(0.5 * width) {
+    double low = 1e-9, high = 1e9;  // of the stress at the wall [Pa]
+    while (high / low > 1 + 1e-12) {
+      tau_w_ = std::sqrt(low * high);
+      integrate();
+      (mean_ < mean ? low : high) = tau_w_;
+    }
+  }
+
+  double wall_stress() const { return tau_w_; }                  ///< [Pa]
+  double pressure_gradient() const { return -tau_w_ / half_; }   ///< dp/dx [Pa/m]
+  double largest_velocity() const { return velocity_.front(); }  ///< in the middle [m/s]
+  double velocity(double y) const {
+    const double place = std::min(std::abs(y - half_) / half_, 1.0) * intervals;
+    const auto k = std::min(static_cast<std::size_t>(place), velocity_.size() - 2);
+    return velocity_[k] + (place - static_cast<double>(k)) * (velocity_[k + 1] - velocity_[k]);
+  }
+
+ private:
+  static constexpr int intervals = 2000;
+
+  double shear_rate(double tau) const {
+    double low = 1e-15, high = 1e15;
+    while (high / low > 1 + 1e-13) {
+      const double gdot = std::sqrt(low * high);
+      (eta_(gdot) * gdot < tau ? low : high) = gdot;
+    }
+    return low;
+  }
+  /// From the wall to the middle, by the midpoint rule.
+  void integrate() {
+    const double step = half_ / intervals;
+    velocity_.assign(intervals + 1, 0.0);
+    mean_ = 0;
+    for (int k = intervals; k-- > 0;) {
+      const auto inner = static_cast<std::size_t>(k);
+      velocity_[inner] = velocity_[inner + 1] + step * shear_rate(tau_w_ * (k + 0.5) / intervals);
+      mean_ += 0.5 * (velocity_[inner] + velocity_[inner + 1]) / intervals;
+    }
+  }
+
+  std::function<double(double)> eta_;
+  double half_, tau_w_ = 0, mean_ = 0;
+  std::vector<double> velocity_;  ///< from the middle to the wall
+};
+
+}  // namespace toryu::fluid
