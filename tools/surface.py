@@ -28,7 +28,7 @@ class Contour:
         """Indices along the contour where it turns by more than 30 degrees, each the middle of its turn."""
         sharp = (self.normal[1:] * self.normal[:-1]).sum(axis=1) < np.cos(np.pi / 6)
         starts = np.flatnonzero(np.diff(np.concatenate([[0], sharp, [0]])))
-        return [(first + last) // 2 for first, last in zip(starts[::2], starts[1::2])]
+        return [int(first + last) // 2 for first, last in zip(starts[::2], starts[1::2])]
 
 
 def contours(surface):

@@ -13,23 +13,16 @@ import string
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+SCRIPTS = ("chart.js", "particles.js", "stage.js", "along.js", "page.js")  # in this order
 sys.path.insert(0, str(HERE.parent))
 
-import numpy as np  # noqa: E402
-
+import along  # noqa: E402
 import data  # noqa: E402
 import frames  # noqa: E402
 import results  # noqa: E402
+import scene  # noqa: E402
+import surface  # noqa: E402
 import tables  # noqa: E402
-
-
-def view_of(boxes):
-    """The box that the picture shows at first: wherever a particle comes in the run, and a little around it."""
-    if not boxes:
-        return [0, 0, 1, 1]
-    low, high = np.min([b[0] for b in boxes], axis=0), np.max([b[1] for b in boxes], axis=0)
-    margin = 0.05 * max(high - low)
-    return [*map(float, low - margin), *map(float, high + margin)]
 
 
 def comparisons_of(case, out):
@@ -45,18 +38,25 @@ def page(case_path, out, exit_code, words):
     summaries = results.read_summaries(out)
     comparisons = comparisons_of(case_path, out)
     bodies, boxes, step = frames.collect(out, case)
-    walls = data.wall_paths(case)
+    end = scene.end_of(case, bodies)
+    walls = scene.wall_paths(case, end)
+    file = along.read(out)
+    contours = surface.contours(file) if file else []
+    times = sorted({time for body in bodies for time in body["times"]})
+    view = scene.view_of(boxes)
     compared, others = data.charts(out, comparisons)
     state = data.state(summaries, exit_code, words)
     title = case.get("case", {}).get("title") or results.case_name(case_path)
     content = {
-        "view": view_of(boxes), "walls": walls, "bodies": bodies,
+        "view": view, "near": scene.near_view(view, walls, bodies, contours), "walls": walls, "bodies": bodies,
+        "motions": scene.motion_charts(walls, end), "end": end,
+        "along": along.collect(file, contours, times, frames.start_of(out, "solid")) if file else {},
         "compared": compared, "others": others,
     }
     return string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html.escape(title), name=html.escape(results.case_name(case_path)),
         style=(HERE / "style.css").read_text(encoding="utf-8"),
-        script="\n".join((HERE / f).read_text(encoding="utf-8") for f in ("chart.js", "particles.js", "page.js")),
+        script="\n".join((HERE / f).read_text(encoding="utf-8") for f in SCRIPTS),
         data=re.sub("</", r"<\\/", json.dumps(content, separators=(",", ":"), allow_nan=False)),
         state=tables.state(state), figures=tables.figures(out, summaries, comparisons, state),
         frames_note=f"every {step}th frame is shown" if step > 1 else "",

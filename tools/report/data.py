@@ -4,8 +4,6 @@ import math
 import re
 import tomllib
 
-import numpy as np
-
 import results
 
 MEANING = {0: "Done", 1: "Ended by a bug", 2: "Bad input", 3: "Physics failed", 4: "A process was lost",
@@ -37,7 +35,7 @@ def state(summaries, exit_code, words):
 
 # Units ---------------------------------------------------------------------------------------------------------------
 
-PREFIXED = {"m", "s", "Pa", "J/m", "N/m", "N.s/m", "m/s", "Pa.s", "J", "N"}
+PREFIXED = {"m", "s", "Pa", "J/m", "N/m", "N.s/m", "m/s", "Pa.s", "J", "N", "J/m2", "W/m2", "Pa.m"}
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
@@ -86,9 +84,22 @@ def chart(title, unit, lines):
         for label, times, values, kind in lines]}
 
 
+FROM_BOUNDARY = re.compile(r"(force|impulse)_from_(\w+)_([xy])")
+
+
+def label_of(column):
+    """The name of a line in its chart: what the chart's title does not say already."""
+    from_boundary = FROM_BOUNDARY.fullmatch(column.partition("[")[0])
+    return results.readable(from_boundary[2] if from_boundary else column)
+
+
 def group_of(column):
     """Columns of one group and unit share a chart."""
     name = column.partition("[")[0]
+    if from_boundary := FROM_BOUNDARY.fullmatch(name):
+        return f"{from_boundary[1]} from the boundaries, {from_boundary[3]}"
+    if name.startswith("removed_depth"):
+        return "removed depth"
     if results.unit_of(column) == "J/m":
         return "energy and work"
     for word in ("momentum", "impulse", "displacement"):
@@ -122,27 +133,6 @@ def charts(out, comparisons):
         if groups:
             order = ["energy and work", "momentum"]
             keys = sorted(groups, key=lambda k: order.index(k[0]) if k[0] in order else 9)
-            others[name] = [chart(group, unit, [(results.readable(c), columns["time[s]"], v, "line")
+            others[name] = [chart(group, unit, [(label_of(c), columns["time[s]"], v, "line")
                                                 for c, v in groups[group, unit]]) for group, unit in keys]
     return compared, others
-
-
-# Scene ---------------------------------------------------------------------------------------------------------------
-
-def wall_paths(case):
-    """Boxes of the rigid walls with their displacement over time [[t, x, y], ...], the integral of the velocity."""
-    walls = []
-    for wall in case.get("wall", []):
-        motion = wall.get("motion") or {}
-        speed, time = motion.get("speed", 1), motion.get("time", 1)
-        rows = np.array(motion.get("velocity", [])).reshape(-1, 3) * [time, speed, speed]
-        path = []
-        if len(rows):
-            times = np.union1d(rows[:, 0], np.linspace(0, case["case"]["end_time"], 201))
-            velocity = np.column_stack([np.interp(times, rows[:, 0], rows[:, axis]) for axis in (1, 2)])
-            steps = np.diff(times)[:, None] * (velocity[1:] + velocity[:-1]) / 2
-            moved = np.vstack([[0, 0], np.cumsum(steps, axis=0)])
-            moved -= moved[np.searchsorted(times, 0)]
-            path = np.column_stack([times, moved]).tolist()
-        walls.append({"name": wall.get("name", ""), "box": [*wall["box"]["min"], *wall["box"]["max"]], "path": path})
-    return walls

@@ -50,6 +50,7 @@ class Body:
         self.files = [(entry["time"], out / entry["name"]) for entry in series["files"]
                       if (out / entry["name"]).is_file()]
         self.count = 0
+        self.typical_displacement = 0.0  # [m], of 95 % of the particles, at the time when it is largest
         if self.files:
             with h5py.File(self.files[0][1]) as file:
                 self.count = len(file["VTKHDF/Points"])
@@ -76,6 +77,8 @@ def quantities(point_data):
             found.append(Quantity(label, unit, name, None))
         elif data.shape[1] == 3:
             found.append(Quantity("speed" if name == "velocity" else label, unit, name, -1))
+            if name == "displacement":
+                found += [Quantity(f"{label} {axis}", unit, name, i) for i, axis in enumerate("xy")]
         else:
             parts = {4: ("xx", "xy", None, "yy")}.get(data.shape[1], ())
             found += [Quantity(f"{label} {part}", unit, name, i) for i, part in enumerate(parts) if part]
@@ -100,20 +103,24 @@ def finite_box(points):
 def measure(body, domain):
     """Sets the ranges of the quantities (all but the outermost 0.2 % of the values of some frames) and returns the
     smallest box that holds all particles inside `domain` ((x, y) min, (x, y) max)."""
-    chosen = np.unique(np.linspace(0, len(body.files) - 1, SAMPLED_FRAMES).astype(int))
+    chosen = np.unique(np.linspace(0, len(body.files) - 1, SAMPLED_FRAMES).round().astype(int))
     samples = [[] for _ in body.quantities]
     boxes = []
     for i, (_, path) in enumerate(body.files):
         with h5py.File(path) as file:
             boxes.append(finite_box(file["VTKHDF/Points"][:, :2]))
-            if i in chosen:
-                for sample, quantity in zip(samples, body.quantities):
+            for sample, quantity in zip(samples, body.quantities):
+                if i in chosen or quantity.field == "displacement":
                     sample.append(quantity.values(file["VTKHDF/PointData"]))
     for sample, quantity in zip(samples, body.quantities):
+        if quantity.field == "displacement" and quantity.component == -1:
+            body.typical_displacement = max(float(np.nanpercentile(values, 95)) for values in sample)
         values = np.concatenate(sample)
         values = values[np.isfinite(values)]
         if len(values):
-            quantity.low, quantity.high = (float(v) for v in np.percentile(values, [0.2, 99.8]))
+            # Components of the displacement are drawn as such, too: none may be cut off.
+            outermost = 0 if quantity.field == "displacement" and quantity.component != -1 else 0.2
+            quantity.low, quantity.high = (float(v) for v in np.percentile(values, [outermost, 100 - outermost]))
         if quantity.high <= quantity.low:
             quantity.high = quantity.low + (abs(quantity.low) * 1e-3 or 1.0)
     boxes = [box for box in boxes if box] or [domain]
@@ -127,14 +134,18 @@ def codes(values, low, high):
 
 
 def encode(path, body, box):
-    """One frame: codes of x, y, then of each quantity; all low bytes before all high bytes, which compresses
-    better; zlib, base64."""
+    """One frame: codes of x, y, then of each quantity."""
     with h5py.File(path) as file:
         points = file["VTKHDF/Points"][:, :2]
         outside = (points < box[0] - 1e-12).any(axis=1) | (points > box[1] + 1e-12).any(axis=1)
         columns = [codes(points[:, axis], box[0][axis], box[1][axis]) for axis in range(2)]
         columns[0][outside] = NO_VALUE  # not drawn
         columns += [codes(q.values(file["VTKHDF/PointData"]), q.low, q.high) for q in body.quantities]
+    return packed(columns)
+
+
+def packed(columns):
+    """Columns of codes as text: all low bytes before all high bytes, which compresses better; zlib, base64."""
     planes = np.concatenate(columns).view(np.uint8).reshape(-1, 2).T
     return base64.b64encode(zlib.compress(np.ascontiguousarray(planes).tobytes(), 6)).decode()
 
@@ -143,6 +154,24 @@ def spacing_of(points):
     """Typical distance of neighbours: the side of the square that a particle fills, if they filled their box."""
     box = finite_box(points)
     return float(np.sqrt(np.prod(np.maximum(box[1] - box[0], 1e-9)) / len(points))) if box else 1.0
+
+
+def displacement_of(body):
+    """Which columns of a frame are the displacement, and their values of codes 0 and NO_VALUE - 1 in metres."""
+    found = [(2 + k, q) for k, q in enumerate(body.quantities) if q.field == "displacement" and q.component in (0, 1)]
+    return {"columns": [k for k, _ in found], "low": [q.low for _, q in found], "high": [q.high for _, q in found],
+            "typical": body.typical_displacement} if found else None
+
+
+def start_of(out, name):
+    """Undeformed positions of a participant's particles, None without frames or displacement."""
+    body = next((body for body in read_bodies(out) if body.name == name), None)
+    if body is None:
+        return None
+    with h5py.File(body.files[0][1]) as file:
+        points = file["VTKHDF/Points"][:, :2]
+        displacement = file["VTKHDF/PointData"].get("displacement")
+        return None if displacement is None else points - displacement[:, :2]
 
 
 def collect(out: pathlib.Path, case):
@@ -164,6 +193,7 @@ def collect(out: pathlib.Path, case):
             "box": [*map(float, box[0]), *map(float, box[1])],
             "times": [time for time, _ in body.files],
             "quantities": [q.described() for q in body.quantities],
+            "displacement": displacement_of(body),
             "frames": [encode(path, body, box) for _, path in body.files],
         })
     return collected, boxes, step

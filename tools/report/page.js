@@ -3,16 +3,28 @@ const content = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 
 class Player {
-  constructor(stage, times, charts) {
-    Object.assign(this, {stage, times, charts, bars: [], playing: false, drawing: false, wanted: 0});
+  // `followers`: what else follows the time by moveTo.
+  constructor(stages, times, followers) {
+    Object.assign(this, {stages, times, followers, bars: [], playing: false, drawing: false, wanted: 0});
     byId("time").max = times.length - 1;
     byId("time").addEventListener("input", () => this.show(+byId("time").value));
     byId("play").addEventListener("click", () => this.toggle());
-    byId("whole").addEventListener("click", () => { stage.fit(); this.redraw(); });
-    new ResizeObserver(() => { stage.fit(); this.redraw(); }).observe(stage.canvas.parentElement);
+    byId("whole").addEventListener("click", () => this.fit());
+    let width = 0;
+    new ResizeObserver(([{contentRect}]) => {
+      if (contentRect.width === width) return;  // the stages' own height
+      width = contentRect.width;
+      this.fit();
+    }).observe(byId("scene"));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
-    this.listenToCanvas();
+    for (const stage of stages) this.listenTo(stage);
+    this.listenToKeys();
     this.show(0);
+  }
+
+  fit() {
+    for (const stage of this.stages) stage.fit();
+    this.redraw();
   }
 
   get time() { return this.times[this.wanted]; }
@@ -21,7 +33,7 @@ class Player {
     this.wanted = Math.max(0, Math.min(this.times.length - 1, index));
     byId("time").value = this.wanted;
     byId("now").textContent = `${this.time.toFixed(4)} s`;
-    for (const chart of this.charts) chart.moveTo(this.time);
+    for (const follower of this.followers) follower.moveTo(this.time);
     this.redraw();
   }
 
@@ -32,11 +44,11 @@ class Player {
     this.drawing = true;
     while (this.stale) {
       this.stale = false;
-      await this.stage.draw(this.time);
+      for (const stage of this.stages) await stage.draw(this.time);
       for (const update of this.bars) update();
     }
     this.drawing = false;
-    this.stage.canvas.dataset.frame = this.wanted;
+    for (const {canvas} of this.stages) canvas.dataset.frame = this.wanted;
   }
 
   toggle() {
@@ -61,15 +73,15 @@ class Player {
     requestAnimationFrame(step);
   }
 
-  listenToCanvas() {
-    const {canvas} = this.stage;
+  listenTo(stage) {
+    const {canvas} = stage;
     const place = (event) => {
       const box = canvas.getBoundingClientRect();
       return [(event.clientX - box.left) * canvas.width / box.width, (event.clientY - box.top) * canvas.height / box.height];
     };
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.stage.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));
+      stage.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));
       this.redraw();
     }, {passive: false});
     let last = null;
@@ -79,12 +91,15 @@ class Player {
     canvas.addEventListener("pointermove", (event) => {
       const at = place(event);
       if (last) {
-        this.stage.move((last[0] - at[0]) / this.stage.scale, (at[1] - last[1]) / this.stage.scale);
+        stage.move((last[0] - at[0]) / stage.scale, (at[1] - last[1]) / stage.scale);
         last = at;
         this.redraw();
       }
-      this.tell(...this.stage.toScene(...at));
+      this.tell(stage.nearest(...stage.toScene(...at)), ...stage.toScene(...at));
     });
+  }
+
+  listenToKeys() {
     document.addEventListener("keydown", (event) => {
       if (["INPUT", "SELECT", "BUTTON", "SUMMARY"].includes(event.target.tagName)) return;
       if (event.key === " ") this.toggle();
@@ -95,8 +110,7 @@ class Player {
     });
   }
 
-  tell(x, y) {
-    const found = this.stage.nearest(x, y);
+  tell(found, x, y) {
     let line = `x ${text(found ? found.x : x)}  y ${text(found ? found.y : y)} m`;
     if (found && found.code !== undefined) {
       const q = found.body.quantities[found.body.chosen];
@@ -152,13 +166,64 @@ function span() {
   return ends.length ? [Math.min(...starts), Math.max(...ends)] : [0, 1];
 }
 
+// What stands beside the picture: what moves by prescription, and what happened along the surface.
+const BESIDE = {...WIDE, width: 600, height: 168};
+
+function makeBeside() {
+  const followers = content.motions.map((chart) => new Chart(byId("beside"), chart, [0, content.end], BESIDE));
+  if (!content.along.quantities) return {followers};
+  const along = new Along(byId("beside"), content.along, BESIDE);
+  return {followers: [...followers, along], along};
+}
+
+function makeStages(bodies) {
+  const [x0, y0, x1, y1] = content.view;
+  const tall = (content.motions.length > 0 || content.near !== null) && y1 - y0 > 1.4 * (x1 - x0);
+  byId("scene").classList.toggle("tall", tall);
+  byId("near").hidden = !content.near;
+  byId("beside").hidden = !byId("beside").children.length;
+  const whole = new Stage(byId("particles"), content.view, content.walls, bodies, {tall});
+  if (!content.near) return [whole];
+  const near = new Stage(byId("enlarged"), content.near, content.walls, bodies, {tall, disc: 0.48});
+  whole.over.push(() => whole.outline(near));
+  return [whole, near];
+}
+
+// The displacement of a solid that moves less than the eye sees can be exaggerated.
+function offerExaggeration(near, bodies, changed) {
+  const solid = bodies.find((body) => body.displacement);
+  if (!near || !solid) return;
+  const {low, high, typical} = solid.displacement;
+  if (!(typical > 0) || typical > 0.3 * solid.spacing) return;
+  const wished = solid.spacing / typical, power = 10 ** Math.floor(Math.log10(wished));
+  const most = [5, 2, 1].find((s) => s * power <= wished) * power;
+  byId("exaggeration").hidden = false;
+  for (const factor of [1, most / 10, most].filter((f) => f >= 1))
+    html("option", {value: factor}, byId("factor"), factor === 1 ? "as it is" : `× ${rounded(factor)}`);
+  byId("factor").value = near.factor = most;
+  byId("factor").addEventListener("change", () => { near.factor = +byId("factor").value; changed(); });
+}
+
+const {followers, along} = makeBeside();
 const charts = makeCharts(span());
 const bodies = content.bodies.map((body) => new Body(body));
 const times = [...new Set(bodies.flatMap((body) => body.times))].sort((a, b) => a - b);
 byId("motion").hidden = !times.length;
 if (times.length) {
-  const stage = new Stage(byId("particles"), content, bodies);
-  const player = new Player(stage, times, charts);
+  const stages = makeStages(bodies), near = stages[1];
+  const player = new Player(stages, times, [...followers, ...charts]);
   for (const body of bodies)
     if (body.quantities.length) player.bars.push(colourChoice(byId("colours"), body, () => player.redraw()));
+  offerExaggeration(near, bodies, () => player.redraw());
+  if (along) {
+    const choose = async () => {
+      await along.choose(+along.select.value);
+      along.moveTo(player.time);
+      if (near) byId("band").textContent = along.bandText(near);
+      player.redraw();
+    };
+    along.select.addEventListener("change", choose);
+    if (near) near.over.push((stage) => along.draw(stage));
+    choose();
+  }
 }

@@ -77,11 +77,23 @@ def figures(out, summaries, comparisons, run):
             factor, unit = data.scaled("m", abs(value))
             tiles.append(tile(f"peak {found[1]} displacement {found[2]}", f"{number(value * factor)} {unit}",
                               f"at {number(time)} s"))
+    tiles += removed(results.read_series(out, "fluid"))
     for comparison in comparisons:
         if math.isfinite(comparison.distance):
             tiles.append(tile(f"distance in {comparison.quantity}", f"{100 * comparison.distance:.1f} %",
                               f"root mean square, of the peak of '{comparison.label}'"))
     return "".join(tiles)
+
+
+def removed(series):
+    """What came off the work pieces: the mean depth, and the largest over it."""
+    ends = [next((v for v in reversed(series.get(f"removed_depth_{kind}[m]", [])) if math.isfinite(v)), 0.0)
+            for kind in ("mean", "largest")]
+    if ends[0] <= 0:
+        return []
+    factor, unit = data.scaled("m", ends[0])
+    return [tile("removed depth", f"{number(ends[0] * factor)} {unit}", "mean over the work pieces' surface"),
+            tile("evenness", number(ends[1] / ends[0]), "largest over mean removed depth")]
 
 
 def parts_of(summary):

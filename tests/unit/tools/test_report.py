@@ -19,6 +19,7 @@ sys.path[:0] = [str(HERE), str(REPORT), str(REPORT.parent)]
 
 import data  # noqa: E402
 import made_up_run  # noqa: E402
+import scene  # noqa: E402
 import tables  # noqa: E402
 
 
@@ -154,10 +155,10 @@ class Pieces(unittest.TestCase):
         self.assertIn((7000, -3.0), points)
 
     def test_a_wall_moves_by_the_integral_of_its_velocity(self):
-        wall, = data.wall_paths({"case": {"end_time": 2.0}, "wall": [
+        wall, = scene.wall_paths({"wall": [
             {"name": "w", "box": {"min": [0, 0], "max": [1, 1]},
-             "motion": {"velocity": [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]]}}]})
-        at = {round(t, 6): x for t, x, _ in wall["path"]}
+             "motion": {"velocity": [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]]}}]}, end=2.0)
+        at = {round(t, 6): x for t, x, *_ in wall["path"]}
         self.assertAlmostEqual(at[0.5], 0.25)  # t^2
         self.assertAlmostEqual(at[1.0], 1.0)
         self.assertAlmostEqual(at[2.0], 3.0)  # the last velocity goes on

@@ -1,0 +1,145 @@
+// A canvas that shows a part of the scene: walls, particles, what is drawn over them; zoom and pan.
+const MOST_HEIGHT = 0.68;  // of the window, of a picture that takes the page's width
+const cssColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name);
+
+class Stage {
+  // `home`: the box shown at first. `disc`: radius of a particle in spacings; 0.6 covers a square lattice without holes.
+  constructor(canvas, home, walls, bodies, {disc = 0.6, tall = false} = {}) {
+    Object.assign(this, {canvas, home, walls, bodies, disc, tall, factor: 1, over: []});
+    this.context = canvas.getContext("2d", {willReadFrequently: true});
+    this.fit();
+  }
+
+  // The canvas takes the proportions of its home, within the window: a tall one its height, any other its width.
+  fit() {
+    const [x0, y0, x1, y1] = this.home, ratio = window.devicePixelRatio || 1, holder = this.canvas.parentElement;
+    const slenderness = (y1 - y0) / (x1 - x0);
+    let width, height;
+    if (this.tall) {
+      height = Math.max(480, Math.min(window.innerHeight * 0.82, 860));
+      width = Math.max(110, Math.min(height / slenderness, 0.42 * holder.closest(".scene").clientWidth));
+      holder.style.width = `${width}px`;
+    } else {
+      width = Math.max(1, holder.clientWidth);
+      height = Math.max(220, Math.min(window.innerHeight * MOST_HEIGHT, width * slenderness * 1.06));
+    }
+    this.canvas.style.height = `${height}px`;
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    this.ratio = ratio;
+    this.scale = 0.97 * Math.min(this.canvas.width / (x1 - x0), this.canvas.height / (y1 - y0));
+    this.centre = [(x0 + x1) / 2, (y0 + y1) / 2];
+  }
+
+  toPixel(x, y) {
+    return [this.canvas.width / 2 + (x - this.centre[0]) * this.scale, this.canvas.height / 2 - (y - this.centre[1]) * this.scale];
+  }
+  toScene(px, py) {
+    return [this.centre[0] + (px - this.canvas.width / 2) / this.scale, this.centre[1] - (py - this.canvas.height / 2) / this.scale];
+  }
+  zoom(factor, px, py) {
+    const [x, y] = this.toScene(px, py);
+    this.scale *= factor;
+    const [nx, ny] = this.toScene(px, py);
+    this.move(x - nx, y - ny);
+  }
+  move(dx, dy) {
+    this.centre = [this.centre[0] + dx, this.centre[1] + dy];
+  }
+
+  async draw(time) {
+    const frames = await Promise.all(this.bodies.map((body) => body.frame(body.indexAt(time))));
+    const {width, height} = this.canvas;
+    this.context.clearRect(0, 0, width, height);
+    this.drawWalls(time);
+    const image = this.context.getImageData(0, 0, width, height);
+    this.shown = this.bodies.map((body, i) => {
+      body.adapt(frames[i]);
+      const places = body.places(frames[i], this.factor);
+      this.drawBody(image, body, places, frames[i][2 + body.chosen]);
+      return {body, places, field: frames[i][2 + body.chosen]};
+    });
+    this.context.putImageData(image, 0, 0);
+    for (const draw of this.over) draw(this, time);
+    this.drawScaleBar();
+  }
+
+  drawWalls(time) {
+    for (const {box, path, work_piece} of this.walls) {
+      const [dx, dy] = displacement(path, time);
+      const [x0, y0] = this.toPixel(box[0] + dx, box[3] + dy), [x1, y1] = this.toPixel(box[2] + dx, box[1] + dy);
+      this.context.fillStyle = cssColour(path.length ? "--moving" : work_piece ? "--piece" : "--wall");
+      this.context.fillRect(x0, y0, x1 - x0, y1 - y0);
+    }
+  }
+
+  drawBody(image, body, places, field) {
+    const palette = body.palette(), {width, height} = this.canvas, pixels = image.data;
+    const radius = Math.max(0.7, this.disc * body.spacing * this.scale), masks = discs(radius);
+    for (let i = 0; 2 * i < places.length; ++i) {
+      const [px, py] = this.toPixel(places[2 * i], places[2 * i + 1]);
+      const left = Math.floor(px), top = Math.floor(py);
+      if (!(px > -radius && px < width + radius && py > -radius && py < height + radius)) continue;
+      const mask = masks[Math.floor((px - left) * 4) + 4 * Math.floor((py - top) * 4)];
+      const colour = !field ? palette[0] : field[i] === NO_VALUE ? NOT_FINITE : palette[field[i] >> 8];
+      for (let k = 0; k < mask.length; k += 3) {
+        const x = left + mask[k], y = top + mask[k + 1];
+        if (x < 0 || x >= width || y < 0 || y >= height) continue;
+        const at = 4 * (y * width + x), cover = mask[k + 2];
+        // Over what is there; an empty pixel takes the colour and is as opaque as it is covered.
+        const below = pixels[at + 3] / 255 * (1 - cover), alpha = cover + below;
+        for (let c = 0; c < 3; ++c) pixels[at + c] = (colour[c] * cover + pixels[at + c] * below) / alpha;
+        pixels[at + 3] = 255 * alpha;
+      }
+    }
+  }
+
+  // A round length that takes a quarter of the width or less.
+  drawScaleBar() {
+    const {context, ratio, canvas} = this;
+    const power = 10 ** Math.floor(Math.log10(0.3 * canvas.width / this.scale));
+    const length = [5, 2, 1].map((s) => s * power).find((s) => s * this.scale <= 0.3 * canvas.width) || power;
+    const label = length >= 1 ? `${text(length)} m` : length >= 1e-3 * 0.999 ? `${text(length * 1e3)} mm` : `${text(length * 1e6)} µm`;
+    const x = 8 * ratio, y = canvas.height - 9 * ratio;
+    context.font = `${12 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
+    const wide = Math.max(length * this.scale, context.measureText(label).width);
+    context.globalAlpha = 0.8;
+    context.fillStyle = cssColour("--paper");
+    context.fillRect(x - 5 * ratio, y - 20 * ratio, wide + 10 * ratio, 26 * ratio);
+    context.globalAlpha = 1;
+    context.fillStyle = cssColour("--ink");
+    context.fillRect(x, y, length * this.scale, 2 * ratio);
+    context.fillText(label, x, y - 6 * ratio);
+  }
+
+  // The outline of what another stage shows.
+  outline(other) {
+    const [x0, y0] = this.toPixel(...other.toScene(0, 0)), [x1, y1] = this.toPixel(...other.toScene(other.canvas.width, other.canvas.height));
+    this.context.strokeStyle = cssColour("--accent");
+    this.context.lineWidth = 1.5 * this.ratio;
+    this.context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+  }
+
+  // The particle nearest to a place, if it lies under the mouse: {body, x, y, code}.
+  nearest(x, y) {
+    let found = null;
+    for (const {body, places, field} of this.shown || []) {
+      let least = (0.7 * body.spacing) ** 2;
+      for (let i = 0; 2 * i < places.length; ++i) {
+        const distance = (places[2 * i] - x) ** 2 + (places[2 * i + 1] - y) ** 2;
+        if (distance < least) { least = distance; found = {body, x: places[2 * i], y: places[2 * i + 1], code: field?.[i]}; }
+      }
+    }
+    return found;
+  }
+}
+
+// Of a wall: x, y at `time`, from the rows of its path.
+function displacement(path, time) {
+  let k = 0;
+  while (k + 1 < path.length && path[k + 1][0] <= time) ++k;
+  if (!path.length) return [0, 0];
+  if (k + 1 === path.length) return path[k].slice(1, 3);
+  const share = Math.max(0, (time - path[k][0]) / (path[k + 1][0] - path[k][0]));
+  return [1, 2].map((c) => path[k][c] + share * (path[k + 1][c] - path[k][c]));
+}
