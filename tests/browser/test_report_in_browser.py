@@ -14,12 +14,13 @@ from selenium.webdriver.support.ui import Select, WebDriverWait
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/unit/tools"), str(ROOT / "tests/browser")]
 
+import made_up_channel  # noqa: E402
 import made_up_run  # noqa: E402
 from browser import start_browser  # noqa: E402
 
 # Opaque pixels of the canvas, and a sum over them that changes with any pixel.
 PICTURE = """
-const canvas = document.getElementById("particles");
+const canvas = document.getElementById(arguments[0]);
 const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
 let opaque = 0, sum = 0;
 for (let i = 0; i < pixels.length; i += 4) {
@@ -49,12 +50,31 @@ class ReportInBrowser(unittest.TestCase):
         self.browser.get((out / "report.html").as_uri())
         self.wait_for_frame(0)
 
+    def open_channel(self, elastic=False):
+        name = "elastic" if elastic else "rigid"
+        case, out = self.folder / name / "channel", self.folder / name / "out"
+        if not out.exists():
+            made_up_channel.make_case(case, elastic)
+            made_up_channel.make_results(out, elastic)
+            subprocess.run(["/usr/bin/python3", ROOT / "tools/report", out, "--case", case], check=True,
+                           stdout=subprocess.DEVNULL)
+        self.browser.get((out / "report.html").as_uri())
+        self.wait_for_frame(0)
+        WebDriverWait(self.browser, 60).until(lambda _: self.browser.find_element(By.ID, "band").text)
+
     def wait_for_frame(self, index):
         canvas = self.browser.find_element(By.ID, "particles")
         WebDriverWait(self.browser, 60).until(lambda _: canvas.get_attribute("data-frame") == str(index))
 
-    def picture(self):
-        return self.browser.execute_script(PICTURE)
+    def go_to(self, index):
+        self.browser.find_element(By.ID, "time").send_keys(Keys.HOME, *[Keys.ARROW_RIGHT] * index)
+        self.wait_for_frame(index)
+
+    def picture(self, canvas="particles"):
+        return self.browser.execute_script(PICTURE, canvas)
+
+    def attribute(self, selector, name):
+        return self.browser.find_element(By.CSS_SELECTOR, selector).get_attribute(name)
 
     def tearDown(self):
         self.assertEqual(self.browser.get_log("browser"), [])
@@ -115,6 +135,46 @@ class ReportInBrowser(unittest.TestCase):
                 self.open(side, (side,))
                 self.assertGreater(self.picture()["opaque"], 0.02)
                 self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "select[data-body]")), 1)
+
+    def test_a_tall_scene_has_its_charts_beside_it(self):
+        self.open_channel()
+        picture, near, charts = (self.browser.find_element(By.ID, name).rect for name in ("particles", "enlarged", "beside"))
+        self.assertLess(picture["x"] + picture["width"], near["x"])
+        self.assertLess(near["x"] + near["width"], charts["x"])
+        self.assertAlmostEqual(picture["y"], charts["y"], delta=3)
+        self.assertGreater(picture["height"], 2 * picture["width"])
+        self.assertEqual(picture["height"], near["height"])
+
+    def test_the_mark_of_the_piston_cycle_follows_the_time(self):
+        self.open_channel()
+        before = self.attribute("#beside .dot", "cx"), self.attribute("#beside .dot", "cy")
+        self.go_to(4)
+        after = self.attribute("#beside .dot", "cx"), self.attribute("#beside .dot", "cy")
+        self.assertGreater(float(after[0]), float(before[0]))
+        self.assertNotEqual(after[1], before[1])
+        self.assertEqual(self.attribute("#beside .now", "x1"), after[0])
+
+    def test_the_choice_along_the_surface_changes_chart_and_band(self):
+        self.open_channel()
+        self.go_to(6)
+        figures = self.browser.find_elements(By.CSS_SELECTOR, "#beside figure")
+        line, near, words = (figures[-1].get_attribute("innerHTML"), self.picture("enlarged"),
+                             self.browser.find_element(By.ID, "band").text)
+        self.assertRegex(words, r"removed depth \(Preston\), drawn .* times as deep")
+        Select(self.browser.find_element(By.ID, "along")).select_by_value("2")
+        WebDriverWait(self.browser, 60).until(lambda _: self.picture("enlarged") != near)
+        self.assertNotEqual(figures[-1].get_attribute("innerHTML"), line)
+        self.assertIn("contact pressure, at its widest", self.browser.find_element(By.ID, "band").text)
+
+    def test_a_displacement_too_small_to_see_is_exaggerated_if_wished(self):
+        self.open_channel(elastic=True)
+        self.go_to(3)
+        before = self.picture("enlarged")
+        select = Select(self.browser.find_element(By.ID, "factor"))
+        self.assertIn("10⁴", select.first_selected_option.text)
+        select.select_by_index(0)
+        WebDriverWait(self.browser, 60).until(lambda _: self.picture("enlarged") != before)
+        self.assertEqual(select.first_selected_option.text, "as it is")
 
 
 if __name__ == "__main__":

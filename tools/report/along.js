@@ -1,6 +1,6 @@
 // What happened along the surface of the work pieces: a chart over arc length that follows the player, and the same as
 // a band on the surface in the enlargement.
-const BAND = 0.1;  // of the shorter side of the enlargement: the band's width at the largest value
+const BAND = 0.06;  // of the shorter side of the enlargement: the band's width at the largest value
 
 class Along {
   constructor(parent, content, size) {
@@ -99,7 +99,7 @@ class Along {
     this.contours.forEach((contour, c) => {
       const surface = this.surfaceOf(stage, contour), colour = cssColour(`--c${c % 7}`);
       const outer = surface.map(([x, y], i) => {
-        const [nx, ny] = contour.normal[i], v = length * (this.values[c][i] ?? 0);
+        const [nx, ny] = contour.outward[i], v = length * (this.values[c][i] ?? 0);
         return [x + v * nx, y + v * ny];
       });
       const trace = (points) => points.forEach(([x, y]) => context.lineTo(...stage.toPixel(x, y)));
@@ -107,7 +107,7 @@ class Along {
       trace(surface);
       trace(outer.slice().reverse());
       context.closePath();
-      context.globalAlpha = 0.8;
+      context.globalAlpha = 0.75;
       context.fillStyle = "#ffffff";  // as of what is no longer there, and no colour of the particles
       context.fill();
       context.globalAlpha = 1;

@@ -69,12 +69,13 @@ def encoded(label, unit, kind, values):
 
 
 def described(contour, factor, start):
-    """A contour for the page, its arc length times `factor`. Its points lie on the surface, half a cell outward of
-    the particles by `offset`."""
+    """A contour for the page, its arc length times `factor`. Its points lie on the surface: `offset`, half a cell,
+    outward of the particles. `outward` is where a point comes if both faces of its corner move by one metre."""
     offset = contour.normal * contour.area[:, None] / 2
     return {"label": contour.label.replace("_", " "), "arc": (factor * contour.arc_length).tolist(),
             "corners": contour.corners, "closed": contour.closed, "point": (contour.position + offset).tolist(),
-            "offset": offset.tolist(), "normal": contour.normal.tolist(), "particle": particles_of(contour, start)}
+            "offset": offset.tolist(), "outward": (2 * offset / contour.spacing).tolist(),
+            "particle": particles_of(contour, start)}
 
 
 def particles_of(contour, start):

@@ -1,7 +1,5 @@
 """Results of an abrasive flow run that never was: pistons push a medium past two work pieces, rigid or elastic."""
 
-import math
-
 import h5py
 import numpy as np
 
@@ -71,8 +69,8 @@ def write_surface(out, names, times):
     share = 0.4 + 0.6 * np.exp(-((np.minimum(position[:, 0], 0.017 - position[:, 0]) - 0.0035) / 0.002) ** 2)
     speed = np.outer(np.abs(velocity(times)), 1.9 * share)
     summed = np.cumsum(pressure * speed * np.gradient(times)[:, None], axis=0)
-    series = {"contact_pressure": ("Pa", pressure), "sliding_speed": ("m/s", speed), "sliding_pressure": ("Pa.m", summed),
-              "friction_work": ("J/m2", 0.2 * summed), "preston_depth": ("m", 1e-11 * summed)}
+    series = {"contact_pressure": ("Pa", pressure), "sliding_speed": ("m/s", speed),
+              "sliding_pressure": ("Pa.m", summed), "friction_work": ("J/m2", 0.2 * summed), "preston_depth": ("m", 1e-11 * summed)}
     with h5py.File(out / "surface.h5", "w") as file:
         for name, (unit, values) in {"start_position": ("m", position), "area": ("m", area), "normal": ("1", normal),
                                      "work_piece": ("1", owner), "time": ("s", times), **series}.items():
@@ -86,10 +84,11 @@ def make_results(out, elastic=False, frames=12):
     out.mkdir(parents=True)
     times = np.linspace(0, END, 236)
     depth = write_surface(out, ["interface"] if elastic else list(PIECES), times)
-    columns = {"time[s]": times, "removed_depth_mean[m]": depth.mean(axis=1), "removed_depth_largest[m]": depth.max(axis=1)}
+    columns = {"time[s]": times, "removed_depth_mean[m]": depth.mean(axis=1),
+               "removed_depth_largest[m]": depth.max(axis=1)}
     for name in WALLS if elastic else WALLS | PIECES:
         columns[f"force_from_{name}_x[N/m]"] = 0 * times
-        columns[f"force_from_{name}_y[N/m]"] = [17 * 9 * velocity(t) * math.copysign(1, "upper" in name or -1) for t in times]
+        columns[f"force_from_{name}_y[N/m]"] = (9 if "upper" in name else -9) * 17 * velocity(times)
     write_series(out, "fluid", columns)
     for name, body in [("fluid", fluid), ("solid", solid)][:2 if elastic else 1]:
         write_frames(out, name, body, np.linspace(0, END, frames))

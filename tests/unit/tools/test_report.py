@@ -164,16 +164,16 @@ class Pieces(unittest.TestCase):
         self.assertAlmostEqual(at[2.0], 3.0)  # the last velocity goes on
 
     def test_a_wall_moves_faster_and_for_longer_by_its_multipliers(self):
-        wall, = data.wall_paths({"case": {"end_time": 2.0}, "wall": [
+        wall, = scene.wall_paths({"wall": [
             {"name": "w", "box": {"min": [0, 0], "max": [1, 1]},
-             "motion": {"velocity": [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]], "speed": 3.0, "time": 2.0}}]})
-        at = {round(t, 6): x for t, x, _ in wall["path"]}
+             "motion": {"velocity": [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]], "speed": 3.0, "time": 2.0}}]}, end=2.0)
+        at = {round(t, 6): x for t, x, *_ in wall["path"]}
         self.assertAlmostEqual(at[1.0], 3 * 2 * 0.25)
         self.assertAlmostEqual(at[2.0], 3 * 2 * 1.0)
 
     def test_a_wall_without_motion_has_no_path(self):
-        wall, = data.wall_paths({"case": {"end_time": 2.0}, "wall": [
-            {"name": "w", "box": {"min": [0, 0], "max": [1, 1]}}]})
+        wall, = scene.wall_paths({"wall": [
+            {"name": "w", "box": {"min": [0, 0], "max": [1, 1]}}]}, end=2.0)
         self.assertEqual(wall["path"], [])
 
 
