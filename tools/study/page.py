@@ -16,7 +16,7 @@ from processes import DONE
 from progress import duration
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCALE = 1.24  # pixels of the page for a point of a chart
+SCALE = 1.19  # pixels of the page for a point of a chart
 
 
 def write(path, study, table, drawn, answers, versions):
