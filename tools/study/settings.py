@@ -3,6 +3,7 @@
 import hashlib
 import itertools
 import json
+import tomllib
 from dataclasses import dataclass
 
 
@@ -31,9 +32,18 @@ def toml(value):
     return json.dumps(value, ensure_ascii=False) if isinstance(value, (str, bool, int)) else str(value)
 
 
+def content_of(case):
+    """What a case file says, comments and layout aside; its text if it is no TOML, which the programs will tell."""
+    text = case.read_text(encoding="utf-8")
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        return text
+
+
 def settings(study, extra=(), program_identity=""):
     """All settings, the last axis changing fastest. `extra`: overrides of the command line, which win."""
-    case_text = study.case.read_text(encoding="utf-8")
+    case = content_of(study.case)
     always = {} if study.keep_frames else {"case.frame_interval": 0}
     found = []
     for values in itertools.product(*(axis.values for axis in study.axes)):
@@ -42,7 +52,7 @@ def settings(study, extra=(), program_identity=""):
             overrides |= value.overrides
         as_toml = {key: toml(value) for key, value in overrides.items()} | dict(pair.split("=", 1) for pair in extra)
         setting = Setting({axis.name: value.name for axis, value in zip(study.axes, values)}, as_toml)
-        identity = json.dumps([program_identity, case_text, list(as_toml.items())])
+        identity = json.dumps([program_identity, case, list(as_toml.items())], default=str)
         setting.key = hashlib.sha256(identity.encode()).hexdigest()[:12]
         found.append(setting)
     return found
