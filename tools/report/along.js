@@ -54,7 +54,7 @@ class Along {
     const faint = quantity.kind === "sum" ? kept.map((k) => this.row(k)) : [this.mean()];
     for (const values of faint)
       values.forEach((v, c) => svg("path", {class: "line faint", d: this.pathOf(c, v), stroke: colourOf(c)}, plot.picture));
-    this.note.textContent = (quantity.kind === "sum" ? `Faint: at ${kept.map((k) => text(this.times[k])).join(", ")} s.` : "Faint: mean over the run.")
+    this.note.textContent = (quantity.kind === "sum" ? `Faint: at ${kept.map((k) => +this.times[k].toPrecision(3)).join(", ")} s.` : "Faint: mean over the run.")
       + (this.contours.some((c) => c.corners.length) ? " Dotted: the edges." : "");
     this.lines = this.contours.map((_, c) => svg("path", {class: "line", stroke: colourOf(c)}, plot.picture));
     this.row0 = null;
@@ -107,7 +107,7 @@ class Along {
       trace(surface);
       trace(outer.slice().reverse());
       context.closePath();
-      context.globalAlpha = 0.75;
+      context.globalAlpha = 0.7;
       context.fillStyle = "#ffffff";  // as of what is no longer there, and no colour of the particles
       context.fill();
       context.globalAlpha = 1;

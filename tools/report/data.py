@@ -84,20 +84,20 @@ def chart(title, unit, lines):
         for label, times, values, kind in lines]}
 
 
-FROM_BOUNDARY = re.compile(r"(force|impulse)_from_(\w+)_([xy])")
+FROM_BOUNDARY = re.compile(r"(force|impulse|friction|friction_impulse)_from_(\w+)_([xy])")
 
 
 def label_of(column):
     """The name of a line in its chart: what the chart's title does not say already."""
     from_boundary = FROM_BOUNDARY.fullmatch(column.partition("[")[0])
-    return results.readable(from_boundary[2] if from_boundary else column)
+    return f"from {results.readable(from_boundary[2])}" if from_boundary else results.readable(column)
 
 
 def group_of(column):
     """Columns of one group and unit share a chart."""
     name = column.partition("[")[0]
     if from_boundary := FROM_BOUNDARY.fullmatch(name):
-        return f"{from_boundary[1]} from the boundaries, {from_boundary[3]}"
+        return f"{results.readable(from_boundary[1])}, {from_boundary[3]}"
     if name.startswith("removed_depth"):
         return "removed depth"
     if results.unit_of(column) == "J/m":

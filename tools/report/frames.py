@@ -16,6 +16,7 @@ SHARE_LEFT = 0.7  # what compression typically leaves of the codes
 NOT_SHOWN = {"particle"}  # a name, not a quantity
 NO_VALUE = 65535  # code of what is not finite; values take 0 to 65534
 SAMPLED_FRAMES = 12  # enough to find the range of a field
+OUTERMOST = 1.0  # per cent of the values, at either end, that do not count for it: shocks, corners
 
 
 @dataclass
@@ -82,7 +83,7 @@ def quantities(point_data):
         else:
             parts = {4: ("xx", "xy", None, "yy")}.get(data.shape[1], ())
             found += [Quantity(f"{label} {part}", unit, name, i) for i, part in enumerate(parts) if part]
-    first = ("pressure", "von mises", "stress", "speed")  # the page opens with the first that is there
+    first = ("von mises", "pressure", "stress", "speed")  # the page opens with the first that is there
     return sorted(found, key=lambda q: next((i for i, word in enumerate(first) if word in q.label.lower()), 9))
 
 
@@ -101,7 +102,7 @@ def finite_box(points):
 
 
 def measure(body, domain):
-    """Sets the ranges of the quantities (all but the outermost 0.2 % of the values of some frames) and returns the
+    """Sets the ranges of the quantities (of the values of some frames, without the outermost) and returns the
     smallest box that holds all particles inside `domain` ((x, y) min, (x, y) max)."""
     chosen = np.unique(np.linspace(0, len(body.files) - 1, SAMPLED_FRAMES).round().astype(int))
     samples = [[] for _ in body.quantities]
@@ -119,7 +120,7 @@ def measure(body, domain):
         values = values[np.isfinite(values)]
         if len(values):
             # Components of the displacement are drawn as such, too: none may be cut off.
-            outermost = 0 if quantity.field == "displacement" and quantity.component != -1 else 0.2
+            outermost = 0 if quantity.field == "displacement" and quantity.component != -1 else OUTERMOST
             quantity.low, quantity.high = (float(v) for v in np.percentile(values, [outermost, 100 - outermost]))
         if quantity.high <= quantity.low:
             quantity.high = quantity.low + (abs(quantity.low) * 1e-3 or 1.0)

@@ -184,7 +184,7 @@ function makeStages(bodies) {
   byId("beside").hidden = !byId("beside").children.length;
   const whole = new Stage(byId("particles"), content.view, content.walls, bodies, {tall});
   if (!content.near) return [whole];
-  const near = new Stage(byId("enlarged"), content.near, content.walls, bodies, {tall, disc: 0.48});
+  const near = new Stage(byId("enlarged"), content.near, content.walls, bodies, {tall, disc: 0.43});
   whole.over.push(() => whole.outline(near));
   return [whole, near];
 }

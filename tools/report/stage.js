@@ -3,8 +3,8 @@ const MOST_HEIGHT = 0.68;  // of the window, of a picture that takes the page's 
 const cssColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name);
 
 class Stage {
-  // `home`: the box shown at first. `disc`: radius of a particle in spacings; 0.6 covers a square lattice without holes.
-  constructor(canvas, home, walls, bodies, {disc = 0.6, tall = false} = {}) {
+  // `home`: the box shown at first. `disc`: radius of a particle in spacings; 0.7 covers a square lattice without holes.
+  constructor(canvas, home, walls, bodies, {disc = 0.7, tall = false} = {}) {
     Object.assign(this, {canvas, home, walls, bodies, disc, tall, factor: 1, over: []});
     this.context = canvas.getContext("2d", {willReadFrequently: true});
     this.fit();

@@ -69,15 +69,15 @@ def figures(out, summaries, comparisons, run):
         tiles.append(tile("simulated", f"{number(reached)} s", "" if run["code"] == 0 else "not to the end"))
         tiles.append(tile("wall time", f"{wall:.1f} s", f"{sum(s['processor_time'] for s in summaries.values()):.1f}"
                                                         " s of processor"))
+    tiles += removed(results.read_series(out, "fluid"))
     series = results.read_series(out, "solid")
     for column, values in series.items():
         found = re.fullmatch(r"(\w+)_displacement_(\w)\[m\]", column)
         if found and any(map(math.isfinite, values)):
             time, value = results.peak(series["time[s]"], values)
             factor, unit = data.scaled("m", abs(value))
-            tiles.append(tile(f"peak {found[1]} displacement {found[2]}", f"{number(value * factor)} {unit}",
+            tiles.append(tile(f"peak {results.readable(found[1])} displacement {found[2]}", f"{number(value * factor)} {unit}",
                               f"at {number(time)} s"))
-    tiles += removed(results.read_series(out, "fluid"))
     for comparison in comparisons:
         if math.isfinite(comparison.distance):
             tiles.append(tile(f"distance in {comparison.quantity}", f"{100 * comparison.distance:.1f} %",

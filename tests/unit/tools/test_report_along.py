@@ -109,9 +109,9 @@ class Page(unittest.TestCase):
     def test_forces_from_the_boundaries_share_a_chart_for_each_direction(self):
         self.make()
         charts = {chart["title"]: chart["lines"] for chart in self.content()["others"]["fluid"]}
-        self.assertEqual([line["label"] for line in charts["force from the boundaries, y"]],
-                         ["lower piston", "upper piston", "left wall", "right wall", "left work piece",
-                          "right work piece"])
+        self.assertEqual([line["label"] for line in charts["force, y"]],
+                         [f"from {name}" for name in ("lower piston", "upper piston", "left wall", "right wall",
+                                                      "left work piece", "right work piece")])
         self.assertEqual(len(charts["removed depth"]), 2)
 
     def test_removed_depth_and_evenness_are_key_figures(self):
@@ -143,7 +143,8 @@ class Pieces(unittest.TestCase):
         self.assertEqual(scene.motion_charts(walls, 1.0), [])
 
     def test_lines_are_named_by_their_boundary(self):
-        self.assertEqual(data.label_of("force_from_upper_piston_y[N/m]"), "upper piston")
+        self.assertEqual(data.label_of("friction_impulse_from_upper_piston_y[N.s/m]"), "from upper piston")
+        self.assertEqual(data.group_of("friction_impulse_from_upper_piston_y[N.s/m]"), "friction impulse, y")
         self.assertEqual(data.label_of("removed_depth_mean[m]"), "removed depth mean")
 
 
