@@ -1,0 +1,167 @@
+"""Whether a medium between pistons stayed whole: its volume, voids, particles in walls, flow through a throat and
+the symmetry of the pressures; read from the frames and series of a run.
+
+    /usr/bin/python3 tools/enclosed_medium.py OUT --cycle SECONDS
+
+The medium fills at first the boxes of [[fluid.region]] less the holes. A side of their hull that touches a moving
+wall moves with it. Solid are the boxes of walls and, undeformed, of the solid's regions."""
+
+import argparse
+import json
+import pathlib
+import sys
+import tomllib
+from dataclasses import dataclass
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE / "report"))
+sys.path.insert(0, str(HERE))
+
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+
+import data  # noqa: E402
+import results  # noqa: E402
+
+CELLS = 10  # points of the grid, across a spacing, on which voids are looked for
+AVERAGE = 0.1  # [s] over which flow and pressures are averaged
+
+
+@dataclass
+class Conditions:
+    """The worst of a run."""
+
+    volume: float  # |sum m/rho / space - 1|
+    void: float  # distance of a point of the space from the nearest particle, in spacings
+    depth: float  # of a particle's centre in a wall, in spacings; negative: how far the nearest stayed outside
+    flow: float  # |flow - piston's velocity times area|, over AVERAGE, as a share of the largest such product
+    asymmetry: float  # root mean square of dp(t + half a cycle) + dp(t), of that of dp; dp between the pistons
+
+    def text(self):
+        return "\n".join([
+            f"medium's volume against the space      {100 * self.volume:.3f} % at most",
+            f"farthest point from a particle         {self.void:.2f} spacings",
+            f"deepest particle in a wall             {self.depth:+.2f} spacings (negative: outside)",
+            f"flow against the pistons', {AVERAGE} s mean  {100 * self.flow:.2f} % at most",
+            f"pressures' asymmetry over half a cycle {100 * self.asymmetry:.1f} %, root mean square"])
+
+
+class Space:
+    """Where the medium may be, over time."""
+
+    def __init__(self, case):
+        regions = np.array([[r["box"]["min"], r["box"]["max"]] for r in case["fluid"]["region"]])
+        self.low, self.high = regions[:, 0].min(axis=0), regions[:, 1].max(axis=0)
+        self.walls = data.wall_paths(case)
+        self.solids = [r["box"] for r in case.get("solid", {}).get("region", [])]
+        holes = case["fluid"].get("hole", [])
+        area = sum(np.prod(np.subtract(box["max"], box["min"])) for box in (r["box"] for r in case["fluid"]["region"]))
+        self.area = area - sum(np.prod(np.subtract(hole["max"], hole["min"])) for hole in holes)
+        self.width = self.high[0] - self.low[0]
+        self.below = self._touching(1, self.low[1], 3)
+        self.above = self._touching(1, self.high[1], 1)
+
+    def _touching(self, axis, level, side):
+        """The moving wall whose side (index into x0, y0, x1, y1) is at `level`."""
+        found = [w for w in self.walls if w["path"] and abs(w["box"][side] - level) < 1e-9]
+        if not found:
+            raise ValueError(f"no moving wall bounds the medium at {'xy'[axis]} = {level} m")
+        return found[0]
+
+    @staticmethod
+    def shift(wall, time):
+        if not wall["path"]:
+            return np.zeros(2)
+        path = np.array(wall["path"])
+        return np.array([np.interp(time, path[:, 0], path[:, axis]) for axis in (1, 2)])
+
+    def hull(self, time):
+        return (self.low + [0, self.shift(self.below, time)[1]], self.high + [0, self.shift(self.above, time)[1]])
+
+    def boxes(self, time):
+        """Lower and upper corner of all that is solid."""
+        boxes = [(np.array(w["box"][:2]) + self.shift(w, time), np.array(w["box"][2:]) + self.shift(w, time))
+                 for w in self.walls]
+        return boxes + [(np.array(b["min"]), np.array(b["max"])) for b in self.solids]
+
+
+def depth_in(boxes, points):
+    """How deep each point is in the box it is deepest in, negative outside all."""
+    return np.max([np.min([points - low, high - points], axis=(0, 2)) for low, high in boxes], axis=0)
+
+
+def farthest_point(points, low, high, boxes, spacing):
+    """Largest distance [spacings] of a point of the space from the nearest particle, at most 2."""
+    step = spacing / CELLS
+    counts = np.round((high - low) / step).astype(int)
+    axes = [low[a] + (np.arange(counts[a]) + 0.5) * step for a in (0, 1)]
+    nearest = np.full(counts, 2.0 * spacing)
+    reach = 2 * CELLS
+    for x, y in points:
+        i, j = int((x - low[0]) / step), int((y - low[1]) / step)
+        a, b = slice(max(i - reach, 0), max(i + reach, 0)), slice(max(j - reach, 0), max(j + reach, 0))
+        distance = np.hypot((axes[0][a] - x)[:, None], (axes[1][b] - y)[None, :])
+        np.minimum(nearest[a, b], distance, out=nearest[a, b])
+    for box_low, box_high in boxes:
+        inside = [(axes[a] > box_low[a]) & (axes[a] < box_high[a]) for a in (0, 1)]
+        nearest[np.ix_(*inside)] = 0
+    return nearest.max() / spacing
+
+
+def mean_over(times, impulses, span):
+    """Mean force over the `span` before each time, from impulses since the start; nan before the first span."""
+    before = np.interp(times - span, times, impulses)
+    return np.where(times >= span, (impulses - before) / span, np.nan)
+
+
+def flow_error(case, series, space):
+    """Of the first flow_rate observer; nan if the case has none."""
+    names = [o["name"] for o in case["fluid"].get("observer", []) if o["quantity"] == "flow_rate"]
+    if not names:
+        return float("nan")
+    times, flow = np.array(series["time[s]"]), np.array(series[f"{names[0]}[m2/s]"])
+    piston = space.width * np.array([space.shift(space.below, t)[1] for t in times])  # volume pushed since the start
+    passed = np.concatenate([[0], np.cumsum((flow[1:] + flow[:-1]) / 2 * np.diff(times))])
+    largest = np.nanmax(np.abs(np.gradient(piston, times)))
+    return np.nanmax(np.abs(mean_over(times, passed, AVERAGE) - mean_over(times, piston, AVERAGE))) / largest
+
+
+def asymmetry(series, space, cycle):
+    times = np.array(series["time[s]"])
+    pressure = [mean_over(times, np.array(series[f"impulse_from_{w['name']}_y[N.s/m]"]), AVERAGE) / space.width
+                for w in (space.below, space.above)]
+    dp = pressure[0] + pressure[1]  # the upper piston pushes downwards
+    later = np.interp(times + cycle / 2, times, dp, right=np.nan)
+    residual = later + dp
+    return np.sqrt(np.nanmean(residual ** 2) / np.nanmean(dp[np.isfinite(residual)] ** 2))
+
+
+def conditions(out, cycle):
+    case = tomllib.loads((out / "used_case.toml").read_text(encoding="utf-8"))
+    space, spacing = Space(case), case["fluid"]["spacing"]
+    series = results.read_series(out, "fluid")
+    volume = void = 0.0
+    depth = -np.inf
+    frames = json.loads((out / "fluid.hdf.series").read_text(encoding="utf-8"))["files"]
+    mass = case["fluid"]["density"] * spacing ** 2
+    for frame in frames:
+        with h5py.File(out / frame["name"]) as file:
+            points = file["VTKHDF/Points"][:, :2]
+            density = file["VTKHDF/PointData/density"][:]
+        boxes = space.boxes(frame["time"])
+        volume = max(volume, abs((mass / density).sum() / space.area - 1))
+        void = max(void, farthest_point(points, *space.hull(frame["time"]), boxes, spacing))
+        depth = max(depth, depth_in(boxes, points).max() / spacing)
+    return Conditions(volume, void, depth, flow_error(case, series, space), asymmetry(series, space, cycle))
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="enclosed_medium", description=__doc__.split("\n\n")[0])
+    parser.add_argument("out", metavar="OUT", type=pathlib.Path)
+    parser.add_argument("--cycle", metavar="SECONDS", type=float, required=True, help="period of the pistons")
+    options = parser.parse_args()
+    print(conditions(options.out, options.cycle).text())
+
+
+if __name__ == "__main__":
+    main()
