@@ -1,10 +1,11 @@
 """Whether a medium between pistons stayed whole: its volume, voids, particles in walls, flow through a throat and
-the symmetry of the pressures; read from the frames and series of a run.
+the symmetry of the pressures; read from the frames (every 25 ms, say) and series of a run.
 
     /usr/bin/python3 tools/enclosed_medium.py OUT --cycle SECONDS
 
-The medium fills at first the boxes of [[fluid.region]] less the holes. A side of their hull that touches a moving
-wall moves with it. Solid are the boxes of walls and, undeformed, of the solid's regions."""
+The throat is the box of the first [[fluid.observer]] with quantity = "flow_rate"; the flow is along y. The medium
+fills at first the boxes of [[fluid.region]] less the holes. A side of their hull that touches a moving wall moves with
+it. Solid are the boxes of walls and, undeformed, of the solid's regions."""
 
 import argparse
 import json
@@ -20,8 +21,8 @@ sys.path.insert(0, str(HERE))
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-import data  # noqa: E402
 import results  # noqa: E402
+import scene  # noqa: E402
 
 CELLS = 10  # points of the grid, across a spacing, on which voids are looked for
 AVERAGE = 0.1  # [s] over which flow and pressures are averaged
@@ -34,7 +35,7 @@ class Conditions:
     volume: float  # |sum m/rho / space - 1|
     void: float  # distance of a point of the space from the nearest particle, in spacings
     depth: float  # of a particle's centre in a wall, in spacings; negative: how far the nearest stayed outside
-    flow: float  # |flow - piston's velocity times area|, over AVERAGE, as a share of the largest such product
+    flow: float  # |flow through the throat - piston's velocity times area|, mean over AVERAGE, share of the largest
     asymmetry: float  # root mean square of dp(t + half a cycle) + dp(t), of that of dp; dp between the pistons
 
     def text(self):
@@ -52,7 +53,7 @@ class Space:
     def __init__(self, case):
         regions = np.array([[r["box"]["min"], r["box"]["max"]] for r in case["fluid"]["region"]])
         self.low, self.high = regions[:, 0].min(axis=0), regions[:, 1].max(axis=0)
-        self.walls = data.wall_paths(case)
+        self.walls = scene.wall_paths(case, case["case"]["end_time"])
         self.solids = [r["box"] for r in case.get("solid", {}).get("region", [])]
         holes = case["fluid"].get("hole", [])
         area = sum(np.prod(np.subtract(box["max"], box["min"])) for box in (r["box"] for r in case["fluid"]["region"]))
@@ -114,16 +115,20 @@ def mean_over(times, impulses, span):
     return np.where(times >= span, (impulses - before) / span, np.nan)
 
 
-def flow_error(case, series, space):
-    """Of the first flow_rate observer; nan if the case has none."""
-    names = [o["name"] for o in case["fluid"].get("observer", []) if o["quantity"] == "flow_rate"]
-    if not names:
-        return float("nan")
-    times, flow = np.array(series["time[s]"]), np.array(series[f"{names[0]}[m2/s]"])
-    piston = space.width * np.array([space.shift(space.below, t)[1] for t in times])  # volume pushed since the start
-    passed = np.concatenate([[0], np.cumsum((flow[1:] + flow[:-1]) / 2 * np.diff(times))])
-    largest = np.nanmax(np.abs(np.gradient(piston, times)))
-    return np.nanmax(np.abs(mean_over(times, passed, AVERAGE) - mean_over(times, piston, AVERAGE))) / largest
+def volume_beyond(box, points, volumes, spacing):
+    """Volume [m2] above a plane y across the box, plus that of the box below the plane: the mean over planes along
+    the box. A particle that a plane cuts counts by its share above. The change over time is what has passed."""
+    planes = np.linspace(box["min"][1], box["max"][1], 2 * round((box["max"][1] - box["min"][1]) / spacing) + 1)
+    width = box["max"][0] - box["min"][0]
+    above = [(volumes * np.clip((points[:, 1] - y) / spacing + 0.5, 0, 1)).sum() + width * y for y in planes]
+    return np.mean(above)
+
+
+def flow_error(times, passed, space):
+    """Of the volume that has passed the throat, against that which the pistons have pushed."""
+    pushed = space.width * np.array([space.shift(space.below, t)[1] for t in times])
+    fastest = np.abs(np.diff(pushed) / np.diff(times)).max()
+    return np.nanmax(np.abs(mean_over(times, passed - pushed, AVERAGE))) / fastest
 
 
 def asymmetry(series, space, cycle):
@@ -139,20 +144,22 @@ def asymmetry(series, space, cycle):
 def conditions(out, cycle):
     case = tomllib.loads((out / "used_case.toml").read_text(encoding="utf-8"))
     space, spacing = Space(case), case["fluid"]["spacing"]
-    series = results.read_series(out, "fluid")
-    volume = void = 0.0
-    depth = -np.inf
-    frames = json.loads((out / "fluid.hdf.series").read_text(encoding="utf-8"))["files"]
+    throat = next(o["box"] for o in case["fluid"]["observer"] if o["quantity"] == "flow_rate")
     mass = case["fluid"]["density"] * spacing ** 2
-    for frame in frames:
+    worst = {"volume": 0.0, "void": 0.0, "depth": -np.inf}
+    times, passed = [], []
+    for frame in json.loads((out / "fluid.hdf.series").read_text(encoding="utf-8"))["files"]:
         with h5py.File(out / frame["name"]) as file:
             points = file["VTKHDF/Points"][:, :2]
-            density = file["VTKHDF/PointData/density"][:]
+            volumes = mass / file["VTKHDF/PointData/density"][:]
         boxes = space.boxes(frame["time"])
-        volume = max(volume, abs((mass / density).sum() / space.area - 1))
-        void = max(void, farthest_point(points, *space.hull(frame["time"]), boxes, spacing))
-        depth = max(depth, depth_in(boxes, points).max() / spacing)
-    return Conditions(volume, void, depth, flow_error(case, series, space), asymmetry(series, space, cycle))
+        worst["volume"] = max(worst["volume"], abs(volumes.sum() / space.area - 1))
+        worst["void"] = max(worst["void"], farthest_point(points, *space.hull(frame["time"]), boxes, spacing))
+        worst["depth"] = max(worst["depth"], depth_in(boxes, points).max() / spacing)
+        times.append(frame["time"])
+        passed.append(volume_beyond(throat, points, volumes, spacing))
+    flow = flow_error(np.array(times), np.array(passed), space)
+    return Conditions(**worst, flow=flow, asymmetry=asymmetry(results.read_series(out, "fluid"), space, cycle))
 
 
 def main():
