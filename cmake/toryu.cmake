@@ -29,18 +29,21 @@ endfunction()
 # All that the tests labelled `unit` need, for a build of them alone.
 add_custom_target(unit_tests)
 
-# toryu_test(NAME SOURCES a.cpp ... LIBRARIES x ... [LABEL unit]): a GoogleTest executable, one CTest entry a test case.
+# toryu_test(NAME SOURCES a.cpp ... LIBRARIES x ... [LABEL unit] [TIMEOUT 300]): a GoogleTest executable, one CTest entry a test case.
 function(toryu_test name)
-  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   if(ARG_LABEL STREQUAL "unit")
     add_dependencies(unit_tests ${name})
   endif()
-  gtest_discover_tests(${name} NO_PRETTY_VALUES PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 300 DISCOVERY_MODE PRE_TEST)
+  gtest_discover_tests(${name} NO_PRETTY_VALUES PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} DISCOVERY_MODE PRE_TEST)
 endfunction()
 
 # toryu_python_test(NAME SCRIPT test.py [LABEL unit] [TIMEOUT 300] [ENVIRONMENT A=1 ...]): a unittest file, one CTest
