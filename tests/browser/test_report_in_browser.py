@@ -60,7 +60,7 @@ class ReportInBrowser(unittest.TestCase):
                            stdout=subprocess.DEVNULL)
         self.browser.get((out / "report.html").as_uri())
         self.wait_for_frame(0)
-        WebDriverWait(self.browser, 60).until(lambda _: self.browser.find_element(By.ID, "band").text)
+        WebDriverWait(self.browser, 60).until(lambda _: "Band" in self.browser.find_element(By.ID, "drawn").text)
 
     def wait_for_frame(self, index):
         canvas = self.browser.find_element(By.ID, "particles")
@@ -138,7 +138,8 @@ class ReportInBrowser(unittest.TestCase):
 
     def test_a_tall_scene_has_its_charts_beside_it(self):
         self.open_channel()
-        picture, near, charts = (self.browser.find_element(By.ID, name).rect for name in ("particles", "enlarged", "beside"))
+        picture, near, charts = (self.browser.find_element(By.ID, name).rect
+                                 for name in ("particles", "enlarged", "beside"))
         self.assertLess(picture["x"] + picture["width"], near["x"])
         self.assertLess(near["x"] + near["width"], charts["x"])
         self.assertAlmostEqual(picture["y"], charts["y"], delta=3)
@@ -159,12 +160,12 @@ class ReportInBrowser(unittest.TestCase):
         self.go_to(6)
         figures = self.browser.find_elements(By.CSS_SELECTOR, "#beside figure")
         line, near, words = (figures[-1].get_attribute("innerHTML"), self.picture("enlarged"),
-                             self.browser.find_element(By.ID, "band").text)
+                             self.browser.find_element(By.ID, "drawn").text)
         self.assertRegex(words, r"removed depth \(Preston\), drawn .* times as deep")
         Select(self.browser.find_element(By.ID, "along")).select_by_value("2")
         WebDriverWait(self.browser, 60).until(lambda _: self.picture("enlarged") != near)
         self.assertNotEqual(figures[-1].get_attribute("innerHTML"), line)
-        self.assertIn("contact pressure, at its widest", self.browser.find_element(By.ID, "band").text)
+        self.assertIn("contact pressure, at its widest", self.browser.find_element(By.ID, "drawn").text)
 
     def test_a_displacement_too_small_to_see_is_exaggerated_if_wished(self):
         self.open_channel(elastic=True)
@@ -172,9 +173,12 @@ class ReportInBrowser(unittest.TestCase):
         before = self.picture("enlarged")
         select = Select(self.browser.find_element(By.ID, "factor"))
         self.assertIn("10⁴", select.first_selected_option.text)
+        self.assertIn("Displacement of the solid: drawn 1·10⁴ times as large.",
+                      self.browser.find_element(By.ID, "drawn").text)
         select.select_by_index(0)
         WebDriverWait(self.browser, 60).until(lambda _: self.picture("enlarged") != before)
         self.assertEqual(select.first_selected_option.text, "as it is")
+        self.assertNotIn("Displacement", self.browser.find_element(By.ID, "drawn").text)
 
 
 if __name__ == "__main__":

@@ -142,5 +142,5 @@ class Along {
 function rounded(value) {
   const power = Math.floor(Math.log10(value));
   if (power < 4) return String(+value.toPrecision(2));
-  return `${(value / 10 ** power).toFixed(1)}·10${[...String(power)].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`;
+  return `${+(value / 10 ** power).toFixed(1)}·10${[...String(power)].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`;
 }

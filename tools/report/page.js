@@ -204,6 +204,12 @@ function offerExaggeration(near, bodies, changed) {
   byId("factor").addEventListener("change", () => { near.factor = +byId("factor").value; changed(); });
 }
 
+// What is drawn otherwise than it is, for people.
+function tellDrawn(near, along) {
+  const solid = near.factor > 1 ? `Displacement of the solid: drawn ${rounded(near.factor)} times as large.` : "";
+  byId("drawn").textContent = `${along?.quantity ? along.bandText(near) : ""} ${solid}`;
+}
+
 const {followers, along} = makeBeside();
 const charts = makeCharts(span());
 const bodies = content.bodies.map((body) => new Body(body));
@@ -214,13 +220,17 @@ if (times.length) {
   const player = new Player(stages, times, [...followers, ...charts]);
   for (const body of bodies)
     if (body.quantities.length) player.bars.push(colourChoice(byId("colours"), body, () => player.redraw()));
-  offerExaggeration(near, bodies, () => player.redraw());
+  const redraw = () => {
+    if (near) tellDrawn(near, along);
+    player.redraw();
+  };
+  offerExaggeration(near, bodies, redraw);
+  if (near) tellDrawn(near, along);
   if (along) {
     const choose = async () => {
       await along.choose(+along.select.value);
       along.moveTo(player.time);
-      if (near) byId("band").textContent = along.bandText(near);
-      player.redraw();
+      redraw();
     };
     along.select.addEventListener("change", choose);
     if (near) near.over.push((stage) => along.draw(stage));
