@@ -4,6 +4,7 @@
 """
 
 import argparse
+import math
 import os
 import pathlib
 import subprocess
@@ -100,6 +101,9 @@ def finish(study, records, out, kept, elapsed, versions):
     failed = sum(record.exit_code != DONE for record in records)
     print(f"{len(records)} runs" + (f", {failed} of them ended by their physics" if failed else "") +
           (f"; {kept} were done before" if kept else "") + f"; {duration(elapsed)}")
+    for metric in study.metrics:
+        if not any(math.isfinite(value) for value in made.column(metric.name)):
+            print(f"no run gives '{metric.name}'")
     for answer in answers:
         print(answer.sentence)
     for name in ("table.csv", "charts", "study.html"):

@@ -18,7 +18,7 @@ def did_you_mean(word, allowed):
 
 
 def one_of(allowed):
-    return ", ".join(f"'{a}'" for a in allowed)
+    return ", ".join(f"'{a}'" for a in allowed) or "none that there are"
 
 
 def is_number(value):
@@ -78,7 +78,7 @@ class Document:
                 return number
             if not path:
                 return None
-            path = path[:-1]
+            path, key = path[:-1], path[-1]  # an inline table stands where its key does
 
     def fault(self, text, path=(), key=""):
         self.faults.append((self.line(path, key) or 0, text))

@@ -82,13 +82,13 @@ class Removal:
         return answer_of(self.wanted, study, table) if self.wanted else None
 
 
-def read(table):
-    """The table [removal] of a study file."""
+def read(table, study):
+    """The table [removal] of the file of `study`."""
     area, cycle = table.get("piston_area", float), table.get("cycle", float)
     for key, value in (("piston_area", area), ("cycle", cycle)):
         if value is not None and not value > 0:
             table.fault(f"'{key}' must be above 0, found {value}", key)
-    pistons = table.texts("pistons")
+    pistons = table.texts("pistons", allowed=study.names_in_case("wall", "name"))
     if table.has("pistons") and not pistons:
         table.fault("'pistons' needs at least one wall", "pistons")
     answer = table.table("answer")

@@ -31,6 +31,8 @@ class Wanted:
         if wanted.evenness_at_most < 1:
             table.fault(f"'evenness_at_most' is the largest depth over the mean, so at least 1, found "
                         f"{wanted.evenness_at_most}", "evenness_at_most")
+        if not wanted.pressure_at_most > 0:
+            table.fault(f"'pressure_at_most' must be above 0, found {wanted.pressure_at_most}", "pressure_at_most")
         table.close()
         return wanted
 
@@ -46,8 +48,9 @@ class Wanted:
                 "evenness_then": float(depth.max()) / removed.mean(depth), "roughness_then": removed.roughness_at(depth)}
 
     def met(self, row):
+        """Whether the setting keeps the limits. A pressure that the run does not tell (nan) keeps none."""
         return (math.isfinite(row.get("cycles_needed", math.nan)) and row["evenness_then"] <= self.evenness_at_most
-                and not row["piston_pressure"] > self.pressure_at_most)
+                and (math.isinf(self.pressure_at_most) or row["piston_pressure"] <= self.pressure_at_most))
 
     def limits(self):
         """The limits in words."""

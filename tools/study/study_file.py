@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import results
 from document import BadStudy, Document, did_you_mean, is_number, one_of
+from settings import content_of
 
 TAKES = ("last", "largest", "smallest", "peak", "mean", "rms")
 OF_RUN = {"wall_time": "s", "processor_time": "s", "simulated_time": "s", "steps": ""}
@@ -73,6 +74,12 @@ class Study:
     def name(self):
         return results.case_name(self.path)
 
+    def names_in_case(self, table, key):
+        """What the [[table]] of the case have under `key`; none if the case is no TOML, which the programs will tell."""
+        content = content_of(self.case) if self.case.is_file() else {}
+        items = content.get(table, []) if isinstance(content, dict) else []
+        return [item[key] for item in items if key in item] if isinstance(items, list) else []
+
     def units(self):
         return {thing.name: thing.unit for thing in [*self.axes, *self.metrics]} | OF_RUN
 
@@ -89,7 +96,8 @@ def flat(content, prefix=""):
 
 
 def read(path, views=()):
-    """The study in `path`. `views`: (key, reader) of the tables that special views declare."""
+    """The study in `path`. `views`: (key, reader) of the tables that special views declare; a reader takes the table and
+    the study."""
     document = Document(path)
     root = document.root()
     head = root.table("study")
@@ -102,13 +110,15 @@ def read(path, views=()):
                   document.line(head.path, "set"), head.get("keep_frames", bool, False), [], [], [])
     head.close()
     study.axes = [_axis(table) for table in root.tables("axis")]
-    study.metrics = [_metric(table) for table in root.tables("metric")]
+    study.metrics = [_metric(table, study) for table in root.tables("metric")]
     _check_names(document, study)
     extra = {}
     for key, reader in views:
         if (table := root.table(key)) is not None:
-            setattr(study, key, reader(table))
+            setattr(study, key, reader(table, study))
             extra |= getattr(study, key).units()
+            for name in sorted(study.units().keys() & extra.keys()):
+                document.fault(f"[{key}] has a figure '{name}' of its own: the axis or metric needs another name")
     study.charts = [_chart(table, study, extra) for table in root.tables("chart")]
     root.close()
     document.end()
@@ -158,18 +168,21 @@ def _values(table):
             for value in values]
 
 
-def _metric(table):
+def _metric(table, study):
     name, scale = table.get("name", str), table.get("scale", float, 1.0)
     given = [source for source in SOURCES if table.has(source)]
     if len(given) != 1:
         table.fault(f"{table.name} needs one of {one_of(SOURCES)}, found {one_of(given) if given else 'none'}")
     metric = Metric(name, table.get("unit", str, ""), scale)
-    metric.summary, metric.reference = table.get("summary", str, None), table.get("reference", str, None)
+    metric.summary, metric.reference = table.get("summary", str, None), table.get(
+        "reference", str, None, allowed=study.names_in_case("reference", "label"))
     metric.run = table.get("run", str, None, allowed=OF_RUN)
     if series := table.get("series", str, None):
         metric.series = series
         metric.take = table.get("take", str, "last", allowed=TAKES)
         metric.shares = table.numbers("shares", 2, [0.0, 1.0])
+        if metric.shares[0] < 0 or metric.shares[1] > 1:
+            table.fault(f"'shares' must be from 0 to 1, found {metric.shares}", "shares")
         if ".csv:" not in series:
             table.fault(f"'series' must be FILE.csv:COLUMN, such as 'fluid.csv:front_x[m]', found '{series}'", "series")
         metric.unit = metric.unit or results.unit_of(series)
@@ -179,7 +192,9 @@ def _metric(table):
 
 
 def _check_names(document, study):
-    names = [thing.name for thing in [*study.axes, *study.metrics] if thing.name]
+    names = [thing.name for thing in [*study.axes, *study.metrics] if thing.name is not None]
+    if "" in names:
+        document.fault("the name of an axis or metric must not be empty")
     for name in sorted({n for n in names if names.count(n) > 1 or n in OF_RUN}):
         document.fault(f"the name '{name}' is taken twice by axes and metrics ({one_of(OF_RUN)} are always there)")
     taken = {}

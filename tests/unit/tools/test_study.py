@@ -45,7 +45,7 @@ class Study(unittest.TestCase):
         (self.bin / "fluid_solver").chmod(0o755)
         (self.bin / "modules").mkdir()
         shutil.copy(HERE / "made_up_surface.py", self.bin / "modules")
-        (self.case / "case.toml").write_text('[case]\ntitle = "test"\n[fluid]\n')
+        (self.case / "case.toml").write_text('[case]\ntitle = "test"\n[[wall]]\nname = "piston"\n[fluid]\n')
 
     def write(self, text, head=HEAD):
         (self.case / "window.toml").write_text(head + text)
@@ -102,10 +102,10 @@ class Runs(Study):
         self.write(TWO_AXES.replace("[1, 2, 4]", "[1, 2, 5]"))
         self.done()
         self.assertEqual(len(self.starts()), 8)
-        (self.case / "case.toml").write_text('# the same\n[case]\ntitle = "test"\n[fluid]\n')
+        (self.case / "case.toml").write_text('# the same\n[case]\ntitle = "test"\n[[wall]]\nname = "piston"\n[fluid]\n')
         self.done()
         self.assertEqual(len(self.starts()), 8)
-        (self.case / "case.toml").write_text('[case]\ntitle = "another"\n[fluid]\n')
+        (self.case / "case.toml").write_text('[case]\ntitle = "another"\n[[wall]]\nname = "piston"\n[fluid]\n')
         self.done()
         self.assertEqual(len(self.starts()), 14)
         with open(self.bin / "fluid_solver", "a") as program:
@@ -256,7 +256,7 @@ run = "processor_time"
 
     def test_metrics(self):
         self.write(TWO_AXES + self.METRICS)
-        self.done()
+        self.assertIn("no run gives 'absent'\n", self.done().stdout)
         row = self.table()[2]  # x = 2, y = 4: speed = 2 + 4 t up to 3 s
         self.assertEqual([row[name] for name in ("end[m/s]", "middle[mm/s]", "speed", "absent[Pa]", "busy[s]")],
                          ["14", "8000", "6", "", "0.25"])
@@ -364,6 +364,27 @@ log = ["z"]
             "window.toml:15: error: 'y' must be one of 'end', 'wall_time', 'processor_time', 'simulated_time', 'steps', "
             "found 'and'; did you mean 'end'?",
             "window.toml:16: error: 'log' must hold some of 'x', 'y', found 'z'"])
+
+    def test_what_neither_case_nor_study_has(self):
+        self.assertEqual(self.faults(TWO_AXES + """[[metric]]
+name = "evenness"
+reference = "measured"
+[[metric]]
+name = ""
+series = "fluid.csv:speed[m/s]"
+shares = [-1, 2]
+[removal]
+pistons = ["pistn"]
+piston_area = 0.5
+cycle = 2.0
+answer = { wanted_depth = 1e-6, pressure_at_most = -1 }
+"""), [
+            "window.toml: error: [removal] has a figure 'evenness' of its own: the axis or metric needs another name",
+            "window.toml: error: the name of an axis or metric must not be empty",
+            "window.toml:21: error: 'reference' must be one of none that there are, found 'measured'",
+            "window.toml:25: error: 'shares' must be from 0 to 1, found [-1, 2]",
+            "window.toml:27: error: 'pistons' must hold some of 'piston', found 'pistn'; did you mean 'piston'?",
+            "window.toml:30: error: 'pressure_at_most' must be above 0, found -1"])
 
     def test_a_case_that_is_not_there(self):
         faults = self.faults(TWO_AXES, HEAD.replace("case.toml", "absent.toml"))
