@@ -1,4 +1,5 @@
-"""The charts that a study file declares: lines over an axis or a figure, heat maps over two axes."""
+"""The charts that a study file declares: lines over an axis or a figure, bars over named choices, heat maps over two
+axes."""
 
 import math
 
@@ -14,10 +15,17 @@ def draw(study, table, folder):
     """(title, SVG for the page, where it lies) of every [[chart]]."""
     drawn = []
     for number, chart in enumerate(study.charts, 1):
-        made = heat_map(chart, study, table) if chart.colour else line_chart(chart, study, table)
+        made = kind_of(chart, study)(chart, study, table)
         name = f"chart_{number:02}"
         drawn.append((chart.title, drawing.save(made, folder / name), f"charts/{name}"))
     return drawn
+
+
+def kind_of(chart, study):
+    if chart.colour:
+        return heat_map
+    axis = axis_of(study, chart.x)
+    return bar_chart if axis and any(isinstance(value.name, str) for value in axis.values) else line_chart
 
 
 def axis_of(study, name):
@@ -54,10 +62,37 @@ def line_chart(chart, study, table):
         scale(chart, study, panel)
         panel.set_xlabel(x_label)
     axes[0].set_ylabel(y_label)
+    add_legend(chart, study, axes[-1])
+    return made
+
+
+def add_legend(chart, study, panel):
     if chart.lines:
         axis = axis_of(study, chart.lines)
-        axes[-1].legend(title=drawing.readable(axis.name, axis.unit), alignment="left", loc="center left",
-                        bbox_to_anchor=(1.0, 0.5))
+        panel.legend(title=drawing.readable(axis.name, axis.unit), alignment="left", loc="center left",
+                     bbox_to_anchor=(1.0, 0.5))
+
+
+def bar_chart(chart, study, table):
+    """A bar for each named choice, from above; a run without the figure has none."""
+    panels = panels_of(chart, study, table)
+    names = [value_text(value.name, "") for value in axis_of(study, chart.x).values]
+    made, axes = drawing.figure(len(panels), height=0.9 + 0.24 * len(names))
+    factor, label_of_figure = factor_and_label(chart.y, study, table)
+    for panel, (title, rows) in zip(axes, panels):
+        panel.set_title(title)
+        lines = lines_of(chart, study, rows, 1, factor)
+        thickness = 0.8 / len(lines)
+        for number, (name, points) in enumerate(lines):
+            places = [names.index(value_text(x, "")) + (number + 0.5) * thickness - 0.4 for x, _ in points]
+            panel.barh(places, [y for _, y in points], thickness * 0.9, color=drawing.LINES[number % 7], label=name)
+        panel.set_yticks(range(len(names)), names)
+        panel.grid(axis="y", visible=False)
+        if "y" in chart.log:
+            drawing.logarithmic(panel, "x")
+        panel.set_xlabel(label_of_figure)
+    axes[0].invert_yaxis()  # all panels share it
+    add_legend(chart, study, axes[-1])
     return made
 
 

@@ -35,9 +35,9 @@ matplotlib.rcParams.update({
 })
 
 
-def figure(columns=1):
+def figure(columns=1, height=HEIGHT):
     """A figure and its panels side by side."""
-    made = matplotlib.figure.Figure(figsize=(WIDTH if columns == 1 else 2 * WIDTH, HEIGHT), layout="constrained")
+    made = matplotlib.figure.Figure(figsize=(WIDTH if columns == 1 else 2 * WIDTH, height), layout="constrained")
     return made, list(made.subplots(1, columns, squeeze=False, sharey=True).flat)
 
 

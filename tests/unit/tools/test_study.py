@@ -122,10 +122,18 @@ name = "as shipped"
 [[axis.choice]]
 name = "faster"
 set = { fluid.x = 3, "fluid.y" = 0 }
+[[metric]]
+name = "end"
+series = "fluid.csv:speed[m/s]"
+[[chart]]
+x = "model"
+y = "end"
 """)
         self.done("--set", "fluid.seconds=0.001")
         rows = self.table()
         self.assertEqual([r["model"] for r in rows], ["as shipped", "faster"])
+        for name in ("as shipped", "faster"):  # beside its bar
+            self.assertIn(f">{name}</text>", (self.out / "charts/chart_01.svg").read_text())
         record = json.loads((self.out / rows[1]["run"] / "run.json").read_text())
         self.assertEqual(record["set"], {"case.frame_interval": "0", "fluid.x": "3", "fluid.y": "0",
                                          "fluid.seconds": "0.001"})
