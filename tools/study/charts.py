@@ -6,7 +6,7 @@ import math
 import matplotlib.colors
 
 import drawing
-from table import text
+from table import readable_size, text
 
 HEAT = "viridis"
 
@@ -100,7 +100,8 @@ def factor_and_label(name, study, table):
     """Of an axis as the study gives it, of a figure in a readable size."""
     if axis_of(study, name):
         return 1, drawing.readable(name, table.units[name])
-    return drawing.scaled(name, table.units[name], table.column(name))
+    factor, unit = readable_size(table.units[name], table.column(name))
+    return factor, drawing.readable(name, unit)
 
 
 def lines_of(chart, study, rows, x_factor, y_factor):

@@ -1,7 +1,6 @@
 """How charts look: matplotlib in the colours of the pages, saved as PNG and SVG, and as SVG for a page."""
 
 import io
-import math
 import pathlib
 import re
 
@@ -75,9 +74,3 @@ def logarithmic(panel, which):
 def readable(name, unit):
     words, unit = name.replace("_", " "), data.pretty(unit)
     return f"{words}  [{unit}]" if unit else words
-
-
-def scaled(name, unit, values):
-    """Factor and label that bring figures to a readable size: 1e6, "removed depth  [µm]"."""
-    factor, unit = data.scaled(unit, max((abs(v) for v in values if math.isfinite(v)), default=0))
-    return factor, readable(name, unit)

@@ -14,6 +14,7 @@ import results
 import tables
 from processes import DONE
 from progress import duration
+from table import readable_size
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCALE = 1.19  # pixels of the page for a point of a chart
@@ -66,8 +67,7 @@ def column(name, table, study):
     """Heading of an axis, as the study gives it, or of a figure with the factor that brings it to a readable size."""
     if name in (axis.name for axis in study.axes):
         return 1, heading(name, table.units[name])
-    factor, unit = data.scaled(table.units[name], max((abs(v) for v in table.column(name)
-                                                       if not isinstance(v, str) and math.isfinite(v)), default=0))
+    factor, unit = readable_size(table.units[name], table.column(name))
     return factor, heading(name, unit)
 
 
@@ -81,7 +81,8 @@ def cell(value, factor=1):
         return tables.cell(value)
     if not math.isfinite(value):
         return tables.cell("–", class_="number")
-    return f'<td class="number" data-value="{float(value)!r}">{value * factor:.4g}</td>'
+    shown = str(value) if isinstance(value, int) else f"{value * factor:.4g}"
+    return f'<td class="number" data-value="{float(value)!r}">{shown}</td>'
 
 
 def sortable(headings, rows):

@@ -8,6 +8,7 @@ import numpy as np
 import data
 import drawing
 from removal_answer import ranked, setting_text
+from table import readable_size
 
 NAMED = 3  # settings drawn in colour, the others in grey
 
@@ -73,7 +74,7 @@ def window(wanted, study, best):
     """Every setting by time and evenness; colour is the pressure."""
     made, (panel,) = drawing.figure()
     pressures = [row["piston_pressure"] for row in best]
-    factor, pressure_label = drawing.scaled("pressure at the piston", "Pa", pressures)
+    factor, unit = readable_size("Pa", pressures)
     scale = matplotlib.colors.Normalize(factor * np.nanmin(pressures), factor * np.nanmax(pressures))
     for row in best:
         mark = panel.scatter([row["time_needed"]], [row["evenness_then"]], c=[row["piston_pressure"] * factor], norm=scale,
@@ -86,9 +87,10 @@ def window(wanted, study, best):
     if math.isfinite(wanted.evenness_at_most):
         panel.axhline(wanted.evenness_at_most, color=drawing.PALETTE["soft"], linestyle="--", linewidth=0.9)
     if wanted.met(best[0]):
-        panel.annotate(label(study, best[0]), (best[0]["time_needed"], best[0]["evenness_then"]), xytext=(10, 6),
-                       textcoords="offset points", fontsize=8.5, color=drawing.PALETTE["ink"])
+        panel.annotate(label(study, best[0]), (best[0]["time_needed"], best[0]["evenness_then"]), xytext=(0.04, 0.94),
+                       textcoords="axes fraction", va="top", fontsize=8.5, color=drawing.PALETTE["ink"],
+                       arrowprops={"arrowstyle": "-", "color": drawing.PALETTE["soft"], "linewidth": 0.8})
     if not all(map(wanted.met, best)):
         panel.set_title(f"×: beyond the limits ({wanted.limits()})", fontsize=9)
-    made.colorbar(mark, ax=panel, label=pressure_label)
+    made.colorbar(mark, ax=panel, label=drawing.readable("pressure at the piston", unit))
     return made

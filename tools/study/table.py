@@ -5,6 +5,7 @@ import math
 import os
 from dataclasses import dataclass
 
+import data
 import metrics
 
 
@@ -29,6 +30,12 @@ def build(study, records, views):
             row |= view.figures(record)
         rows.append(row)
     return Table(units, rows)
+
+
+def readable_size(unit, values):
+    """Factor and unit that bring figures to a readable size, such as 1e6 and µm; seconds stay seconds."""
+    largest = max((abs(v) for v in values if not isinstance(v, str) and math.isfinite(v)), default=0)
+    return (1, "s") if unit == "s" else data.scaled(unit, largest)
 
 
 def text(value):
