@@ -76,11 +76,16 @@ ExitCode solve(const Options& options) {
   file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
   file.leave_to_others({"solid", "coupling"});
   const auto is_work_piece = [](const Wall& wall) { return wall.work_piece; };
-  if (parameters.friction && !file.has("solid") &&
-      std::none_of(scene.walls.begin(), scene.walls.end(), is_work_piece))
+  const bool no_work_piece =
+      !file.has("solid") && std::none_of(scene.walls.begin(), scene.walls.end(), is_work_piece);
+  if (parameters.friction && no_work_piece)
     file.fault("fluid.friction",
                "there is nothing to rub on: friction acts on a [[wall]] with 'work_piece = true' "
                "and on the solid of a coupled case");
+  if (parameters.removal && no_work_piece)
+    file.fault("fluid.removal",
+               "there is nothing to wear: it takes a [[wall]] with 'work_piece = true' or the solid of a "
+               "coupled case");
   if (options.describe) {
     fmt::print("{}", file.description());
     return ExitCode::done;

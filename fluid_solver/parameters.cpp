@@ -169,7 +169,8 @@ void describe(ParameterTable& table, Limits& limits) {
 }
 
 void describe(ParameterTable& table, Observer& observer) {
-  table.text("name", observer.name, {.required = true, .help = "name of the column in fluid.csv"});
+  table.text("name", observer.name,
+             {.required = true, .help = "name of the column in fluid.csv", .names_columns = true});
   table.choice(
       "quantity", observer.quantity, {"front_x", "pressure", "flow_rate"},
       {.required = true,

@@ -10,7 +10,8 @@
 namespace toryu {
 
 void describe(ParameterTable& table, PointObserver& observer) {
-  table.text("name", observer.name, {.required = true, .help = "prefix of the columns"});
+  table.text("name", observer.name,
+             {.required = true, .help = "prefix of the columns", .names_columns = true});
   table.vector("point", observer.point, {.unit = "m", .required = true, .help = "in the unloaded body"});
 }
 

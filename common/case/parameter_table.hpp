@@ -34,6 +34,8 @@ struct TextRule {
   bool required = false;
   std::string help = {};
   std::vector<std::string> allowed = {};  ///< the only words that `text` and `texts` take; empty: any
+  bool names_columns =
+      false;  ///< results put it into the names of columns: not empty, no , ; [ ] " or line break
 };
 
 /// Visits the parameters of a section. There are three visitors: read_table.hpp, describe_table.hpp and

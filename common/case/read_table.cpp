@@ -49,7 +49,14 @@ void ReadTable::flag(const std::string& key, bool& value, const std::string& hel
 void ReadTable::text(const std::string& key, std::string& value, const TextRule& rule) {
   const toml::node* node = find(key, rule.required, text_kind(rule.allowed), rule.help);
   if (!node) return;
-  if (const auto read = checked_text(key, *node, rule.allowed, place_of_key(key))) value = *read;
+  const auto read = checked_text(key, *node, rule.allowed, place_of_key(key));
+  if (!read) return;
+  if (rule.names_columns && (read->empty() || read->find_first_of(",;[]\"\n\r\t") != std::string::npos))
+    return fault(place_of_key(key),
+                 fmt::format("'{}'{} names columns of the results: it must not be empty nor hold any of , ; "
+                             "[ ] \" or a line break, found '{}'",
+                             key, where_, *read));
+  value = *read;
 }
 
 void ReadTable::texts(const std::string& key, std::vector<std::string>& value, const TextRule& rule) {

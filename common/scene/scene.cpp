@@ -86,7 +86,8 @@ void describe(ParameterTable& table, Motion& motion) {
 }
 
 void describe(ParameterTable& table, Wall& wall) {
-  table.text("name", wall.name, {.required = true, .help = "as the log and the report call it"});
+  table.text("name", wall.name,
+             {.required = true, .help = "as the log and the report call it", .names_columns = true});
   table.group("box", wall.box, "filled with particles on a lattice of each solver's spacing");
   table.optional("motion", wall.motion, "prescribed motion; without it the wall stands still");
   table.flag("work_piece", wall.work_piece, "a rigid work piece: the fluid's friction acts on it");

@@ -55,6 +55,16 @@ INSTANTIATE_TEST_SUITE_P(
               "--set fluid.friction.coefficient=0.3: error: there is nothing to rub on: friction acts on a "
               "[[wall]] "
               "with 'work_piece = true' and on the solid of a coupled case"},
+        Fault{"RemovalFromNothing", "fluid.removal.preston_coefficient=1e-9",
+              "--set fluid.removal.preston_coefficient=1e-9: error: there is nothing to wear: it takes a "
+              "[[wall]] with 'work_piece = true' or the solid of a coupled case"},
+        Fault{"NameThatNoColumnCanHave", "wall.0.name=\"left,right\"",
+              "--set wall.0.name=\"left,right\": error: 'name' in [[wall]] names columns of the results: it "
+              "must not be empty nor hold any of , ; [ ] \" or a line break, found 'left,right'"},
+        Fault{"ObserverWithoutName", "fluid.observer=[{name=\"\", quantity=\"front_x\"}]",
+              "--set fluid.observer=[{name=\"\", quantity=\"front_x\"}]: error: 'name' in "
+              "[[fluid.observer]] names columns of the results: it must not be empty nor hold any of , ; [ ] "
+              "\" or a line break, found ''"},
         Fault{"NoRegion", "fluid.region=[]",
               "--set fluid.region=[]: error: a fluid needs at least one [[fluid.region]]"},
         Fault{
