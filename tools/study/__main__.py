@@ -33,8 +33,8 @@ VIEWS = [("removal", removal.read)]
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh", allow_abbrev=False, description="Runs a study: a case over the axes that its file names. Runs that "
-        "are done are kept, so the same command goes on where it was stopped.",
+        prog="run.sh", allow_abbrev=False, description="Runs a study: a case over the axes that its file names. Runs "
+        "that are done are kept, so the same command goes on where it was stopped.",
         epilog="Exit codes: 0 done (runs whose physics failed are results), 2 bad input, 130 interrupted, else that of "
                "the run that ended the study.")
     parser.add_argument("study", metavar="STUDY.toml", type=pathlib.Path)

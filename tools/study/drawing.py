@@ -25,7 +25,8 @@ WIDTH, HEIGHT = 6.2, 3.6  # [inch] of a single panel; several share twice the wi
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 9.5,
-    "axes.titlesize": 10, "axes.titlelocation": "left", "axes.edgecolor": PALETTE["soft"], "axes.labelcolor": PALETTE["ink"],
+    "axes.titlesize": 10, "axes.titlelocation": "left", "axes.edgecolor": PALETTE["soft"],
+    "axes.labelcolor": PALETTE["ink"],
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": PALETTE["line"],
     "grid.linewidth": 0.8, "axes.axisbelow": True, "xtick.color": PALETTE["soft"], "ytick.color": PALETTE["soft"],
     "xtick.labelcolor": PALETTE["ink"], "ytick.labelcolor": PALETTE["ink"], "text.color": PALETTE["ink"],

@@ -59,7 +59,8 @@ def tiles(study, table, records):
 def figure(chart):
     title, svg, place = chart
     width = float(re.search(r'viewBox="0 0 ([\d.]+)', svg)[1]) * SCALE
-    return (f'<figure class="drawn" style="flex-basis: {width:.0f}px"><figcaption>{html.escape(title)} <span class="files">'
+    return (f'<figure class="drawn" style="flex-basis: {width:.0f}px"><figcaption>{html.escape(title)} '
+            '<span class="files">'
             f'<a href="{place}.png">PNG</a> <a href="{place}.svg">SVG</a></span></figcaption>{svg}</figure>')
 
 

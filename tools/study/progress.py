@@ -50,7 +50,8 @@ class Progress:
         left = self.left(running)
         text = (f"{done} of {self.total} runs done, {len(running)} running, "
                 f"{'unknown time' if left is None else duration(left)} left")
-        print(f"\r{text}\x1b[K" if self.terminal else text, end="" if self.terminal else "\n", file=self.stream, flush=True)
+        print(f"\r{text}\x1b[K" if self.terminal else text, end="" if self.terminal else "\n", file=self.stream,
+              flush=True)
 
     def end(self):
         if self.terminal and self.last:

@@ -1,6 +1,5 @@
 """Which setting takes off the wanted depth: cycles, time, evenness, pressure; ranked, and said in a sentence."""
 
-import html
 import math
 from dataclasses import dataclass
 
@@ -54,10 +53,12 @@ class Wanted:
 
     def limits(self):
         """The limits in words."""
-        return " and ".join(([f"an evenness of at most {self.evenness_at_most:g}"] if math.isfinite(self.evenness_at_most)
-                             else []) +
-                            ([f"at most {in_words(self.pressure_at_most, 'Pa')} at the piston"]
-                             if math.isfinite(self.pressure_at_most) else []))
+        words = []
+        if math.isfinite(self.evenness_at_most):
+            words.append(f"an evenness of at most {self.evenness_at_most:g}")
+        if math.isfinite(self.pressure_at_most):
+            words.append(f"at most {in_words(self.pressure_at_most, 'Pa')} at the piston")
+        return " and ".join(words)
 
 
 BY = {"evenness": ("evenness_then", "most evenly"), "time": ("time_needed", "fastest"),
@@ -78,13 +79,16 @@ def in_words(value, unit):
 
 
 def setting_text(study, row):
-    return ", ".join(f"{axis.name.replace('_', ' ')} {page.text(row[axis.name])} {axis.unit}".strip() for axis in study.axes)
+    return ", ".join(f"{axis.name.replace('_', ' ')} {page.text(row[axis.name])} {axis.unit}".strip()
+                     for axis in study.axes)
 
 
 def figures_text(row):
-    text = f"{row['cycles_needed']} cycles in {duration(row['time_needed'])}, the largest depth {row['evenness_then']:.2f} " \
-           "times the mean"
-    return text + (f", {in_words(row['piston_pressure'], 'Pa')} at the piston" if math.isfinite(row["piston_pressure"]) else "")
+    text = (f"{row['cycles_needed']} cycles in {duration(row['time_needed'])}, the largest depth "
+            f"{row['evenness_then']:.2f} times the mean")
+    if math.isfinite(row["piston_pressure"]):
+        text += f", {in_words(row['piston_pressure'], 'Pa')} at the piston"
+    return text
 
 
 def ranked(wanted, table):
@@ -101,20 +105,28 @@ def answer_of(wanted, study, table):
         return Answer(title, "No run shows what a cycle removes: it takes two whole cycles and a work piece that is "
                              "touched.", "")
     met = [row for row in rows if wanted.met(row)]
-    limits, how = wanted.limits(), BY[wanted.first][1]
-    if met:
-        best = met[0]
-        sentence = f"{in_words(wanted.depth, 'm')} come off {how} with {setting_text(study, best)}: {figures_text(best)}."
-        if limits:
-            sentence += f" {len(met)} of {len(table.rows)} settings keep {limits}."
-        fastest = min(met, key=lambda row: row["time_needed"])
-        if fastest["time_needed"] < best["time_needed"]:
-            sentence += f" The fastest{' of them' if limits else ''}: {setting_text(study, fastest)}; {figures_text(fastest)}."
-    else:
-        best = min(rows, key=lambda row: excess(wanted, row))
-        sentence = f"None of the {len(table.rows)} settings removes {in_words(wanted.depth, 'm')} with {limits}. Nearest: " \
-                   f"{setting_text(study, best)}; {figures_text(best)}."
+    sentence = best_setting(wanted, study, table, met) if met else nearest_setting(wanted, study, table, rows)
     return Answer(title, sentence, ranking(wanted, study, table, rows))
+
+
+def best_setting(wanted, study, table, met):
+    """`met`: rows within the limits, the best first."""
+    best, limits = met[0], wanted.limits()
+    sentence = (f"{in_words(wanted.depth, 'm')} come off {BY[wanted.first][1]} with {setting_text(study, best)}: "
+                f"{figures_text(best)}.")
+    if limits:
+        sentence += f" {len(met)} of {len(table.rows)} settings keep {limits}."
+    fastest = min(met, key=lambda row: row["time_needed"])
+    if fastest["time_needed"] < best["time_needed"]:
+        sentence += (f" The fastest{' of them' if limits else ''}: {setting_text(study, fastest)}; "
+                     f"{figures_text(fastest)}.")
+    return sentence
+
+
+def nearest_setting(wanted, study, table, rows):
+    nearest = min(rows, key=lambda row: excess(wanted, row))
+    return (f"None of the {len(table.rows)} settings removes {in_words(wanted.depth, 'm')} with {wanted.limits()}. "
+            f"Nearest: {setting_text(study, nearest)}; {figures_text(nearest)}.")
 
 
 def excess(wanted, row):
@@ -132,4 +144,4 @@ def ranking(wanted, study, table, rows):
     body = [(row["record"].folder.name, "", [page.cell(rank), *map(page.cell, (row[name] for name in columns), factors),
                                              tables.cell("yes" if wanted.met(row) else "no")])
             for rank, row in enumerate(rows, 1)]
-    return (f"<details><summary>{html.escape('All settings, ranked')}</summary>{page.sortable(headings, body)}</details>")
+    return f"<details><summary>All settings, ranked</summary>{page.sortable(headings, body)}</details>"

@@ -77,8 +77,8 @@ def window(wanted, study, best):
     factor, unit = readable_size("Pa", pressures)
     scale = matplotlib.colors.Normalize(factor * np.nanmin(pressures), factor * np.nanmax(pressures))
     for row in best:
-        mark = panel.scatter([row["time_needed"]], [row["evenness_then"]], c=[row["piston_pressure"] * factor], norm=scale,
-                             cmap="viridis", s=46, marker="o" if wanted.met(row) else "X",
+        mark = panel.scatter([row["time_needed"]], [row["evenness_then"]], c=[row["piston_pressure"] * factor],
+                             norm=scale, cmap="viridis", s=46, marker="o" if wanted.met(row) else "X",
                              edgecolors=drawing.PALETTE["ink"], linewidths=0.6, zorder=3)
         mark.set_gid(f"run-{row['record'].folder.name}")
     drawing.logarithmic(panel, "x")

@@ -17,6 +17,7 @@ from processes import BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHY
 
 LAUNCH = pathlib.Path(__file__).resolve().parents[1] / "launch.py"
 RECORD = "run.json"  # in the folder of a run that is done: without it the run is started afresh
+KEPT = ("exit_code", "cause", "elapsed", "threads", "jobs")  # of a Record, in its file
 SAID = "said.txt"  # what the run printed
 POLL = 0.05  # [s]
 
@@ -48,13 +49,13 @@ def read_record(folder, setting):
         content = json.loads((folder / RECORD).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    return Record(setting, folder, **{name: content[name] for name in ("exit_code", "cause", "elapsed", "threads", "jobs")})
+    return Record(setting, folder, **{name: content[name] for name in KEPT})
 
 
 def write_record(record):
     setting = record.setting
     content = {"values": setting.values, "set": setting.overrides} | {
-        name: getattr(record, name) for name in ("exit_code", "cause", "elapsed", "threads", "jobs")}
+        name: getattr(record, name) for name in KEPT}
     part = record.folder / (RECORD + ".part")
     part.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     os.replace(part, record.folder / RECORD)

@@ -336,6 +336,10 @@ scale = 1e6
         self.assertIn("20 µm come off fastest with depth 2e-06: 9 cycles in 9 s, the largest depth 1.83 times the mean, "
                       "1.8 kPa at the piston. 2 of 3 settings keep an evenness of at most 2 and at most 2 kPa at the "
                       "piston.", ended.stdout)
+        path = self.case / "window.toml"
+        path.write_text(path.read_text().replace("evenness_at_most = 2", "evenness_at_most = 1.5"))
+        self.assertIn("None of the 3 settings removes 20 µm with an evenness of at most 1.5 and at most 2 kPa at the "
+                      "piston. Nearest: depth ", self.done().stdout)
         page = (self.out / "study.html").read_text()
         self.assertIn("Removed depth along the work pieces", page)
         self.assertEqual(page.count(f'id="run-{pathlib.Path(rows[0]["run"]).name}"'), 3)  # two pieces and the window
