@@ -55,7 +55,6 @@ struct Contacting {
     for (int n = 0; n < steps; ++n) record.add(boundaries, fluid, kernel, dt);
     std::map<std::string, double> values;
     for (const auto& observation : record.observe()) values[observation.name] = observation.value;
-    values["area_of_record"] = record.depth(0);
     return values;
   }
   std::vector<Boundary> boundaries;
@@ -143,6 +142,26 @@ TEST(SurfaceRecord, FileHasMeansSinceTheLastRowAndSumsSinceTheStart) {
               ElementsAre(0, near(1e-6 * 150 * 2 * dt), near(1e-6 * 150 * 3 * dt)));
   EXPECT_THAT(read(path, "normal"), ElementsAre(0, 1));
   EXPECT_THAT(read(path, "area"), ElementsAre(d_0));
+}
+
+TEST(SurfaceRecord, FileHasTheDepthOfEachLawThatIsGiven) {
+  const auto out = std::filesystem::path(testing::TempDir()) / "surface_record_of_laws";
+  std::filesystem::create_directories(out);
+  Contacting one({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}});
+  const auto recorded = [&](const Removal& removal) {
+    SurfaceRecord record(removal);
+    record.attach(one.boundaries);
+    record.open(out);
+    record.add(one.boundaries, one.fluid, kernel, dt);
+    record.write(dt);
+  };
+  const Archard law{2e-3, 4e8};
+  const double by_archard = 2e-3 / 4e8 * 150 * dt, by_preston = 1e-6 * 150 * dt;
+  recorded({.preston_coefficient = 1e-6, .archard = law, .roughness = {}});
+  EXPECT_NEAR(read(out / "surface.h5", "preston_depth").at(0), by_preston, 1e-9 * by_preston);
+  EXPECT_NEAR(read(out / "surface.h5", "archard_depth").at(0), by_archard, 1e-9 * by_archard);
+  recorded({.preston_coefficient = 0, .archard = law, .roughness = {}});
+  EXPECT_NEAR(read(out / "surface.h5", "archard_depth").at(0), by_archard, 1e-9 * by_archard);
 }
 
 }  // namespace
