@@ -102,8 +102,10 @@ def answer_of(wanted, study, table):
     rows = ranked(wanted, table)
     title = f"To remove {in_words(wanted.depth, 'm')}"
     if not rows:
-        return Answer(title, "No run shows what a cycle removes: it takes two whole cycles and a work piece that is "
-                             "touched.", "")
+        if all("removed_per_cycle" not in row for row in table.rows):
+            return Answer(title, "No run shows what a cycle removes: it takes [fluid.removal], a work piece and two "
+                                 "whole cycles.", "")
+        return Answer(title, f"No setting removes {in_words(wanted.depth, 'm')} within {MOST_CYCLES:,} cycles.", "")
     met = [row for row in rows if wanted.met(row)]
     sentence = best_setting(wanted, study, table, met) if met else nearest_setting(wanted, study, table, rows)
     return Answer(title, sentence, ranking(wanted, study, table, rows))

@@ -343,6 +343,8 @@ scale = 1e6
         page = (self.out / "study.html").read_text()
         self.assertIn("Removed depth along the work pieces", page)
         self.assertEqual(page.count(f'id="run-{pathlib.Path(rows[0]["run"]).name}"'), 3)  # two pieces and the window
+        path.write_text(path.read_text().replace("wanted_depth = 20e-6", "wanted_depth = 20"))
+        self.assertIn("No setting removes 20 m within 1,000,000 cycles.", self.done().stdout)
 
 
 class BadInput(Study):
