@@ -79,6 +79,10 @@ class Space:
     def hull(self, time):
         return (self.low + [0, self.shift(self.below, time)[1]], self.high + [0, self.shift(self.above, time)[1]])
 
+    def area_at(self, time):
+        """[m2] between the pistons, less the holes: it changes where they do not move alike."""
+        return self.area + self.width * (self.shift(self.above, time)[1] - self.shift(self.below, time)[1])
+
     def boxes(self, time):
         """Lower and upper corner of all that is solid."""
         boxes = [(np.array(w["box"][:2]) + self.shift(w, time), np.array(w["box"][2:]) + self.shift(w, time))
@@ -153,7 +157,7 @@ def conditions(out, cycle):
             points = file["VTKHDF/Points"][:, :2]
             volumes = mass / file["VTKHDF/PointData/density"][:]
         boxes = space.boxes(frame["time"])
-        worst["volume"] = max(worst["volume"], abs(volumes.sum() / space.area - 1))
+        worst["volume"] = max(worst["volume"], abs(volumes.sum() / space.area_at(frame["time"]) - 1))
         worst["void"] = max(worst["void"], farthest_point(points, *space.hull(frame["time"]), boxes, spacing))
         worst["depth"] = max(worst["depth"], depth_in(boxes, points).max() / spacing)
         times.append(frame["time"])
@@ -167,6 +171,10 @@ def main():
     parser.add_argument("out", metavar="OUT", type=pathlib.Path)
     parser.add_argument("--cycle", metavar="SECONDS", type=float, required=True, help="period of the pistons")
     options = parser.parse_args()
+    for name in ("used_case.toml", "fluid.hdf.series", "fluid.csv"):
+        if not (options.out / name).is_file():
+            print(f"{options.out}: error: holds no {name}: it takes a run that is done, with frames", file=sys.stderr)
+            sys.exit(2)
     print(conditions(options.out, options.cycle).text())
 
 
