@@ -95,6 +95,10 @@ void describe(ParameterTable& table, Carreau& law) {
   table.number(
       "exponent", law.exponent,
       {.minimum = 0, .maximum = 2, .above_minimum = true, .required = true, .help = "n; below 1 thins"});
+  table.require(
+      law.infinite_shear_viscosity <= law.zero_shear_viscosity, "infinite_shear_viscosity",
+      "'infinite_shear_viscosity' must not exceed 'zero_shear_viscosity'; what thickens under shear has "
+      "an exponent above 1");
 }
 
 void describe(ParameterTable& table, Friction& friction) {

@@ -8,7 +8,8 @@
 ///     tau_s = F_s/A_s, F_s the friction force (33); dw/dt = tau_s . (mean of v_f - v_s)      friction work
 ///     dh/dt = k p_s v_s (Preston 1927), (K/H) p_s v_s (Archard 1953)            removed depth
 ///
-/// The surface stays where it is: depths are far below a particle's spacing.
+/// Where the kernel sum of the fluid is below 1e-3 (about 0.25 at a plane interface) there is no contact: all
+/// are 0. The surface stays where it is: depths are far below a particle's spacing.
 #pragma once
 
 #include <filesystem>

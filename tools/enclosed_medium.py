@@ -34,7 +34,7 @@ class Conditions:
 
     volume: float  # |sum m/rho / space - 1|
     void: float  # distance of a point of the space from the nearest particle, in spacings
-    depth: float  # of a particle's centre in a wall, in spacings; negative: how far the nearest stayed outside
+    depth: float  # of a particle's centre in a wall or past it, in spacings; negative: how far the nearest stayed off
     flow: float  # |flow through the throat - piston's velocity times area|, mean over AVERAGE, share of the largest
     asymmetry: float  # root mean square of dp(t + half a cycle) + dp(t), of that of dp; dp between the pistons
 
@@ -93,6 +93,11 @@ class Space:
 def depth_in(boxes, points):
     """How deep each point is in the box it is deepest in, negative outside all."""
     return np.max([np.min([points - low, high - points], axis=(0, 2)) for low, high in boxes], axis=0)
+
+
+def distance_outside(low, high, points):
+    """How far each point is outside the box, negative inside."""
+    return np.max([low - points, points - high], axis=(0, 2))
 
 
 def farthest_point(points, low, high, boxes, spacing):
@@ -156,10 +161,11 @@ def conditions(out, cycle):
         with h5py.File(out / frame["name"]) as file:
             points = file["VTKHDF/Points"][:, :2]
             volumes = mass / file["VTKHDF/PointData/density"][:]
-        boxes = space.boxes(frame["time"])
+        boxes, hull = space.boxes(frame["time"]), space.hull(frame["time"])
         worst["volume"] = max(worst["volume"], abs(volumes.sum() / space.area_at(frame["time"]) - 1))
-        worst["void"] = max(worst["void"], farthest_point(points, *space.hull(frame["time"]), boxes, spacing))
-        worst["depth"] = max(worst["depth"], depth_in(boxes, points).max() / spacing)
+        worst["void"] = max(worst["void"], farthest_point(points, *hull, boxes, spacing))
+        depth = max(depth_in(boxes, points).max(), distance_outside(*hull, points).max())
+        worst["depth"] = max(worst["depth"], depth / spacing)
         times.append(frame["time"])
         passed.append(volume_beyond(throat, points, volumes, spacing))
     flow = flow_error(np.array(times), np.array(passed), space)

@@ -10,7 +10,7 @@ import sys
 import time
 from dataclasses import dataclass, field
 
-GRACE = 2.0  # [s] in which the others end by themselves after one has failed: they notice by the link
+GRACE = 4.0  # [s] in which the others end by themselves after one has failed: they notice by the link
 PATIENCE = 10.0  # [s] to end in order when asked to: the last frame and the series are written
 LAST_PATIENCE = 3.0  # [s] between the request and the kill for those that outlived their grace
 

@@ -19,7 +19,7 @@ namespace toryu::dds {
 /// Signs of life of a process end this long after its death [ms].
 inline constexpr int lease_ms = 500;
 /// How long a lease may lapse before its owner counts as dead: a busy machine is late at times [ms].
-inline constexpr std::chrono::milliseconds grace{700};
+inline constexpr std::chrono::milliseconds grace{2500};
 
 /// Processes meet if they agree on both: the domain sets the ports, the tag keeps runs apart that share them.
 struct MeetingPlace {

@@ -91,6 +91,13 @@ INSTANTIATE_TEST_SUITE_P(
             "fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=9, largest_viscosity=1}",
             "--set fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=9, largest_viscosity=1}: "
             "error: 'largest_viscosity' must be at least 'smallest_viscosity'"},
+        Fault{"PlateausOfCarreau",
+              "fluid.carreau={zero_shear_viscosity=1, infinite_shear_viscosity=2, relaxation_time=1, "
+              "exponent=0.5}",
+              "--set fluid.carreau={zero_shear_viscosity=1, infinite_shear_viscosity=2, relaxation_time=1, "
+              "exponent=0.5}: error: 'infinite_shear_viscosity' must not exceed 'zero_shear_viscosity'; what "
+              "thickens "
+              "under shear has an exponent above 1"},
         Fault{"WallInAWall", "wall.left.box.min=[-0.2,-0.1]",
               "[[wall]] 'left': error: overlaps the wall 'floor' near (-0.175, -0.075) m: particles of two "
               "walls "

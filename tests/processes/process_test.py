@@ -139,7 +139,7 @@ class Hang(ProcessTest):
             for role in trio.ROLES:
                 run.signal(role, number)
             if number == signal.SIGSTOP:
-                time.sleep(2)  # longer than the leases
+                time.sleep(4)  # longer than the leases and their grace
         run.wait_until_running(beyond=run.windows())
         run.signal("coupler", signal.SIGINT)
         self.assert_all_end(run, trio.EXIT_INTERRUPTED)

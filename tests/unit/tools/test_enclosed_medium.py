@@ -35,6 +35,11 @@ class EnclosedMedium(unittest.TestCase):
         boxes = [(np.array([0.0, 0.0]), np.array([1.0, 1.0]))]
         self.assertTrue(np.allclose(enclosed_medium.depth_in(boxes, np.array([[0.1, 0.5], [1.2, 0.5]])), [0.1, -0.2]))
 
+    def test_a_particle_past_the_walls_is_seen(self):
+        points = np.array([[0.5, 0.2], [1.7, 0.5], [0.5, -0.4]])
+        outside = enclosed_medium.distance_outside(np.zeros(2), np.ones(2), points)
+        self.assertTrue(np.allclose(outside, [-0.2, 0.7, 0.4]))
+
     def test_a_void_is_seen_and_a_wall_is_none(self):
         centres = np.arange(10) + 0.5
         points = np.array([(x, y) for x in centres for y in centres])
