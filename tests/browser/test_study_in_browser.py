@@ -57,7 +57,7 @@ class StudyInBrowser(unittest.TestCase):
         shutil.copy(UNIT / "fake_study_solver.py", programs / "fluid_solver")
         (programs / "fluid_solver").chmod(0o755)
         shutil.copy(UNIT / "made_up_surface.py", programs / "modules")
-        (case / "case.toml").write_text('[case]\ntitle = "test"\n[fluid]\n')
+        (case / "case.toml").write_text('[case]\ntitle = "test"\n[[wall]]\nname = "piston"\n[fluid]\n')
         (case / "window.toml").write_text(STUDY)
         subprocess.run([sys.executable, ROOT / "tools/study", case / "window.toml", "--bin", programs, "--out",
                         cls.folder / "out"], check=True, capture_output=True)
