@@ -30,6 +30,8 @@ endfunction()
 add_custom_target(unit_tests)
 
 # toryu_test(NAME SOURCES a.cpp ... LIBRARIES x ... [LABEL unit] [TIMEOUT 300]): a GoogleTest executable, one CTest entry a test case.
+# Tests run side by side: one thread each unless a test asks for more. Two tests whose threads wait for each other on the
+# same two cores take thirty times as long.
 function(toryu_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_LABEL)
@@ -43,7 +45,8 @@ function(toryu_test name)
   if(ARG_LABEL STREQUAL "unit")
     add_dependencies(unit_tests ${name})
   endif()
-  gtest_discover_tests(${name} NO_PRETTY_VALUES PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} DISCOVERY_MODE PRE_TEST)
+  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${ARG_LABEL}
+    TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT OMP_NUM_THREADS=1)
 endfunction()
 
 # toryu_python_test(NAME SCRIPT test.py [LABEL unit] [TIMEOUT 300] [ENVIRONMENT A=1 ...]): a unittest file, one CTest

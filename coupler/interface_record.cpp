@@ -4,12 +4,8 @@
 
 namespace toryu {
 
-struct InterfaceRecord::File : HdfSeriesFile {
-  using HdfSeriesFile::HdfSeriesFile;
-};
-
 InterfaceRecord::InterfaceRecord(const std::filesystem::path& out, const Interface& interface)
-    : file_(std::make_unique<File>(out / "interface.h5")) {
+    : file_(std::make_unique<HdfSeriesFile>(out / "interface.h5")) {
   const hsize_t count = interface.size();
   file_->constant("id", "1", {count}, std::span(interface.id));
   file_->constant("reference_position", "m", {count, dim}, interface.position);

@@ -11,6 +11,8 @@
 
 namespace toryu {
 
+class HdfSeriesFile;
+
 class InterfaceRecord {
  public:
   InterfaceRecord(const std::filesystem::path& out, const Interface& interface);
@@ -20,8 +22,7 @@ class InterfaceRecord {
   void write(double time, const InterfaceMotion& motion, const InterfaceLoad& load);
 
  private:
-  struct File;
-  std::unique_ptr<File> file_;
+  std::unique_ptr<HdfSeriesFile> file_;
 };
 
 }  // namespace toryu

@@ -37,12 +37,12 @@ class SurfaceRecord {
   void write(double time);
 
   std::size_t size() const { return area_.size(); }
-  /// Depth removed so far from surface particle k, by the law that counts [m].
-  double depth(std::size_t k) const { return wear_rate() * sliding_pressure_[k]; }
   /// Removed depth (mean over the surface, largest) [m], area [m2 per metre depth], roughness [m].
   std::vector<Observation> observe() const;
 
  private:
+  /// Depth removed so far from surface particle k, by the law that counts [m].
+  double depth(std::size_t k) const { return wear_rate() * sliding_pressure_[k]; }
   /// Depth [m] per integral of p v dt [Pa m].
   double wear_rate() const {
     return removal_.preston_coefficient > 0 ? removal_.preston_coefficient : archard_rate();

@@ -56,7 +56,7 @@ def check_medium(test, run):
     test.assertLess(found.void, 1.2)
     test.assertLess(found.depth, 0)
     test.assertLess(found.flow, 0.01)
-    test.assertLess(found.asymmetry, 0.25)
+    test.assertLess(found.asymmetry, 0.2)
 
 
 class AbrasiveFlowTest(unittest.TestCase):

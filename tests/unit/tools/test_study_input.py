@@ -1,0 +1,94 @@
+"""Faults of a study file: each told with its line before anything runs."""
+
+import unittest
+
+from study_case import HEAD, TWO_AXES, Study
+
+
+class BadInput(Study):
+    def faults(self, text, head=HEAD):
+        self.write(text, head)
+        ended = self.study()
+        self.assertEqual(ended.returncode, 2, ended.stderr)
+        self.assertEqual(self.starts(), [])
+        return ended.stderr.replace(str(self.case) + "/", "").splitlines()
+
+    def test_all_faults_of_the_file_at_once_with_their_lines(self):
+        self.assertEqual(self.faults("""keep_frame = true
+[[axis]]
+name = "x"
+values = [1, 2]
+key = ["fluid.x"]
+[[metric]]
+name = "end"
+series = "fluid.csv:speed[m/s]"
+take = "larges"
+[[chart]]
+x = "x"
+y = "and"
+log = ["z"]
+"""), [
+            "window.toml:4: error: unknown key 'keep_frame' in [study]; did you mean 'keep_frames'?",
+            "window.toml:5: error: [[axis]] 1 needs 'keys', the keys of the case that take its values",
+            "window.toml:8: error: unknown key 'key' in [[axis]] 1; did you mean 'keys'?",
+            "window.toml:12: error: 'take' must be one of 'last', 'largest', 'smallest', 'peak', 'mean', 'rms', found "
+            "'larges'; did you mean 'largest'?",
+            "window.toml:15: error: 'y' must be one of 'end', 'wall_time', 'processor_time', 'simulated_time', 'steps', "
+            "found 'and'; did you mean 'end'?",
+            "window.toml:16: error: 'log' must hold some of 'x', 'y', found 'z'"])
+
+    def test_what_neither_case_nor_study_has(self):
+        self.assertEqual(self.faults(TWO_AXES + """[[metric]]
+name = "evenness"
+reference = "measured"
+[[metric]]
+name = ""
+series = "fluid.csv:speed[m/s]"
+shares = [-1, 2]
+[removal]
+pistons = ["pistn"]
+piston_area = 0.5
+cycle = 2.0
+answer = { wanted_depth = 1e-6, pressure_at_most = -1 }
+"""), [
+            "window.toml: error: [removal] has a figure 'evenness' of its own: the axis or metric needs another name",
+            "window.toml: error: the name of an axis or metric must not be empty",
+            "window.toml:21: error: 'reference' must be one of none that there are, found 'measured'",
+            "window.toml:25: error: 'shares' must be from 0 to 1, found [-1, 2]",
+            "window.toml:27: error: 'pistons' must hold some of 'piston', found 'pistn'; did you mean 'piston'?",
+            "window.toml:30: error: 'pressure_at_most' must be above 0, found -1"])
+
+    def test_a_case_that_is_not_there(self):
+        faults = self.faults(TWO_AXES, HEAD.replace("case.toml", "absent.toml"))
+        self.assertEqual(faults, ["window.toml:3: error: 'case' must be a case file beside the study, found "
+                                  "'absent.toml', which is no file"])
+
+    def test_no_toml(self):
+        self.assertEqual(self.faults("[[axis]\n"), ["window.toml:4:7: error: Expected ']]' at the end of an array declaration"])
+
+    def test_a_key_that_the_case_does_not_know(self):
+        self.assertEqual(self.faults(TWO_AXES.replace('["fluid.x"]', '["fluid.xx"]'))[0],
+                         "window.toml:5: error: [[axis]] 'x': --set fluid.xx=1: error: unknown key 'xx' in [fluid]")
+        self.assertEqual(self.faults(TWO_AXES, HEAD + "set = { fluid.z = 1 }\n"),
+                         ["window.toml:4: error: [study] set: --set fluid.z=1: error: unknown key 'z' in [fluid]"])
+
+    def test_a_chart_that_leaves_an_axis_open(self):
+        faults = self.faults(TWO_AXES + '[[chart]]\nx = "x"\ny = "wall_time"\n')
+        self.assertEqual(faults, ["window.toml:19: error: the chart leaves the axis 'wait' open: draw it as 'lines' or "
+                                  "'panels', or choose one value, at = { wait = ... }"])
+
+    def test_a_key_that_two_axes_set(self):
+        faults = self.faults(TWO_AXES.replace('["fluid.seconds"]', '["fluid.x"]'))
+        self.assertEqual(faults, ["window.toml: error: 'fluid.x' is set by the axes 'x' and 'wait': a run can have one "
+                                  "value only"])
+
+    def test_options(self):
+        self.write(TWO_AXES)
+        self.assertEqual(self.study("--jobs", "0").stderr, "--jobs 0: error: must be an integer of at least 1\n")
+        ended = self.study("--check")
+        self.assertEqual((ended.returncode, ended.stdout, self.starts()),
+                         (0, f"{self.case}/window.toml: no errors; 6 runs, 0 of them done\n", []))
+
+
+if __name__ == "__main__":
+    unittest.main()
