@@ -10,7 +10,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tomllib
 
 import results
 import summary_text
@@ -68,10 +67,10 @@ def programs(options):
     executables = {"coupler": options.bin / "coupler", "fluid_solver": options.fluid or options.bin / "fluid_solver",
                    "solid_solver": options.solid or options.bin / "solid_solver"}
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        content = results.case_content(path)
     except (OSError, ValueError):
         return {"coupler": executables["coupler"]}  # whose own check says what is wrong, and where
-    needed = {side: f"{side}_solver" for side in ("fluid", "solid") if side in content}
+    needed = {side: f"{side}_solver" for side in ("fluid", "solid") if content.get(side, False) is not False}
     if not needed:
         raise SystemExit(complain(f"{path}: error: no section [fluid] and no section [solid]: nothing to compute"))
     names = ["coupler", *needed.values()] if len(needed) == 2 else list(needed.values())

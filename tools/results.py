@@ -29,6 +29,40 @@ def case_file(case):
     return path / "case.toml" if path.is_dir() else path
 
 
+def case_content(path):
+    """What the case file says, with what its `base` says where it is silent. ValueError if one is no TOML."""
+    content = tomllib.loads(path.read_text(encoding="utf-8"))
+    base = content.pop("base", None)
+    if not isinstance(base, str):
+        return content
+    return _merged(tomllib.loads((path.parent / base).read_text(encoding="utf-8")), content)
+
+
+def _merged(base, changes):
+    """As the programs do it: sections key by key, items of lists of sections by their name."""
+    content = dict(base)
+    for key, value in changes.items():
+        old = content.get(key)
+        if isinstance(old, dict) and isinstance(value, dict):
+            content[key] = _merged(old, value)
+        elif _are_sections(old) and _are_sections(value):
+            content[key] = list(old)
+            names = [item.get("name") for item in old]
+            for item in value:
+                if item.get("name") in names and "name" in item:
+                    index = names.index(item["name"])
+                    content[key][index] = _merged(content[key][index], item)
+                else:
+                    content[key].append(item)
+        else:
+            content[key] = value
+    return content
+
+
+def _are_sections(value):
+    return isinstance(value, list) and bool(value) and all(isinstance(item, dict) for item in value)
+
+
 def case_name(case):
     """cases/gate and cases/gate/case.toml -> gate; cases/gate/fine.toml -> gate_fine"""
     path = case_file(case).resolve()
@@ -99,7 +133,7 @@ def unit_of(column):
 def compare(case, out):
     """The [[reference]] curves of the case with the distance of the run to each."""
     path = case_file(case)
-    content = tomllib.loads(path.read_text(encoding="utf-8"))
+    content = case_content(path)
     return [_compare(path.parent, out, reference) for reference in content.get("reference", [])]
 
 

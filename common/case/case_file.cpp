@@ -39,6 +39,29 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
+/// Parses `file` and, if it names a `base`, puts it into that. Appends what was read to `text`.
+toml::table read_document(const std::filesystem::path& file, std::string& text) {
+  const std::string own = read_text(file);
+  text += own;
+  toml::table changes = parse_document(own, file.string());
+  const auto entry = changes.find("base");
+  if (entry == changes.end()) return changes;
+  const auto place = entry->first.source();
+  const auto name = entry->second.value_exact<std::string>();
+  const auto base = file.parent_path() / name.value_or("");
+  if (!name || std::filesystem::path(*name).has_parent_path() || !std::filesystem::is_regular_file(base))
+    throw BadInput(
+        {fault_at(place, "'base' must name a case file beside this one, found " + found(entry->second))});
+  changes.erase("base");
+  toml::table root = parse_document(read_text(base), base.string());
+  if (const auto next = root.find("base"); next != root.end())
+    throw BadInput({fault_at(next->first.source(),
+                             "a case file that others have as their base cannot have one itself")});
+  text += read_text(base);
+  merge_document(root, std::move(changes));
+  return root;
+}
+
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -66,8 +89,7 @@ CaseFile::CaseFile(const std::filesystem::path& path, const std::vector<std::str
   c.overrides = overrides;
   if (!path.empty()) {
     c.file = find_case_file(path);
-    c.text = read_text(c.file);
-    c.root = parse_document(c.text, c.file.string());
+    c.root = read_document(c.file, c.text);
   }
   c.start = {{1, 1}, {1, 1}, std::make_shared<const std::string>(c.file.string())};
   for (const auto& text : overrides)

@@ -22,7 +22,8 @@ std::string case_name(const std::filesystem::path& file);
 class CaseFile {
  public:
   /// Reads `path` (as in find_case_file) and applies `overrides` ("fluid.sound_speed=30", see overrides.hpp).
-  /// Throws BadInput if the file is not there or is not TOML. An empty path is a case without a section,
+  /// A file with `base = "case.toml"` says only in what it differs from that case beside it (merge_document).
+  /// Throws BadInput if a file is not there or is not TOML. An empty path is a case without a section,
   /// whose description can be asked for.
   CaseFile(const std::filesystem::path& path, const std::vector<std::string>& overrides);
   ~CaseFile();

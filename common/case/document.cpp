@@ -7,13 +7,39 @@ namespace toryu {
 
 namespace {
 constexpr std::string_view override_option = "--set ";
+
+void merge_items(toml::array& base, toml::array&& changes) {
+  for (auto& item : changes) {
+    toml::table& table = *item.as_table();
+    const auto name = table["name"].value<std::string>();
+    const auto index = name ? item_index(base, *name) : std::nullopt;
+    if (index)
+      merge_document(*base.get(*index)->as_table(), std::move(table));
+    else
+      base.push_back(std::move(table));
+  }
 }
+}  // namespace
 
 toml::table parse_document(const std::string& text, const std::string& place) {
   try {
     return toml::parse(std::string_view(text), std::string_view(place));
   } catch (const toml::parse_error& error) {
     throw BadInput({fault_at(error.source(), fmt::format("not valid TOML: {}", error.description()))});
+  }
+}
+
+void merge_document(toml::table& base, toml::table&& changes) {
+  for (auto& [key, node] : changes) {
+    toml::node* old = base.get(key.str());
+    if (old && old->is_table() && node.is_table()) {
+      merge_document(*old->as_table(), std::move(*node.as_table()));
+    } else if (old && old->is_array_of_tables() && node.is_array_of_tables()) {
+      merge_items(*old->as_array(), std::move(*node.as_array()));
+    } else {
+      base.erase(key.str());
+      base.insert(toml::key(key), std::move(node));  // with its place, which a copy would lose
+    }
   }
 }
 

@@ -15,6 +15,10 @@ namespace toryu {
 /// Parses `text`, which was found at `place` (a file's name, an override). Throws BadInput if it is not TOML.
 toml::table parse_document(const std::string& text, const std::string& place);
 
+/// Puts what `changes` says into `base`: sections key by key; an item of a list of sections into the item of
+/// the same `name`, else behind the others; anything else in place of what stood there.
+void merge_document(toml::table& base, toml::table&& changes);
+
 /// The place of an override as a user typed it.
 std::string override_place(const std::string& text);
 

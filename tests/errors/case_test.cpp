@@ -275,5 +275,23 @@ TEST(SceneFaults, ReferenceWithoutFile) {
       "case.toml:10:1: error: no file 'none.csv' in the folder of the case");
 }
 
+TEST(BaseFault, NamesTheFileThatHasIt) {
+  const CaseText text("base = 'base.toml'\n[medium]\nratio = 2\ndrag = 1\n");
+  text.add("base.toml", "[medium]\n\ndensity = -1\ndrag = { coefficient = 1 }\n");
+  EXPECT_EQ(text.faults(),
+            "base.toml:3:1: error: 'density' in [medium] must be above 0 [kg/m3], found -1\n"
+            "case.toml:4:1: error: 'drag' in [medium] must be a section, or false to leave it out, found the "
+            "number 1");
+}
+
+TEST(BaseFault, SaysWhatABaseMustBe) {
+  const std::string must = "case.toml:1:1: error: 'base' must name a case file beside this one, found ";
+  EXPECT_EQ(CaseText("base = 'elsewhere.toml'\n").faults(), must + "the text \"elsewhere.toml\"");
+  EXPECT_EQ(CaseText("base = '../case.toml'\n").faults(), must + "the text \"../case.toml\"");
+  EXPECT_EQ(CaseText("base = 1\n").faults(), must + "the number 1");
+  EXPECT_EQ(CaseText("base = 'case.toml'\n").faults(),
+            "case.toml:1:1: error: a case file that others have as their base cannot have one itself");
+}
+
 }  // namespace
 }  // namespace toryu

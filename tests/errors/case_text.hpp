@@ -19,6 +19,8 @@ class CaseText {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "case.toml") << text;
   }
+  /// Another file beside the case.
+  void add(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   ~CaseText() { std::filesystem::remove_all(folder_); }
   CaseText(const CaseText&) = delete;
   CaseText& operator=(const CaseText&) = delete;

@@ -2,7 +2,6 @@
 
 import math
 import re
-import tomllib
 
 import results
 
@@ -16,8 +15,7 @@ def used_case(case, out):
     """The case as it was run, else as it is written."""
     for path in (out / "used_case.toml", results.case_file(case)):
         if path.is_file():
-            text = path.read_text(encoding="utf-8")
-            return tomllib.loads(text), text
+            return results.case_content(path), path.read_text(encoding="utf-8")
     return {}, ""
 
 

@@ -3,8 +3,9 @@
 import hashlib
 import itertools
 import json
-import tomllib
 from dataclasses import dataclass
+
+import results
 
 
 @dataclass
@@ -34,11 +35,10 @@ def toml(value):
 
 def content_of(case):
     """What a case file says, comments and layout aside; its text if it is no TOML, which the programs will tell."""
-    text = case.read_text(encoding="utf-8")
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
-        return text
+        return results.case_content(case)
+    except (OSError, ValueError):
+        return case.read_text(encoding="utf-8", errors="replace")
 
 
 def settings(study, extra=(), program_identity=""):

@@ -33,6 +33,22 @@ class Figures(unittest.TestCase):
             self.assertEqual(results.interpolate(time, [0.0, 0.5, 2.5], [2.0, 4.0, 8.0]), value)
 
 
+class Cases(unittest.TestCase):
+    def test_a_case_says_only_in_what_it_differs_from_its_base(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "case.toml").write_text(
+                "[fluid]\ndensity = 1\nspacing = 2\n[solid]\n[[wall]]\nname = 'a'\nheat = 3\n[[wall]]\nname = 'b'\n"
+                "[[hole]]\nsize = 1\n")
+            other = folder / "other.toml"
+            other.write_text("base = 'case.toml'\nsolid = false\n[fluid]\nspacing = 4\n[[wall]]\nname = 'a'\nage = 5\n"
+                             "[[wall]]\nname = 'c'\n[[hole]]\nsize = 2\n")
+            self.assertEqual(results.case_content(other), {
+                "fluid": {"density": 1, "spacing": 4}, "solid": False,
+                "wall": [{"name": "a", "heat": 3, "age": 5}, {"name": "b"}, {"name": "c"}],
+                "hole": [{"size": 1}, {"size": 2}]})
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

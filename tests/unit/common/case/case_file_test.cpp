@@ -99,6 +99,7 @@ TEST(CaseFile, KeepsDefaultsWhereTheCaseSaysNothing) {
 TEST(CaseFile, UsedCaseReadsBackToTheSameParameters) {
   const CaseText text(sound_medium());
   CaseFile file(text.folder(), {"medium.steps=7"});
+  file.leave_to_others({"other"});
   const Medium medium = read_medium(file);
   const std::string used = file.used();
   const CaseText again_text(used);
@@ -215,6 +216,27 @@ TEST(CaseFile, HasASectionUnlessItIsTakenAway) {
   EXPECT_TRUE(file.has("wall"));
   EXPECT_FALSE(file.has("solid"));
   EXPECT_FALSE(without.has("medium"));
+}
+
+TEST(CaseFile, SaysOnlyInWhatItDiffersFromItsBase) {
+  const CaseText text(
+      "base = 'base.toml'\nother = false\n[medium]\nratio = 2\n[[medium.region]]\nname = 'right'\n"
+      "box.max = [0.5, 1]\n[[medium.region]]\nname = 'far'\nbox = {min=[1,1], max=[2,2]}\n");
+  text.add("base.toml", sound_medium() + "[other]\nanything = 1\n");
+  CaseFile file(text.folder(), {"medium.steps=7"});
+  file.leave_to_others({"other"});
+  const Medium medium = read_medium(file);
+  EXPECT_EQ(medium.density, 1000);
+  EXPECT_EQ(medium.ratio, 2);
+  EXPECT_EQ(medium.steps, 7);
+  ASSERT_EQ(medium.regions.size(), 3u);
+  EXPECT_EQ(medium.regions[1].box.max, Vec(0.5, 1));
+  EXPECT_EQ(medium.regions[1].box.min, Vec(0.1, 0));
+  EXPECT_EQ(medium.regions[2].name, "far");
+  EXPECT_FALSE(file.has("other"));
+  const auto hash = file.hash();
+  text.add("base.toml", sound_medium() + "\n[other]\nanything = 1\n");
+  EXPECT_NE(CaseFile(text.folder(), {"medium.steps=7"}).hash(), hash);
 }
 
 TEST(CaseFile, HashTellsTextsAndOverridesApart) {
