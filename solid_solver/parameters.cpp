@@ -1,5 +1,7 @@
 #include "solid_solver/parameters.hpp"
 
+#include <limits>
+
 namespace toryu {
 
 void describe(ParameterTable& table, NamedBox& region) {
@@ -23,20 +25,39 @@ void describe(ParameterTable& table, SolidLimits& limits) {
                 .help = "largest relative change of density (updated) or of length (total Lagrangian)"});
 }
 
-void describe(ParameterTable& table, SolidParameters& p) {
-  table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian"},
-               {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
-                        "right; updated: present neighbours, can tear"});
-  table.number("density", p.material.density,
+namespace {
+
+/// The elastic constants, or a law that has constants of its own.
+void describe_material(ParameterTable& table, SolidParameters& p) {
+  table.choice("law", p.law, {"saint_venant_kirchhoff", "neo_hookean"},
+               {.help = "total Lagrangian: stress from strain, with E and nu for small strains"});
+  table.optional("yeoh", p.yeoh,
+                 "rubber (total Lagrangian); takes the place of law, youngs_modulus and poissons_ratio");
+  constexpr double not_used = std::numeric_limits<double>::quiet_NaN();
+  ElasticMaterial given = p.material;
+  if (p.yeoh) given.youngs_modulus = given.poissons_ratio = not_used;
+  table.number("density", given.density,
                {.unit = "kg/m3",
                 .minimum = 0,
                 .above_minimum = true,
                 .required = true,
                 .help = "of the unloaded solid"});
-  table.number("youngs_modulus", p.material.youngs_modulus,
-               {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = true, .help = "E"});
-  table.number("poissons_ratio", p.material.poissons_ratio,
-               {.minimum = -0.9, .maximum = 0.499, .required = true, .help = "nu; plane strain"});
+  table.number(
+      "youngs_modulus", given.youngs_modulus,
+      {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = !p.yeoh.has_value(), .help = "E"});
+  table.number(
+      "poissons_ratio", given.poissons_ratio,
+      {.minimum = -0.9, .maximum = 0.499, .required = !p.yeoh.has_value(), .help = "nu; plane strain"});
+  p.material = p.yeoh ? p.yeoh->small_strain(given.density) : given;
+}
+
+}  // namespace
+
+void describe(ParameterTable& table, SolidParameters& p) {
+  table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian"},
+               {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
+                        "right; updated: present neighbours, can tear"});
+  describe_material(table, p);
   table.number("spacing", p.spacing,
                {.unit = "m",
                 .minimum = 0,
@@ -78,6 +99,9 @@ void describe(ParameterTable& table, SolidParameters& p) {
 
   const bool total = p.formulation == Formulation::total_lagrangian;
   table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
+  table.require(total || (p.law == ElasticLaw::saint_venant_kirchhoff && !p.yeoh), p.yeoh ? "yeoh" : "law",
+                "'law' and [solid.yeoh] are for formulation = \"total_lagrangian\" only; the other has "
+                "Hooke's law");
   table.require(total || !p.hourglass, "hourglass",
                 "[solid.hourglass] is for formulation = \"total_lagrangian\" only");
   table.require(!total || !p.artificial_stress, "artificial_stress",

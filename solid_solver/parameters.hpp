@@ -15,10 +15,12 @@
 #include "solid_solver/terms/damping.hpp"
 #include "solid_solver/terms/hourglass_penalty.hpp"
 #include "solid_solver/terms/wall_contact.hpp"
+#include "solid_solver/terms/yeoh.hpp"
 
 namespace toryu {
 
 enum class Formulation { total_lagrangian, updated_lagrangian };
+enum class ElasticLaw { saint_venant_kirchhoff, neo_hookean };
 enum class Gradients { plain, renormalised };
 
 /// A box that belongs to the solid, or that is cut out of it, or whose particles are held.
@@ -45,11 +47,13 @@ void describe(ParameterTable& table, SolidLimits& limits);
 
 struct SolidParameters {
   Formulation formulation = Formulation::total_lagrangian;
-  ElasticMaterial material{1000.0, 0.0, 0.0};
-  double spacing = 0;            ///< [m]
-  double smoothing_ratio = 1.3;  ///< h over the spacing
-  double time_step_share = 0.8;  ///< of the largest stable time step
-  double courant_number = 0.25;  ///< of the acoustic limit of the updated Lagrangian form
+  ElasticLaw law = ElasticLaw::saint_venant_kirchhoff;
+  std::optional<Yeoh> yeoh;                    ///< in the place of `law`
+  ElasticMaterial material{1000.0, 0.0, 0.0};  ///< for small strains
+  double spacing = 0;                          ///< [m]
+  double smoothing_ratio = 1.3;                ///< h over the spacing
+  double time_step_share = 0.8;                ///< of the largest stable time step
+  double courant_number = 0.25;                ///< of the acoustic limit of the updated Lagrangian form
   Gradients gradients = Gradients::plain;
   std::vector<NamedBox> regions, holes, clamps;
   std::vector<BoxLoad> loads;

@@ -6,29 +6,9 @@
 
 namespace toryu {
 
-namespace {
-
-using toryu::square_root;
-
-double square_root(double a) {
-  return std::sqrt(a);
-}
-
-/// Larger principal value of C = F^T F, the square of the largest stretch; `smaller` receives the other one.
-template <class T>
-T largest_principal(const Tensor<T>& H, T& smaller) {
-  const Symmetric<T> E = green_lagrange_strain(H);
-  const T mean = E.xx + E.yy, difference = E.xx - E.yy;
-  const T D = square_root(T(difference * difference + 4.0 * E.xy * E.xy));
-  smaller = 1.0 + mean - D;
-  return 1.0 + mean + D;
-}
-
-}  // namespace
-
 TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
-      material_{parameters.material.lame_lambda(), parameters.material.shear_modulus()},
+      law_(law_of(parameters)),
       penalty_(parameters.hourglass ? parameters.hourglass->coefficient * parameters.material.youngs_modulus
                                     : 0.0) {
   const std::size_t size = padded(particle_count());
@@ -38,8 +18,9 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
   pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width());
   resize(H_, size);
   resize(T_, size);
-  find_highest_frequency();
-  if (walls_) resize(x_, size);
+  highest_frequency_ = find_highest_frequency();
+  if (!walls_) return;
+  resize(x_, size);
 #pragma omp parallel
   evaluate();
 }
@@ -100,13 +81,29 @@ void TotalLagrangian::touch_walls() {
 }
 
 void TotalLagrangian::find_stresses() {
+  std::visit(
+      [&](const auto& law) {
 #pragma omp for schedule(static)
-  for (std::size_t c = 0; c < clusters(); ++c) {
-    Tensor<Lanes> H;
-    pairs_->displacement_gradient(u_, c, H);
-    const Tensor<Lanes> T = product(material_.stress(H), pairs_->shape(c));
-    store(H, H_, c * lane_count);
-    for (std::size_t n = 0; n < H.size(); ++n) store(T[n] - 0.5 * penalty_ * H[n], T_[n], c * lane_count);
+        for (std::size_t c = 0; c < clusters(); ++c) {
+          const std::size_t i = c * lane_count;
+          Tensor<Lanes> H;
+          pairs_->displacement_gradient(u_, c, H);
+          if (!all_of(volume_change(H) > -1.0)) look_for_inverted(H, i);
+          const Tensor<Lanes> T = product(law.stress(H), pairs_->shape(c));
+          store(H, H_, i);
+          for (std::size_t n = 0; n < H.size(); ++n) store(T[n] - 0.5 * penalty_ * H[n], T_[n], i);
+        }
+      },
+      law_);
+}
+
+void TotalLagrangian::look_for_inverted(const Tensor<Lanes>& H, std::size_t first_slot) {
+#pragma omp critical
+  for (std::size_t k = first_slot; k < std::min(first_slot + lane_count, particle_count()); ++k) {
+    const double J = 1.0 + volume_change(H)[k - first_slot];
+    if (J > 0.0) continue;
+    const bool earlier = !inverted_ || (inverted_->time == time_ && k < inverted_->slot);
+    if (earlier) inverted_ = Inverted{k, time_, J};
   }
 }
 
@@ -127,55 +124,67 @@ void TotalLagrangian::find_accelerations() {
   }
 }
 
-void TotalLagrangian::find_highest_frequency() {
-  // Power iteration on u -> -a(u) about the unloaded body, from a start that holds all modes.
+double TotalLagrangian::find_highest_frequency() {
+  // Power iteration on u -> -(a(u) - a), from a start that holds all modes.
   const double small = 1e-6 * body_.spacing;
-  VecField start = u_;
-  const VecField velocity = v_;
+  const VecField u = u_, v = v_;
+  VecField step = u_;
   for (std::size_t k = 0; k < particle_count(); ++k)
-    for (int a = 0; a < dim; ++a) {
-      u_[a][k] = small * mobile_[k] * std::cos(static_cast<double>((3 + a) * k * k));
-      v_[a][k] = 0.0;
+    for (int n = 0; n < dim; ++n) {
+      step[n][k] = small * mobile_[k] * std::cos(static_cast<double>((3 + n) * k * k));
+      v_[n][k] = 0.0;
     }
+#pragma omp parallel
+  evaluate();
+  const VecField a = a_;
   double square = 0;
-  for (int n = 0; n < 150; ++n) {
+  for (int round = 0; round < 150; ++round) {
+    for (int n = 0; n < dim; ++n)
+      for (std::size_t k = 0; k < particle_count(); ++k) u_[n][k] = u[n][k] + step[n][k];
 #pragma omp parallel
     evaluate();
     double length = 0, image = 0;
-    for (int a = 0; a < dim; ++a)
+    for (int n = 0; n < dim; ++n)
       for (std::size_t k = 0; k < particle_count(); ++k) {
-        length += u_[a][k] * u_[a][k];
-        const double value = mobile_[k] * a_[a][k];
-        image += value * value;
+        length += step[n][k] * step[n][k];
+        step[n][k] = -mobile_[k] * (a_[n][k] - a[n][k]);
+        image += step[n][k] * step[n][k];
       }
     if (!(image > 0)) break;
     square = std::sqrt(image / length);
     const double scale = std::sqrt(length / image);
-    for (int a = 0; a < dim; ++a)
-      for (std::size_t k = 0; k < particle_count(); ++k) u_[a][k] = -scale * mobile_[k] * a_[a][k];
+    for (auto& component : step)
+      for (double& value : component) value *= scale;
   }
-  highest_frequency_ = std::sqrt(square);
-  u_ = start;
-  v_ = velocity;
+  u_ = u;
+  v_ = v;
+#pragma omp parallel
+  evaluate();
+  return std::sqrt(square);
 }
 
-double TotalLagrangian::largest_stretch_squared() const {
-  double largest = 1.0;
-  for (std::size_t i = 0; i < particle_count(); i += lane_count) {
-    Lanes smaller;
-    const Lanes square = largest_principal(load(H_, i), smaller);
-    // idle lanes stand still among particles that move: what they hold is no stretch
-    for (std::size_t lane = 0; lane < std::min(lane_count, particle_count() - i); ++lane)
-      largest = std::max(largest, square[lane]);
-  }
-  return largest;
+double TotalLagrangian::stiffening() const {
+  return std::visit(
+      [&](const auto& law) {
+        double stiffest = law.longitudinal_modulus(1.0, 1.0);
+        const double unloaded = stiffest;
+        for (std::size_t i = 0; i < particle_count(); i += lane_count) {
+          const auto [larger, smaller] = principal_stretches(load(H_, i));
+          const Lanes modulus =
+              max(law.longitudinal_modulus(larger, smaller), law.longitudinal_modulus(smaller, larger));
+          // idle lanes stand still among particles that move: what they hold is no stretch
+          for (std::size_t lane = 0; lane < std::min(lane_count, particle_count() - i); ++lane)
+            stiffest = std::max(stiffest, modulus[lane]);
+        }
+        return stiffest / unloaded;
+      },
+      law_);
 }
 
 double TotalLagrangian::time_step_limit() const {
   const double contact = walls_ ? walls_->highest_frequency() : 0.0;
-  const double stiffening_squared = 1.5 * largest_stretch_squared() - 0.5;
   const double frequency =
-      std::sqrt(stiffening_squared * highest_frequency_ * highest_frequency_ + contact * contact);
+      std::sqrt(stiffening() * highest_frequency_ * highest_frequency_ + contact * contact);
   if (frequency == 0) return 1.0;  // all held: nothing moves
   const double damping =
       parameters_.artificial_viscosity ? 1.0 + parameters_.artificial_viscosity->alpha : 1.0;
@@ -187,34 +196,38 @@ Tensor<double> TotalLagrangian::gradient(std::size_t slot) const {
 }
 
 void TotalLagrangian::check_strain(double time) const {
+  if (inverted_)
+    fail(inverted_->slot, inverted_->time, "volume ratio", fmt::format("{:.4g}", inverted_->volume_ratio),
+         "above 0");
   const double longest = 1.0 + parameters_.limits.strain,
                shortest = std::max(1.0 - parameters_.limits.strain, 0.0);
+  const auto within_limits = [&](const auto& stretches) {
+    return (stretches.larger_squared <= longest * longest) &
+           (stretches.smaller_squared >= shortest * shortest);
+  };
   for (std::size_t i = 0; i < particle_count(); i += lane_count) {
-    Lanes smaller;
-    const Tensor<Lanes> H = load(H_, i);
-    const Lanes larger = largest_principal(H, smaller);
-    const Lanes J = (1.0 + H[0]) * (1.0 + H[3]) - H[1] * H[2];
-    if (all_of((larger <= longest * longest) & (smaller >= shortest * shortest) & (J > 0.0))) continue;
+    if (all_of(within_limits(principal_stretches(load(H_, i))))) continue;
     for (std::size_t k = i; k < std::min(i + lane_count, particle_count()); ++k) {
-      double least;
-      const Tensor<double> H_k = gradient(k);
-      const double most = largest_principal(H_k, least);
-      const double J_k = (1.0 + H_k[0]) * (1.0 + H_k[3]) - H_k[1] * H_k[2];
-      if (!(most <= longest * longest && least >= shortest * shortest && J_k > 0.0))
-        fail(k, time, "stretch",
-             fmt::format("{:.4g} to {:.4g}, volume ratio {:.4g}", std::sqrt(least), std::sqrt(most), J_k),
-             fmt::format("{:.4g} to {:.4g}, above 0", shortest, longest));
+      const auto stretches = principal_stretches(gradient(k));
+      if (within_limits(stretches)) continue;
+      fail(k, time, "stretch",
+           fmt::format("{:.4g} to {:.4g}", std::sqrt(stretches.smaller_squared),
+                       std::sqrt(stretches.larger_squared)),
+           fmt::format("{:.4g} to {:.4g}", shortest, longest));
     }
   }
 }
 
 Stress TotalLagrangian::stress(std::size_t particle) const {
   const Tensor<double> H = gradient(slot_[particle]);
-  const Tensor<double> F{1.0 + H[0], H[1], H[2], 1.0 + H[3]}, F_T{F[0], F[2], F[1], F[3]};
-  const double J = F[0] * F[3] - F[1] * F[2];
-  const Symmetric<double> E = green_lagrange_strain(H);
-  const Tensor<double> sigma = product(material_.stress(H), F_T);
-  return {sigma[0] / J, sigma[3] / J, material_.lambda * (E.xx + E.yy) / J, sigma[1] / J};
+  const Tensor<double> F_T{1.0 + H[0], H[2], H[1], 1.0 + H[3]};
+  const double J = 1.0 + volume_change(H);
+  return std::visit(
+      [&](const auto& law) -> Stress {
+        const Tensor<double> sigma = product(law.stress(H), F_T);
+        return {sigma[0] / J, sigma[3] / J, law.stress_across(H) / J, sigma[1] / J};
+      },
+      law_);
 }
 
 std::vector<Observation> TotalLagrangian::internal_energies() const {
@@ -223,7 +236,7 @@ std::vector<Observation> TotalLagrangian::internal_energies() const {
     const Lanes unseen = pairs_->unseen_motion(u_, H_, c);
     for (std::size_t lane = 0; lane < lane_count && c * lane_count + lane < particle_count(); ++lane) {
       const std::size_t k = c * lane_count + lane;
-      elastic += volume_[k] * material_.energy(green_lagrange_strain(gradient(k)));
+      elastic += volume_[k] * std::visit([&](const auto& law) { return law.energy(gradient(k)); }, law_);
       penalty += volume_[k] * 0.25 * penalty_ * unseen[lane];
     }
   }
@@ -231,16 +244,12 @@ std::vector<Observation> TotalLagrangian::internal_energies() const {
 }
 
 std::vector<ActiveTerm> TotalLagrangian::active_terms() const {
-  const auto& material = parameters_.material;
   std::vector<ActiveTerm> terms;
   terms.push_back(
       {"total Lagrangian stress", "rho_0 V_i Dv_i/Dt = sum_j V_i V_j (P_i L_i + P_j L_j) gradW_ij",
        "Rabczuk, Belytschko & Xiao 2004; L: Randles & Libersky 1996",
        fmt::format("h {:g} m, leapfrog, highest frequency {:.4g} 1/s", parameters_.h(), highest_frequency_)});
-  terms.push_back({"St. Venant-Kirchhoff", "S = lambda tr(E) I + 2 G E, plane strain", "",
-                   fmt::format("E {:g} Pa, nu {:g}: K {:.4g} Pa, G {:.4g} Pa, c_L {:.4g} m/s",
-                               material.youngs_modulus, material.poissons_ratio, material.bulk_modulus(),
-                               material.shear_modulus(), material.longitudinal_sound_speed())});
+  terms.push_back(active_law(parameters_));
   if (parameters_.hourglass)
     terms.push_back({"hourglass penalty",
                      "f_i = -(alpha E/2) V_i sum_j V_j k_ij (2 x_ij - (F_i + F_j) X_ij), k_ij = -W'/R_ij",

@@ -1,6 +1,6 @@
 /// The solid in total Lagrangian form: the neighbours of the unloaded body are kept for ever.
 ///
-///     H_i = sum_j V_j (u_j - u_i) (x) L_i gradW_ij(X),   P_i = P(I + H_i)          St. Venant-Kirchhoff
+///     H_i = sum_j V_j (u_j - u_i) (x) L_i gradW_ij(X),   P_i = P(I + H_i)          by a law of laws.hpp
 ///     rho_0 V_i Dv_i/Dt = sum_j V_i V_j (P_i L_i + P_j L_j) gradW_ij + penalty + loads
 ///
 /// (Rabczuk, Belytschko & Xiao 2004; Ganzenmueller 2015.) The force is the exact gradient of the energies, so
@@ -9,9 +9,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "solid_solver/solid_model.hpp"
-#include "solid_solver/terms/saint_venant_kirchhoff.hpp"
+#include "solid_solver/total_lagrangian/laws.hpp"
 #include "solid_solver/total_lagrangian/reference_pairs.hpp"
 
 namespace toryu {
@@ -21,7 +22,8 @@ class TotalLagrangian final : public SolidModel {
   TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
 
   /// The exact limit of the leapfrog, 2/omega with the highest angular frequency of the unloaded body found
-  /// by power iteration, less what stretching (a stretch l stiffens by (3 l^2 - 1)/2) and viscosity take.
+  /// by power iteration, less what viscosity takes and what the law's stiffening does: the largest
+  /// longitudinal modulus of a particle over that of the unloaded solid.
   double time_step_limit() const override;
   std::string_view time_step_rule() const override { return "acoustic"; }
   void advance(double dt) override;
@@ -29,8 +31,8 @@ class TotalLagrangian final : public SolidModel {
   Stress stress(std::size_t particle) const override;
   std::vector<Observation> internal_energies() const override;
 
-  /// Highest angular frequency of the unloaded body [1/s].
-  double highest_frequency() const { return highest_frequency_; }
+  /// Highest angular frequency of small motions about the present state [1/s].
+  double find_highest_frequency();
 
  protected:
   void check_strain(double time) const override;
@@ -42,20 +44,26 @@ class TotalLagrangian final : public SolidModel {
   void kick(double dt);
   /// All accelerations from u_ and v_, within a parallel region.
   void evaluate();
-  void find_highest_frequency();
-  double largest_stretch_squared() const;
+  /// Largest longitudinal modulus of a particle over that of the unloaded solid, at least 1.
+  double stiffening() const;
   Tensor<double> gradient(std::size_t slot) const;
-
   void touch_walls();
+  void look_for_inverted(const Tensor<Lanes>& H, std::size_t first_slot);
 
   Field volume_;
   std::unique_ptr<ReferencePairs> pairs_;
-  SaintVenantKirchhoff material_;
-  double penalty_;   ///< alpha E [Pa]
-  Tensor<Field> H_;  ///< displacement gradient
-  Tensor<Field> T_;  ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
-  VecField x_;       ///< present positions, if walls act on the solid [m]
-  double highest_frequency_ = 0;
+  Law law_;
+  double penalty_;                ///< alpha E [Pa]
+  Tensor<Field> H_;               ///< displacement gradient
+  Tensor<Field> T_;               ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
+  VecField x_;                    ///< present positions, if walls act on the solid [m]
+  double highest_frequency_ = 0;  ///< of the unloaded body [1/s]
+  /// The first particle whose volume was no longer positive, looked for in every step.
+  struct Inverted {
+    std::size_t slot;
+    double time, volume_ratio;
+  };
+  std::optional<Inverted> inverted_;
 };
 
 }  // namespace toryu

@@ -86,6 +86,29 @@ TEST_F(SolidSection, RefusesTermsOfTheOtherFormulation) {
       "the other finds its limit");
 }
 
+TEST_F(SolidSection, ARubberTakesThePlaceOfTheElasticConstants) {
+  const std::string rubber =
+      "[solid.yeoh]\nc_10 = 0.5e6\nc_20 = -0.1e6\nc_30 = 0.04e6\nbulk_modulus = 20e6\n";
+  std::string bare = plate + rubber;
+  for (const std::string line : {"youngs_modulus = 2e6\n", "poissons_ratio = 0.4\n"})
+    bare.erase(bare.find(line), line.size());
+  for (const std::string& text : {plate + rubber, bare}) {
+    const SolidParameters p = read(text);
+    EXPECT_NEAR(p.material.shear_modulus() / 1e6, 1.0, 1e-14);
+    EXPECT_NEAR(p.material.bulk_modulus() / 20e6, 1.0, 1e-14);
+    EXPECT_EQ(used_.find("youngs_modulus"), std::string::npos) << "only what is used stands in the used case";
+    EXPECT_EQ(read(used_).material.bulk_modulus(), p.material.bulk_modulus());
+  }
+  EXPECT_EQ(faults(plate + rubber, {"solid.yeoh.c_20=-0.3e6"}),
+            "--set solid.yeoh.c_20=-0.3e6: error: 'c_20' in [solid.yeoh] must be above -sqrt(3 c_10 c_30): "
+            "below it "
+            "the rubber gives way");
+  EXPECT_EQ(
+      faults(plate, {"solid.law=neo_hookean", "solid.formulation=updated_lagrangian"}),
+      "--set solid.law=neo_hookean: error: 'law' and [solid.yeoh] are for formulation = \"total_lagrangian\" "
+      "only; the other has Hooke's law");
+}
+
 TEST_F(SolidSection, LooksForWhatIsDetachedFromAClampOnly) {
   EXPECT_EQ(
       faults(plate + "[solid.detachment]\n"),

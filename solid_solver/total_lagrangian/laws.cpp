@@ -1,0 +1,31 @@
+#include "solid_solver/total_lagrangian/laws.hpp"
+
+#include <fmt/format.h>
+
+namespace toryu {
+
+Law law_of(const SolidParameters& parameters) {
+  if (parameters.yeoh) return *parameters.yeoh;
+  const double lambda = parameters.material.lame_lambda(), G = parameters.material.shear_modulus();
+  if (parameters.law == ElasticLaw::neo_hookean) return NeoHookean{lambda, G};
+  return SaintVenantKirchhoff{lambda, G};
+}
+
+ActiveTerm active_law(const SolidParameters& parameters) {
+  const auto& material = parameters.material;
+  const std::string constants =
+      fmt::format("E {:g} Pa, nu {:g}: K {:.4g} Pa, G {:.4g} Pa, c_L {:.4g} m/s", material.youngs_modulus,
+                  material.poissons_ratio, material.bulk_modulus(), material.shear_modulus(),
+                  material.longitudinal_sound_speed());
+  if (const auto& yeoh = parameters.yeoh)
+    return {"Yeoh", "psi = sum_k c_k0 (J^(-2/3) I_1 - 3)^k + K/4 (J^2 - 1 - 2 ln J), plane strain",
+            "Yeoh 1993; volumetric part: Simo & Taylor 1982",
+            fmt::format("c_10 {:g}, c_20 {:g}, c_30 {:g}, K {:g} Pa; for small strains {}", yeoh->c_10,
+                        yeoh->c_20, yeoh->c_30, yeoh->bulk_modulus, constants)};
+  if (parameters.law == ElasticLaw::neo_hookean)
+    return {"neo-Hookean", "psi = G/2 (I_1 - 3 - 2 ln J) + lambda/4 (J^2 - 1 - 2 ln J), plane strain",
+            "Simo & Pister 1984", constants};
+  return {"St. Venant-Kirchhoff", "S = lambda tr(E) I + 2 G E, plane strain", "", constants};
+}
+
+}  // namespace toryu
