@@ -8,8 +8,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 ! grep -qs -d skip '^ *\[study\]' -- "$@" </dev/null || "$root/tools/install.sh" study
 case ${1---help} in -h | --help) exec /usr/bin/python3 "$root/tools/launch.py" --help ;; esac
 if [ -f "$root/build/release/build.ninja" ]; then
-  "$root/tools/build.sh" release fluid_solver solid_solver coupler
+  "$root/tools/build.sh" release fluid_solver solid_solver coupler reference_loop
 else
-  "$root/tools/build.sh" release -DTORYU_TESTS=OFF fluid_solver solid_solver coupler
+  "$root/tools/build.sh" release -DTORYU_TESTS=OFF fluid_solver solid_solver coupler reference_loop
 fi
 exec /usr/bin/python3 "$root/tools/launch.py" "$@"

@@ -6,6 +6,7 @@ import math
 import matplotlib.colors
 
 import drawing
+import speed_accuracy
 from table import readable_size, text
 
 HEAT = "viridis"
@@ -15,10 +16,15 @@ def draw(study, table, folder):
     """(title, SVG for the page, where it lies) of every [[chart]]."""
     drawn = []
     for number, chart in enumerate(study.charts, 1):
-        made = kind_of(chart, study)(chart, study, table)
+        make = speed_accuracy.draw if chart.kind == "speed_accuracy" else kind_of(chart, study)
+        made = make(chart, study, table)
         name = f"chart_{number:02}"
         drawn.append((chart.title, drawing.save(made, folder / name), f"charts/{name}"))
     return drawn
+
+
+def answers(study, table):
+    return [speed_accuracy.answer(chart, study, table) for chart in study.charts if chart.kind == "speed_accuracy"]
 
 
 def kind_of(chart, study):

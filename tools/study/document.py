@@ -5,7 +5,7 @@ import re
 import tomllib
 
 REQUIRED = object()
-KINDS = {str: "text", bool: "true or false", float: "a number", list: "a list", dict: "a table"}
+KINDS = {str: "text", bool: "true or false", float: "a number", int: "an integer", list: "a list", dict: "a table"}
 
 
 class BadStudy(Exception):
@@ -111,7 +111,8 @@ class Table:
                 self.fault(f"{self.name} needs '{key}', {KINDS[kind]}")
             return substitute
         value = self.content[key]
-        right = is_number(value) if kind is float else isinstance(value, kind)
+        right = is_number(value) and (kind is float or isinstance(value, int)) if kind in (float, int) \
+            else isinstance(value, kind)
         if not right:
             self.fault(f"'{key}' must be {KINDS[kind]}, found {found(value)}", key)
             return substitute

@@ -11,7 +11,9 @@ import string
 
 import data
 import results
+import runner
 import tables
+import timing
 from processes import DONE
 from progress import duration
 from table import readable_size
@@ -20,16 +22,16 @@ HERE = pathlib.Path(__file__).resolve().parent
 SCALE = 1.19  # pixels of the page for a point of a chart
 
 
-def write(path, study, table, drawn, answers, versions):
+def write(path, study, table, records, drawn, answers, versions):
     """`drawn`: (title, SVG, file without ending) of each chart."""
-    records = [row["record"] for row in table.rows]
     text = string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html.escape(study.title), name=html.escape(study.name),
         style=(HERE.parent / "report/style.css").read_text(encoding="utf-8"),
         script=(HERE / "page.js").read_text(encoding="utf-8"), state=state(records), tiles=tiles(study, table, records),
         answers="".join(f'<section id="answer"><h2>{html.escape(a.title)}</h2><p class="answer">'
                         f"{html.escape(a.sentence)}</p>{a.html}</section>" for a in answers),
-        charts="".join(map(figure, drawn)), table=runs(study, table), axes=axes(study), fixed=fixed(study, records),
+        charts="".join(map(figure, drawn)), table=runs(study, table),
+        timing=f'<p class="note">{html.escape(timing.sentence(study.timing, records))}</p>' if study.timing else "", axes=axes(study), fixed=fixed(study, records),
         provenance=provenance(records, versions), study=html.escape(study.text),
         case=html.escape(study.case.read_text(encoding="utf-8")))
     part = path.with_name(path.name + ".part")
@@ -39,6 +41,8 @@ def write(path, study, table, drawn, answers, versions):
 
 def state(records):
     failed = sum(r.exit_code != DONE for r in records)
+    if hung := sum(r.exit_code == runner.HUNG for r in records):
+        return f'<span class="badge bad">{hung} of {len(records)} runs hung: a bug</span>'
     if not failed:
         return '<span class="badge good">All runs done</span>'
     return f'<span class="badge stopped">Done; {failed} of {len(records)} runs ended by their physics</span>'
@@ -47,13 +51,21 @@ def state(records):
 def tiles(study, table, records):
     processor = [v for v in table.column("processor_time") if math.isfinite(v)]
     names = ", ".join(axis.name.replace("_", " ") for axis in study.axes)
-    parts = [tables.tile("runs", str(len(records)), " × ".join(str(len(axis.values)) for axis in study.axes)),
+    parts = [tables.tile("runs", str(len(records)), combinations(study)),
              tables.tile("axes", str(len(study.axes)), names),
              tables.tile("elapsed, all runs", duration(sum(r.elapsed for r in records)),
                          f"{duration(sum(processor))} of processor"),
              tables.tile("at a time", " or ".join(sorted({str(r.jobs) for r in records})), "runs, each with "
                          f"{' or '.join(sorted({str(r.threads) for r in records}))} of {os.cpu_count()} cores")]
     return "".join(parts)
+
+
+def combinations(study):
+    """How the number of runs comes about."""
+    if study.bisects:
+        return "as many as the search took"
+    rounds = f"{study.timing.repeat} times " if study.timing else ""
+    return rounds + " × ".join(str(len(axis.values)) for axis in study.axes)
 
 
 def figure(chart):
@@ -94,17 +106,17 @@ def sortable(headings, rows):
 
 
 def runs(study, table):
-    failed = any(row["record"].exit_code != DONE for row in table.rows)
+    failed = any(row["cause"] for row in table.rows)
     factors, headings = zip(*(column(name, table, study) for name in table.units))
     headings = [*headings, *["<th>why it ended</th>"] * failed, "<th>results</th>"]
     rows = []
     for row in table.rows:
         record = row["record"]
         cells = [cell(row.get(name, math.nan), factor) for name, factor in zip(table.units, factors)]
-        cells += [tables.cell(record.cause, class_="cause")] * failed
+        cells += [tables.cell(row["cause"], class_="cause")] * failed
         place = f"runs/{record.folder.name}/" + ("report.html" if study.keep_frames else "")
         cells.append(f'<td><a href="{place}">{record.folder.name}</a></td>')
-        rows.append((record.folder.name, "failed" if record.exit_code != DONE else "", cells))
+        rows.append((record.folder.name, "failed" if row["cause"] else "", cells))
     return sortable(headings, rows)
 
 
@@ -116,6 +128,11 @@ def axes(study):
             rows.append([axis.name.replace("_", " ") if value is axis.values[0] else "",
                          f"{text(value.name)} {data.pretty(axis.unit)}", sets or "as in the case"])
     return tables.table(["axis", "value", "sets"], rows)
+
+
+def setting_text(study, row):
+    return ", ".join(f"{axis.name.replace('_', ' ')} {text(row[axis.name])} {axis.unit}".strip()
+                     for axis in study.axes)
 
 
 def text(value):

@@ -10,8 +10,9 @@ import numpy as np
 import removal_charts
 import results
 import surface
+from answer import Answer
 from processes import DONE
-from removal_answer import Answer, Wanted, answer_of
+from removal_answer import Wanted, answer_of
 
 WINDOWS_A_CYCLE = 20  # over each of them the force of a piston is averaged
 DEPTHS = ("preston_depth", "archard_depth")  # the first that a run has counts
@@ -64,8 +65,9 @@ class Removal:
     def units(self):
         return UNITS | (ANSWER_UNITS if self.wanted else {})
 
-    def figures(self, record):
+    def figures(self, _, row):
         """Name -> value; empty if the run failed or holds fewer than two whole cycles."""
+        record = row["record"]
         removed = read_run(self, record.folder) if record.exit_code == DONE else None
         if removed is None:
             return {}
@@ -79,8 +81,8 @@ class Removal:
     def charts(self, study, table, folder):
         return removal_charts.draw(self, study, table, folder)
 
-    def answer(self, study, table) -> Answer | None:
-        return answer_of(self.wanted, study, table) if self.wanted else None
+    def answers(self, study, table, _) -> list[Answer]:
+        return [answer_of(self.wanted, study, table)] if self.wanted else []
 
 
 def read(table, study):

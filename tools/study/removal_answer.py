@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import data
 import page
 import tables
+from answer import Answer
 from progress import duration
 
 MOST_CYCLES = 1_000_000  # beyond that a setting removes nothing
@@ -65,22 +66,10 @@ BY = {"evenness": ("evenness_then", "most evenly"), "time": ("time_needed", "fas
       "pressure": ("piston_pressure", "with the least pressure")}
 
 
-@dataclass
-class Answer:
-    title: str
-    sentence: str
-    html: str
-
-
 def in_words(value, unit):
     """5e-06, "m" -> 5 µm"""
     factor, unit = data.scaled(unit, abs(value))
     return f"{value * factor:.3g} {unit}"
-
-
-def setting_text(study, row):
-    return ", ".join(f"{axis.name.replace('_', ' ')} {page.text(row[axis.name])} {axis.unit}".strip()
-                     for axis in study.axes)
 
 
 def figures_text(row):
@@ -114,13 +103,13 @@ def answer_of(wanted, study, table):
 def best_setting(wanted, study, table, met):
     """`met`: rows within the limits, the best first."""
     best, limits = met[0], wanted.limits()
-    sentence = (f"{in_words(wanted.depth, 'm')} come off {BY[wanted.first][1]} with {setting_text(study, best)}: "
+    sentence = (f"{in_words(wanted.depth, 'm')} come off {BY[wanted.first][1]} with {page.setting_text(study, best)}: "
                 f"{figures_text(best)}.")
     if limits:
         sentence += f" {len(met)} of {len(table.rows)} settings keep {limits}."
     fastest = min(met, key=lambda row: row["time_needed"])
     if fastest["time_needed"] < best["time_needed"]:
-        sentence += (f" The fastest{' of them' if limits else ''}: {setting_text(study, fastest)}; "
+        sentence += (f" The fastest{' of them' if limits else ''}: {page.setting_text(study, fastest)}; "
                      f"{figures_text(fastest)}.")
     return sentence
 
@@ -128,7 +117,7 @@ def best_setting(wanted, study, table, met):
 def nearest_setting(wanted, study, table, rows):
     nearest = min(rows, key=lambda row: excess(wanted, row))
     return (f"None of the {len(table.rows)} settings removes {in_words(wanted.depth, 'm')} with {wanted.limits()}. "
-            f"Nearest: {setting_text(study, nearest)}; {figures_text(nearest)}.")
+            f"Nearest: {page.setting_text(study, nearest)}; {figures_text(nearest)}.")
 
 
 def excess(wanted, row):

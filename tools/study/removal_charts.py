@@ -7,7 +7,8 @@ import numpy as np
 
 import data
 import drawing
-from removal_answer import ranked, setting_text
+import page
+from removal_answer import ranked
 from table import readable_size
 
 NAMED = 3  # settings drawn in colour, the others in grey
@@ -27,7 +28,7 @@ def draw(view, study, table, folder):
 
 
 def label(study, row):
-    return setting_text(study, row).replace(", ", "\n")
+    return page.setting_text(study, row).replace(", ", "\n")
 
 
 def depth_of(view, row):

@@ -10,16 +10,18 @@ import shutil
 import signal
 import sys
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field
 
 import results
+import timing
 from processes import BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, start
 
 LAUNCH = pathlib.Path(__file__).resolve().parents[1] / "launch.py"
 RECORD = "run.json"  # in the folder of a run that is done: without it the run is started afresh
-KEPT = ("exit_code", "cause", "elapsed", "threads", "jobs")  # of a Record, in its file
+KEPT = ("exit_code", "cause", "elapsed", "threads", "jobs", "loops")  # of a Record, in its file
 SAID = "said.txt"  # what the run printed
 POLL = 0.05  # [s]
+HUNG = 124  # in the place of an exit code: the run was ended because it took longer than it may
 
 
 class Ended(Exception):
@@ -41,6 +43,7 @@ class Record:
     elapsed: float  # [s] of the launcher, the check included
     threads: int
     jobs: int  # that were allowed beside each other, itself included
+    loops: list[dict] = field(default_factory=list)  # the reference loop before and after it, as timing.Loop
 
 
 def read_record(folder, setting):
@@ -49,7 +52,7 @@ def read_record(folder, setting):
         content = json.loads((folder / RECORD).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    return Record(setting, folder, **{name: content[name] for name in KEPT})
+    return Record(setting, folder, **{name: content[name] for name in KEPT if name in content})
 
 
 def write_record(record):
@@ -102,13 +105,23 @@ def cause_of(folder, code):
                                    or said[-1:]))
 
 
+def reached(folder):
+    """The last time [s] in any series of a run, 0 if there is none."""
+    series = [results.read_series(folder, name).get("time[s]", []) for name in results.PARTICIPANTS]
+    return max((times[-1] for times in series if times), default=0.0)
+
+
 class Runner:
     """Runs the settings that are not done yet, at most `jobs` at a time."""
 
     def __init__(self, study, out, bin_folder, jobs, threads, progress):
         self.study, self.out, self.bin, self.jobs, self.threads = study, out, bin_folder, jobs, threads
         self.progress = progress
+        self.time_limit = study.map.time_limit if study.map else None  # [s] by the clock
+        self.verdicts = {DONE, PHYSICS_FAILED} | ({BAD_INPUT} if study.map else set())  # exit codes that are results
         self.running = {}  # process -> (setting, folder, start)
+        self.overdue = set()  # processes that were asked to end at the time limit
+        self.loops = {}  # setting key -> the reference loop before its run
         self.interruptions = 0
 
     def folder(self, setting):
@@ -132,6 +145,7 @@ class Runner:
                 while waiting and len(self.running) < self.jobs and not self.interruptions:
                     self._start(waiting.pop(0))
                 time.sleep(POLL)
+                self._end_overdue()
                 for record in self._ended():
                     records[record.setting.key] = record
                 self.progress.show(len(records), [time.monotonic() - s for _, _, s in self.running.values()])
@@ -154,6 +168,8 @@ class Runner:
         folder.mkdir()
         report = [] if self.study.keep_frames else ["--no-report"]
         command = self.command(setting, f"--out={folder}", f"--threads={self.threads}", *report)
+        if self.study.timing:
+            self.loops[setting.key] = timing.run_loop(self.bin)
         with open(folder / SAID, "wb") as said:
             self.running[start(command, said)] = (setting, folder, time.monotonic())
 
@@ -163,15 +179,28 @@ class Runner:
             setting, folder, began = self.running.pop(process)
             if self.interruptions:
                 continue  # how it ended says nothing
-            code = process.returncode
+            age = time.monotonic() - began
+            code = HUNG if process in self.overdue else process.returncode
             cause = cause_of(folder, code) if code != DONE else ""
-            if code not in (DONE, PHYSICS_FAILED):
+            if code == HUNG:
+                cause = f"still running after {self.time_limit:g} s, at the time {reached(folder):.4g} s; ended"
+            elif code not in self.verdicts:
                 words = (folder / SAID).read_text(encoding="utf-8", errors="replace").strip()
                 raise Ended(code if code > 0 else 1, f"{words}\nthe run with {setting} ended with exit code {code}: the "
                                                      f"study stops; see {folder}")
-            record = Record(setting, folder, code, cause, time.monotonic() - began, self.threads, self.jobs)
+            record = Record(setting, folder, code, cause, age, self.threads, self.jobs)
+            if self.study.timing:
+                record.loops = [asdict(loop) for loop in (self.loops.pop(setting.key), timing.run_loop(self.bin))]
             write_record(record)
             yield record
+
+    def _end_overdue(self):
+        """A launcher that is asked to end kills its processes if they do not."""
+        for process, (_, _, began) in self.running.items():
+            if self.time_limit and process not in self.overdue and time.monotonic() - began > self.time_limit:
+                self.overdue.add(process)
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(process.pid, signal.SIGINT)
 
     def _interrupted(self, *_):
         """The launchers pass the first request on and wait, the second makes them kill."""

@@ -41,18 +41,32 @@ def content_of(case):
         return case.read_text(encoding="utf-8", errors="replace")
 
 
-def settings(study, extra=(), program_identity=""):
-    """All settings, the last axis changing fastest. `extra`: overrides of the command line, which win."""
-    case = content_of(study.case)
-    always = {} if study.keep_frames else {"case.frame_interval": 0}
-    found = []
-    for values in itertools.product(*(axis.values for axis in study.axes)):
-        overrides = always | study.overrides
+class Maker:
+    """Makes settings of a study. `extra`: overrides of the command line, which win. `mark`: what else makes a run
+    another one."""
+
+    def __init__(self, study, extra=(), program_identity="", mark=None):
+        self.study, self.extra, self.program_identity, self.mark = study, extra, program_identity, mark
+        self.case = content_of(study.case)
+
+    def __call__(self, values, repetition=0):
+        """`values`: one of each axis, in their order."""
+        overrides = {} if self.study.keep_frames else {"case.frame_interval": 0}
+        overrides |= self.study.overrides
         for value in values:
             overrides |= value.overrides
-        as_toml = {key: toml(value) for key, value in overrides.items()} | dict(pair.split("=", 1) for pair in extra)
-        setting = Setting({axis.name: value.name for axis, value in zip(study.axes, values)}, as_toml)
-        identity = json.dumps([program_identity, case, list(as_toml.items())], default=str)
-        setting.key = hashlib.sha256(identity.encode()).hexdigest()[:12]
-        found.append(setting)
-    return found
+        as_toml = {key: toml(value) for key, value in overrides.items()}
+        as_toml |= dict(pair.split("=", 1) for pair in self.extra)
+        setting = Setting({axis.name: value.name for axis, value in zip(self.study.axes, values)}, as_toml)
+        parts = [self.program_identity, self.case, list(as_toml.items())]
+        parts += [[self.mark, repetition]] if self.mark else []
+        setting.key = hashlib.sha256(json.dumps(parts, default=str).encode()).hexdigest()[:12]
+        return setting
+
+
+def settings(study, make):
+    """Every combination of the axes, the last axis changing fastest; with repetitions in rounds, so that a machine that
+    slows down treats all alike."""
+    combinations = list(itertools.product(*(axis.values for axis in study.axes)))
+    rounds = study.timing.repeat if study.timing else 1
+    return [make(values, repetition) for repetition in range(rounds) for values in combinations]

@@ -1,16 +1,18 @@
-"""What a study file says: the case, the axes, the metrics, the charts. README.md describes the keys."""
+"""What a study file says: the case, the axes, what is taken and drawn. README.md describes the keys."""
 
 import math
 import pathlib
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 
+import chart_file
+import metric_file
 import results
+import timing
 from document import BadStudy, Document, did_you_mean, is_number, one_of
+from metric_file import OF_RUN
 from settings import content_of
-
-TAKES = ("last", "largest", "smallest", "peak", "mean", "rms")
-OF_RUN = {"wall_time": "s", "processor_time": "s", "simulated_time": "s", "steps": ""}
-SOURCES = ("series", "summary", "run", "reference")
+from timing import Timing
 
 
 @dataclass(frozen=True)
@@ -27,33 +29,7 @@ class Axis:
     unit: str
     values: list[Value]
     line: int | None  # of the file, for faults that the programs find
-
-
-@dataclass
-class Metric:
-    """A figure of a run. One of the sources is given."""
-
-    name: str
-    unit: str
-    scale: float
-    series: str | None = None  # "fluid.csv:front_x[m]"
-    take: str = "last"
-    shares: list[float] = field(default_factory=lambda: [0.0, 1.0])  # of the simulated time
-    summary: str | None = None  # "fluid.figures.largest_speed"
-    run: str | None = None  # one of OF_RUN
-    reference: str | None = None  # label of a [[reference]] of the case: the distance to it
-
-
-@dataclass
-class Chart:
-    title: str
-    x: str
-    y: str
-    colour: str | None  # the metric of a heat map
-    lines: str | None
-    panels: str | None
-    at: dict[str, float | str]  # the other axes
-    log: list[str]
+    value_of: Callable | None = None  # number -> Value, of an axis of numbers
 
 
 @dataclass
@@ -66,13 +42,17 @@ class Study:
     set_line: int | None  # where the file gives them
     keep_frames: bool
     axes: list[Axis]
-    metrics: list[Metric]
-    charts: list[Chart]
-    removal: object = None  # the table [removal], read by removal.py
+    metrics: list[metric_file.Metric]
+    charts: list[chart_file.Chart]
+    timing: Timing | None = None
+    small: bool = False  # the small version that [small] describes
+    removal: object = None  # the tables of special views: removal.py,
+    map: object = None  # map_file.py,
+    terms: object = None  # terms.py
 
     @property
     def name(self):
-        return results.case_name(self.path)
+        return results.case_name(self.path) + ("_small" if self.small else "")
 
     def names_in_case(self, table, key):
         """What the [[table]] of the case have under `key`; none if the case is no TOML, which the programs will tell."""
@@ -80,8 +60,17 @@ class Study:
         items = content.get(table, []) if isinstance(content, dict) else []
         return [item[key] for item in items if key in item] if isinstance(items, list) else []
 
+    def of_run(self):
+        """Name -> unit of the times that every run has."""
+        return OF_RUN | (timing.UNITS if self.timing else {})
+
+    @property
+    def bisects(self):
+        """Whether its runs depend on how others ended."""
+        return self.map is not None and self.map.y is not None
+
     def units(self):
-        return {thing.name: thing.unit for thing in [*self.axes, *self.metrics]} | OF_RUN
+        return {thing.name: thing.unit for thing in [*self.axes, *self.metrics]} | self.of_run()
 
 
 def flat(content, prefix=""):
@@ -95,9 +84,18 @@ def flat(content, prefix=""):
     return pairs
 
 
-def read(path, views=()):
-    """The study in `path`. `views`: (key, reader) of the tables that special views declare; a reader takes the table and
-    the study."""
+@dataclass(frozen=True)
+class View:
+    """A kind of study, declared by the table `key` of the file. `read` takes the table and the study and returns an object
+    with `units()`, `figures(study, row)`, `charts(study, table, folder)` and `answers(study, table, out)`."""
+
+    key: str
+    read: Callable
+    add_axes: Callable | None = None  # takes the same; adds the axes that the view brings along
+
+
+def read(path, views=(), small=False):
+    """The study in `path`, or its small version."""
     document = Document(path)
     root = document.root()
     head = root.table("study")
@@ -107,19 +105,26 @@ def read(path, views=()):
     if head.has("case") and not case.is_file():
         head.fault(f"'case' must be a case file beside the study, found '{case}', which is no file", "case")
     study = Study(path, document.text, head.get("title", str), case, flat(head.get("set", dict, {})),
-                  document.line(head.path, "set"), head.get("keep_frames", bool, False), [], [], [])
+                  document.line(head.path, "set"), head.get("keep_frames", bool, False), [], [], [], small=small)
     head.close()
     study.axes = [_axis(table) for table in root.tables("axis")]
-    study.metrics = [_metric(table, study) for table in root.tables("metric")]
+    study.timing = timing.read(root.table("timing"))
+    tables = {view: table for view in views if (table := root.table(view.key)) is not None}
+    for view, table in tables.items():
+        if view.add_axes:
+            view.add_axes(table, study)
+    for table in root.tables("metric"):
+        study.metrics.append(metric_file.read(table, study, study.metrics))
     _check_names(document, study)
     extra = {}
-    for key, reader in views:
-        if (table := root.table(key)) is not None:
-            setattr(study, key, reader(table, study))
-            extra |= getattr(study, key).units()
-            for name in sorted(study.units().keys() & extra.keys()):
-                document.fault(f"[{key}] has a figure '{name}' of its own: the axis or metric needs another name")
-    study.charts = [_chart(table, study, extra) for table in root.tables("chart")]
+    for view, table in tables.items():
+        made = view.read(table, study)
+        setattr(study, view.key, made)
+        extra |= made.units()
+        for name in sorted(study.units().keys() & made.units().keys()):
+            document.fault(f"[{view.key}] has a figure '{name}' of its own: the axis or metric needs another name")
+    study.charts = [chart_file.read(table, study, extra) for table in root.tables("chart")]
+    _read_small(root.table("small"), study)
     root.close()
     document.end()
     return study
@@ -128,17 +133,19 @@ def read(path, views=()):
 def _axis(table):
     line = table.document.line(table.path, "")
     name, unit = table.get("name", str), table.get("unit", str, "")
+    value_of = None
     if table.has("choice"):
         values = [_choice(choice) for choice in table.tables("choice")]
     else:
-        values = _values(table)
+        value_of, given = read_rule(table), table.get("values", list, [])
+        values = [value_of(v) for v in given] if check_values(table, value_of, given) else []
     if not values:
         table.fault(f"{table.name} needs 'values' with 'keys', or [[axis.choice]]")
     names = [value.name for value in values]
     for twice in {n for n in names if names.count(n) > 1}:
         table.fault(f"{table.name} has the value {twice} twice", "values")
     table.close()
-    return Axis(name, unit, values, line)
+    return Axis(name, unit, values, line, value_of)
 
 
 def _choice(table):
@@ -147,56 +154,47 @@ def _choice(table):
     return value
 
 
-def _values(table):
-    """Every key takes the value, every derived key scale * value^power."""
-    values, keys = table.get("values", list, []), table.texts("keys", [])
-    if values and not keys:
-        table.fault(f"{table.name} needs 'keys', the keys of the case that take its values")
-    derived = []
+@dataclass
+class Rule:
+    """How a number is set in the case: every key takes it, every derived key scale * number^power."""
+
+    keys: list[str]
+    derived: list[tuple[list[str], float, float]]  # keys, scale, power
+
+    def __call__(self, value):
+        return Value(value, {key: value for key in self.keys} |
+                     {key: scale * value ** power for inner, scale, power in self.derived for key in inner})
+
+
+def read_rule(table):
+    keys, derived = table.texts("keys", []), []
     for rule in table.tables("derived"):
         derived.append((rule.texts("keys"), rule.get("scale", float, 1.0), rule.get("power", float, 1.0)))
         rule.close()
+    return Rule(keys, derived)
+
+
+def check_values(table, rule, values, key="values"):
+    """Whether the rule can take the values; tells what it cannot."""
+    if values and not rule.keys:
+        table.fault(f"{table.name} needs 'keys', the keys of the case that take its values")
     for value in values:
-        if not (is_number(value) and math.isfinite(value)) and (derived or not isinstance(value, str)):
-            table.fault(f"'values' must be {'' if derived else 'texts or '}finite numbers, found {value}", "values")
-            return []
-        if derived and not value > 0:
-            table.fault(f"'values' must be above 0 where other keys derive from them, found {value}", "values")
-            return []
-    return [Value(value, {key: value for key in keys} |
-                  {key: scale * value ** power for inner, scale, power in derived for key in inner})
-            for value in values]
-
-
-def _metric(table, study):
-    name, scale = table.get("name", str), table.get("scale", float, 1.0)
-    given = [source for source in SOURCES if table.has(source)]
-    if len(given) != 1:
-        table.fault(f"{table.name} needs one of {one_of(SOURCES)}, found {one_of(given) if given else 'none'}")
-    metric = Metric(name, table.get("unit", str, ""), scale)
-    metric.summary, metric.reference = table.get("summary", str, None), table.get(
-        "reference", str, None, allowed=study.names_in_case("reference", "label"))
-    metric.run = table.get("run", str, None, allowed=OF_RUN)
-    if series := table.get("series", str, None):
-        metric.series = series
-        metric.take = table.get("take", str, "last", allowed=TAKES)
-        metric.shares = table.numbers("shares", 2, [0.0, 1.0])
-        if metric.shares[0] < 0 or metric.shares[1] > 1:
-            table.fault(f"'shares' must be from 0 to 1, found {metric.shares}", "shares")
-        if ".csv:" not in series:
-            table.fault(f"'series' must be FILE.csv:COLUMN, such as 'fluid.csv:front_x[m]', found '{series}'", "series")
-        metric.unit = metric.unit or results.unit_of(series)
-    metric.unit = metric.unit or OF_RUN.get(metric.run, "")
-    table.close()
-    return metric
+        if not (is_number(value) and math.isfinite(value)) and (rule.derived or not isinstance(value, str)):
+            table.fault(f"'{key}' must be {'' if rule.derived else 'texts or '}finite numbers, found {value}", key)
+            return False
+        if rule.derived and not value > 0:
+            table.fault(f"'{key}' must be above 0 where other keys derive from them, found {value}", key)
+            return False
+    return True
 
 
 def _check_names(document, study):
     names = [thing.name for thing in [*study.axes, *study.metrics] if thing.name is not None]
+    of_run = study.of_run()
     if "" in names:
         document.fault("the name of an axis or metric must not be empty")
-    for name in sorted({n for n in names if names.count(n) > 1 or n in OF_RUN}):
-        document.fault(f"the name '{name}' is taken twice by axes and metrics ({one_of(OF_RUN)} are always there)")
+    for name in sorted({n for n in names if names.count(n) > 1 or n in of_run}):
+        document.fault(f"the name '{name}' is taken twice by axes and metrics ({one_of(of_run)} are always there)")
     taken = {}
     for axis in study.axes:
         for key in {key for value in axis.values for key in value.overrides}:
@@ -207,27 +205,27 @@ def _check_names(document, study):
         document.fault("a study needs at least one [[axis]]")
 
 
-def _chart(table, study, extra):
-    """`extra`: name -> unit of the metrics that special views add."""
+def _read_small(table, study):
+    """[small]: what makes the study small enough for a test. It takes effect if the small version was asked for."""
+    if table is None:
+        if study.small:
+            raise BadStudy(f"{study.path}: error: no table [small], which says what --small runs")
+        return
     axes = {axis.name: axis for axis in study.axes}
-    all_names = [*study.units(), *extra]
-    figures = [name for name in all_names if name not in axes]
-    colour = table.get("colour", str, None, allowed=figures)
-    x = table.get("x", str, allowed=axes if colour else all_names)
-    y = table.get("y", str, allowed=axes if colour else figures)
-    chart = Chart(table.get("title", str, None), x, y, colour,
-                  None if colour else table.get("lines", str, None, allowed=axes),
-                  table.get("panels", str, None, allowed=axes), table.get("at", dict, {}),
-                  table.texts("log", [], allowed=["x", "y", "colour"] if colour else ["x", "y"]))
-    for name, value in chart.at.items():
+    overrides, chosen = flat(table.get("set", dict, {})), table.get("values", dict, {})
+    repeat, resolution = table.get("repeat", int, None), table.get("resolution", float, None)
+    for name, values in chosen.items():
         if name not in axes:
-            table.fault(f"'at' names no axis '{name}'{did_you_mean(name, axes)}; there are {one_of(axes)}", "at")
-        elif value not in (names := [v.name for v in axes[name].values]):
-            table.fault(f"'at' must name a value of the axis '{name}', one of {names}, found {value}", "at")
-    free = [name for name in axes if name not in (x, y, chart.lines, chart.panels, *chart.at)]
-    if x in axes and free:
-        table.fault(f"the chart leaves the axis '{free[0]}' open: draw it as 'lines' or 'panels', or choose one value, "
-                    f"at = {{ {free[0]} = ... }}")
-    chart.title = chart.title or results.readable(colour or y or "")
+            table.fault(f"'values' names no axis '{name}'{did_you_mean(name, axes)}; there are {one_of(axes)}", "values")
+        elif not isinstance(values, list) or not values or any(v not in [n.name for n in axes[name].values] for v in values):
+            table.fault(f"'values' must list some values of the axis '{name}', {[v.name for v in axes[name].values]}, found "
+                        f"{values}", "values")
+        elif study.small:
+            axes[name].values = [v for v in axes[name].values if v.name in values]
     table.close()
-    return chart
+    if study.small:
+        study.overrides |= overrides
+        if study.timing and repeat:
+            study.timing.repeat = repeat
+        if study.map and study.map.y and resolution:
+            study.map.y.resolution = resolution

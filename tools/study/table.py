@@ -7,29 +7,41 @@ from dataclasses import dataclass
 
 import data
 import metrics
+import results
+import timing
 
 
 @dataclass
 class Table:
     units: dict[str, str]  # column -> unit, in order; the first are the axes
-    rows: list[dict]  # column -> value, and "record"
+    rows: list[dict]  # column -> value, and "record", "cause"
 
     def column(self, name):
         return [row.get(name, math.nan) for row in self.rows]
 
 
 def build(study, records, views):
-    """`views`: special views; each adds `units()` and `figures(record)`."""
+    """`records`: of all runs; the repetitions of a setting become one row, that of the first."""
     units = study.units()
     for view in views:
         units |= view.units()
-    rows = []
+    groups = {}
     for record in records:
-        row = {"record": record} | record.setting.values | metrics.of_run(study, record)
+        groups.setdefault(tuple(record.setting.values.items()), []).append(record)
+    rows = [row_of(study, group) for group in groups.values()]
+    metrics.fill(study, rows)
+    for row in rows:
         for view in views:
-            row |= view.figures(record)
-        rows.append(row)
+            row |= view.figures(study, row)
     return Table(units, rows)
+
+
+def row_of(study, group):
+    """Of the repetitions of one setting."""
+    row = group[0].setting.values | {"record": group[0], "cause": group[0].cause}
+    if study.timing:
+        row |= timing.figures(group, [metrics.times(results.read_summaries(record.folder)) for record in group])
+    return row
 
 
 def readable_size(unit, values):
@@ -53,5 +65,5 @@ def write(table, path):
         for row in table.rows:
             record = row["record"]
             writer.writerow([text(row.get(name, math.nan)) for name in table.units] +
-                            [record.exit_code, record.cause, f"runs/{record.folder.name}"])
+                            [record.exit_code, row["cause"], f"runs/{record.folder.name}"])
     os.replace(part, path)

@@ -5,15 +5,22 @@ Every start of a run is written into `starts.txt` beside it. What an overridden 
     fluid.x, fluid.y     the series: speed[m/s] = x + y t; any other key under fluid is an error
     fluid.seconds        how long the run takes
     fluid.fails          ends with that exit code
+    fluid.step, fluid.k  an explicit oscillator: fails at 0.5 s if step * sqrt(k) is above 2; its energy grows above 1
+    fluid.islands        but not if the step is at least that
+    fluid.hangs          does not end by itself if above 0
+    fluid.cost           processor time [s] that the summary states
+    fluid.error          of the displacement's period, which is 1 s without; it loses a tenth of its amplitude a second
     fluid.removes        a surface.h5 from which that depth [m] comes off in each cycle of 1 s, twice that at the corners
 """
 
+import math
 import pathlib
 import signal
 import sys
 import time
 
-KEYS = {"fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0}
+KEYS = {"fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
+        "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.cost": 0.25, "fluid.error": 0.0}
 HERE = pathlib.Path(__file__).resolve().parent
 case, arguments = sys.argv[1], sys.argv[2:]
 if case == "--version":
@@ -38,21 +45,27 @@ with open(HERE / "starts.txt", "a") as starts:
     starts.write(out.name + "\n")
 (out / "half.txt").write_text("a run that ends here is half done")
 time.sleep(values["fluid.seconds"])
+while values["fluid.hangs"]:
+    time.sleep(1)
 code = int(values["fluid.fails"])
+speed = values["fluid.step"] * math.sqrt(values["fluid.k"]) if values["fluid.step"] < values["fluid.islands"] else 0
+code = 3 if speed > 2 else code
 
 END = 3.0
 times = [END * k / 300 for k in range(301)]
-rows = [f"{t},{values['fluid.x'] + values['fluid.y'] * t},0,{300 * values['fluid.x'] * min(t, 1.5)}" for t in times]
-(out / "fluid.csv").write_text("time[s],speed[m/s],force_from_piston_x[N/m],force_from_piston_y[N/m]\n" + "\n".join(rows))
+rows = [f"{t},{values['fluid.x'] + values['fluid.y'] * t},0,{300 * values['fluid.x'] * min(t, 1.5)},"
+        f"{0.9 ** t * math.sin(2 * math.pi * t / (1 + values['fluid.error']))},{1 + (10 * t if speed > 1 else 0)}"
+        for t in times]
+(out / "fluid.csv").write_text("time[s],speed[m/s],force_from_piston_x[N/m],force_from_piston_y[N/m],swing[m],energy[J]\n" + "\n".join(rows))
 (out / "used_case.toml").write_text('[[wall]]\nname = "piston"\nmotion = { time = 0.5 }\n'
                                   '[fluid.removal]\nroughness = { initial = 2e-6, final = 5e-7, decay_depth = 1e-5 }\n')
 (out / "fluid_summary.toml").write_text(f"""participant = "fluid"
 exit_code = {code}
 last_words = "{'particle 7 left the domain' if code else ''}"
-simulated_time = {END}
+simulated_time = {0.5 if code else END}
 wall_time = 0.5
 waiting_time = 0.0
-processor_time = 0.25
+processor_time = {values['fluid.cost']}
 steps = 300
 smallest_time_step = 1e-3
 largest_time_step = 1e-3

@@ -40,6 +40,8 @@ class Study(unittest.TestCase):
             path.mkdir()
         shutil.copy(HERE / "fake_study_solver.py", self.bin / "fluid_solver")
         (self.bin / "fluid_solver").chmod(0o755)
+        (self.bin / "reference_loop").write_text("#!/bin/sh\necho 0.5 0.6\n")
+        (self.bin / "reference_loop").chmod(0o755)
         (self.bin / "modules").mkdir()
         shutil.copy(HERE / "made_up_surface.py", self.bin / "modules")
         (self.case / "case.toml").write_text('[case]\ntitle = "test"\n[[wall]]\nname = "piston"\n[fluid]\n')
@@ -63,8 +65,8 @@ class Study(unittest.TestCase):
         path = self.bin / "starts.txt"
         return path.read_text().split() if path.exists() else []
 
-    def table(self):
-        with open(self.out / "table.csv", newline="") as file:
+    def table(self, name="table.csv"):
+        with open(self.out / name, newline="") as file:
             return list(csv.DictReader(file))
 
     def wait_for(self, condition):

@@ -31,8 +31,9 @@ log = ["z"]
             "window.toml:4: error: unknown key 'keep_frame' in [study]; did you mean 'keep_frames'?",
             "window.toml:5: error: [[axis]] 1 needs 'keys', the keys of the case that take its values",
             "window.toml:8: error: unknown key 'key' in [[axis]] 1; did you mean 'keys'?",
-            "window.toml:12: error: 'take' must be one of 'last', 'largest', 'smallest', 'peak', 'mean', 'rms', found "
-            "'larges'; did you mean 'largest'?",
+            "window.toml:12: error: 'take' must be one of 'last', 'first', 'largest', 'smallest', 'peak', 'peak_time', "
+            "'mean', 'rms', 'middle', 'amplitude', 'period', 'frequency', 'amplitude_loss', 'distance', found 'larges'; did "
+            "you mean 'largest'?",
             "window.toml:15: error: 'y' must be one of 'end', 'wall_time', 'processor_time', 'simulated_time', 'steps', "
             "found 'and'; did you mean 'end'?",
             "window.toml:16: error: 'log' must hold some of 'x', 'y', found 'z'"])
