@@ -7,8 +7,8 @@ import pathlib
 import re
 import shutil
 import subprocess
-import tomllib
 
+import results
 from document import BadStudy
 from processes import DONE
 
@@ -16,10 +16,10 @@ from processes import DONE
 def programs(study, bin_folder):
     """The executables that the case needs."""
     try:
-        content = tomllib.loads(study.case.read_text(encoding="utf-8"))
+        content = results.case_content(study.case)
     except (OSError, ValueError):
         content = {"fluid": {}}  # the program says what is wrong, and where
-    names = [f"{side}_solver" for side in ("fluid", "solid") if side in content]
+    names = [f"{side}_solver" for side in ("fluid", "solid") if content.get(side, False) is not False]
     if len(names) == 2:
         names.insert(0, "coupler")
     for name in names:
