@@ -25,6 +25,7 @@ import results  # noqa: E402
 import runner  # noqa: E402
 import study_file  # noqa: E402
 import table  # noqa: E402
+import terms  # noqa: E402
 import timing  # noqa: E402
 import verdicts  # noqa: E402
 from document import BadStudy  # noqa: E402
@@ -32,7 +33,8 @@ from processes import BAD_INPUT, BUG, DONE  # noqa: E402
 from progress import Progress, duration  # noqa: E402
 from settings import Maker, settings  # noqa: E402
 
-VIEWS = [study_file.View("removal", removal.read), study_file.View("map", map_file.read, map_file.add_axes)]
+VIEWS = [study_file.View("removal", removal.read), study_file.View("map", map_file.read, map_file.add_axes),
+         study_file.View("terms", terms.read, terms.add_axes)]
 
 
 def parse(arguments):

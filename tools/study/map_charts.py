@@ -38,7 +38,8 @@ def edges(study, every):
     for number, (name, mine) in enumerate(edges_by_choice(study, every)):
         colour = drawing.LINES[number % 7]
         draw_edge(panel, study, mine, colour, str(name), drawing.MARKERS[number % 7])
-        draw_theories(panel, study, every, name, colour)
+        draw_theories(panel, study, every, colour, [t for t in study.map.theories if t.edge == name])
+    draw_theories(panel, study, every, drawing.PALETTE["ink"], [t for t in study.map.theories if t.edge is None])
     finish(panel, study, every)
     panel.set_ylabel(drawing.readable(study.map.y.axis.name, study.map.y.axis.unit))
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -53,7 +54,8 @@ def runs(study, every):
     for panel, (name, mine) in zip(panels, groups):
         panel.set_title("" if name is None else str(name))
         draw_edge(panel, study, mine, drawing.PALETTE["ink"], "edge")
-        draw_theories(panel, study, every, name, drawing.PALETTE["c0"])
+        draw_theories(panel, study, every, drawing.PALETTE["c0"],
+                      [t for t in study.map.theories if t.edge in (None, name)])
         for column in mine:
             for row in column.rows:
                 draw_run(panel, column, row, row[study.map.y.axis.name])
@@ -86,11 +88,11 @@ def draw_edge(panel, study, mine, colour, label, marker=None):
                    capsize=2.5, zorder=2)
 
 
-def draw_theories(panel, study, every, name, colour):
-    """The theory's curves for the edge `name`, on a fine grid of x."""
+def draw_theories(panel, study, every, colour, theories):
+    """The theory's curves, on a fine grid of x."""
     xs = sorted({column.x for column in every})
     fine = between(xs[0], xs[-1], "x" in study.map.log)
-    for number, theory in enumerate(t for t in study.map.theories if t.edge in (None, name)):
+    for number, theory in enumerate(theories):
         panel.plot(fine, [theory(x) for x in fine], DASHES[number % 3], color=colour, linewidth=1.4, zorder=1,
                    label=theory.label)
 
