@@ -41,7 +41,7 @@ class PlaceIndex {
 };
 
 /// Number of cells along a side; 0, told as a fault, if they do not fill it.
-long cells(const NamedBox& region, int axis, double spacing, const TellFault& tell_fault) {
+long cells(const SolidRegion& region, int axis, double spacing, const TellFault& tell_fault) {
   const double side = region.box.max[axis] - region.box.min[axis];
   const long n = std::lround(side / spacing);
   if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit) return n;
@@ -53,8 +53,9 @@ long cells(const NamedBox& region, int axis, double spacing, const TellFault& te
   return 0;
 }
 
-void fill_region(const NamedBox& region, const SolidParameters& parameters, SolidBody& body,
+void fill_region(std::size_t index, const SolidParameters& parameters, SolidBody& body,
                  const TellFault& tell_fault) {
+  const SolidRegion& region = parameters.regions[index];
   const long n_x = cells(region, 0, parameters.spacing, tell_fault);
   const long n_y = cells(region, 1, parameters.spacing, tell_fault);
   const Vec side = region.box.max - region.box.min;
@@ -65,14 +66,25 @@ void fill_region(const NamedBox& region, const SolidParameters& parameters, Soli
                     Vec((static_cast<double>(a) + 0.5) * cell[0], (static_cast<double>(b) + 0.5) * cell[1]);
       const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
                                    [&](const NamedBox& hole) { return hole.box.contains(X); });
-      if (cut) continue;
+      if (cut || !region.box.contains(X)) continue;
       body.X.push_back(X);
       body.cell.push_back(cell);
+      body.region.push_back(static_cast<std::uint32_t>(index));
     }
 }
 
-bool overlap(const Box& a, const Box& b, double tolerance) {
-  return ((a.max - b.min).array() > tolerance).all() && ((b.max - a.min).array() > tolerance).all();
+/// Whether regions a and b have more than an edge in common; of round ones, whether a particle of one lies in
+/// the other.
+bool overlap(const SolidParameters& parameters, const SolidBody& body, std::size_t a, std::size_t b) {
+  const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
+  if (!A.round && !B.round) {
+    const double tolerance = 1e-6 * parameters.spacing;
+    return ((A.max - B.min).array() > tolerance).all() && ((B.max - A.min).array() > tolerance).all();
+  }
+  for (std::size_t i = 0; i < body.size(); ++i)
+    if ((body.region[i] == a && B.contains(body.X[i])) || (body.region[i] == b && A.contains(body.X[i])))
+      return true;
+  return false;
 }
 
 void find_surface(SolidBody& body) {
@@ -122,12 +134,12 @@ SolidBody build_body(const SolidParameters& parameters, const TellFault& tell_fa
   for (const auto& region : regions) boxes.push_back(region.box);
   check_size(boxes, parameters.spacing);
   for (std::size_t a = 0; a < regions.size(); ++a) {
+    const std::size_t before = body.size();
+    fill_region(a, parameters, body, tell_fault);
     for (std::size_t b = 0; b < a; ++b)
-      if (overlap(regions[a].box, regions[b].box, 1e-6 * parameters.spacing))
+      if (overlap(parameters, body, a, b))
         tell_fault("solid.region", fmt::format("region '{}' overlaps region '{}'; regions may touch only",
                                                regions[a].name, regions[b].name));
-    const std::size_t before = body.size();
-    fill_region(regions[a], parameters, body, tell_fault);
     body.counts.emplace_back("region " + regions[a].name, body.size() - before);
   }
   body.held.assign(body.size(), 0);

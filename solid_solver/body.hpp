@@ -14,14 +14,16 @@ namespace toryu {
 /// Particles numbered region by region, row by row. Each region is filled by a lattice of its own, whose
 /// spacing along each axis is the nearest to the stated one that divides the region's side: the particles are
 /// at (i + 1/2) spacings from its faces, and their volumes sum to its area. A clamp line that is the common
-/// face of two regions therefore lies between rows.
+/// face of two regions therefore lies between rows. Of a round region, or about a round hole, the particles
+/// whose centre is inside are there.
 struct SolidBody {
-  std::vector<Vec> X;            ///< positions [m]
-  std::vector<Vec> cell;         ///< sides of each particle's cell [m]
-  std::vector<char> held;        ///< by a clamp
-  std::vector<Vec> area_vector;  ///< outward faces of the surface [m per metre depth]; zero inside
-  std::vector<Vec> outside;      ///< empty lattice sites beyond the surface [m]
-  double spacing = 0;            ///< as stated [m]
+  std::vector<Vec> X;                 ///< positions [m]
+  std::vector<Vec> cell;              ///< sides of each particle's cell [m]
+  std::vector<std::uint32_t> region;  ///< index of each particle's region
+  std::vector<char> held;             ///< by a clamp
+  std::vector<Vec> area_vector;       ///< outward faces of the surface [m per metre depth]; zero inside
+  std::vector<Vec> outside;           ///< empty lattice sites beyond the surface [m]
+  double spacing = 0;                 ///< as stated [m]
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log
 
   std::size_t size() const { return X.size(); }

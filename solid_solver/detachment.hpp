@@ -1,19 +1,13 @@
 /// Particles that have come off: those that no chain of bonds joins to a clamp. Two particles are bonded
 /// while they are nearer than the bond length, by default the support of the kernel, beyond which no force
 /// reaches. Searched breadth first from the clamped particles, in the present configuration and alike in both
-/// formulations (but the total Lagrangian form keeps its forces however far particles are).
-///
-/// An early sign is the largest stretch: the largest ratio of the present to the initial distance of two
-/// particles that were adjacent.
+/// formulations (but the total Lagrangian form keeps its forces however far particles are). An early sign is
+/// the largest stretch of a bond (bonds.hpp).
 #pragma once
 
-#include <algorithm>
 #include <functional>
-#include <utility>
 #include <vector>
 
-#include "common/sph/points.hpp"
-#include "common/sph/strip_order.hpp"
 #include "solid_solver/body.hpp"
 
 namespace toryu {
@@ -24,11 +18,6 @@ struct DetachedParticle {
   double mass;   ///< [kg/m]
   Vec start;     ///< position in the unloaded body [m]
   Vec position;  ///< when found [m]
-};
-
-struct Stretches {
-  double largest = 1, smallest = 1;
-  double strain() const { return std::max(largest - 1.0, 1.0 - smallest); }
 };
 
 class DetachmentObserver {
@@ -46,8 +35,6 @@ class DetachmentObserver {
   const std::vector<char>& detached() const { return detached_; }
   /// All that have come off so far, each once, in the order of time.
   const std::vector<DetachedParticle>& list() const { return list_; }
-  /// Of the pairs that were adjacent, present over initial distance.
-  Stretches stretches(const std::vector<Vec>& x) const;
 
  private:
   std::vector<char> reached_from_clamps(const std::vector<Vec>& x);
@@ -55,8 +42,6 @@ class DetachmentObserver {
   const SolidBody& body_;
   double density_, bond_length_, interval_;
   double next_ = 0;  ///< time of the next look [s]
-  StripOrder strips_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacent_;
   std::vector<char> detached_, ever_detached_;
   std::vector<DetachedParticle> list_;
 };

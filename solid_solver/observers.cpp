@@ -24,6 +24,15 @@ void describe(ParameterTable& table, Detachment& p) {
                {.unit = "s", .minimum = 0, .above_minimum = true, .help = "between two looks"});
 }
 
+void describe(ParameterTable& table, BondLimits& p) {
+  table.number("torn_at", p.torn_at,
+               {.minimum = 1, .above_minimum = true, .help = "present over first length of a torn bond"});
+  table.number(
+      "clumped_at", p.clumped_at,
+      {.minimum = 0, .maximum = 1, .help = "present over first length where particles have clumped"});
+  table.flag("stop", p.stop, "whether a bond that is torn or clumped ends the run as a failure of physics");
+}
+
 MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach) {
   using Basis = Eigen::Matrix<double, dim + 1, 1>;
   const CubicSpline W(0.5 * reach);

@@ -23,6 +23,14 @@ struct Detachment {
 };
 void describe(ParameterTable& table, Detachment& detachment);
 
+/// When a bond (bonds.hpp) is torn or clumped.
+struct BondLimits {
+  double torn_at = 2.0;     ///< stretch beyond which a bond is torn
+  double clumped_at = 0.5;  ///< stretch below which its particles have clumped
+  bool stop = false;        ///< whether that ends the run
+};
+void describe(ParameterTable& table, BondLimits& limits);
+
 /// A material point that lies anywhere in or on the body, as a weighted sum of particles: the linear function
 /// fitted by least squares, with the kernel as weight, to the particles about the point. Exact where the
 /// displacement is linear, also outside the outermost row of particles (a corner of the body, half a spacing

@@ -4,9 +4,18 @@
 
 namespace toryu {
 
-void describe(ParameterTable& table, NamedBox& region) {
-  table.text("name", region.name, {.required = true, .help = "name of the region"});
+void describe(ParameterTable& table, NamedBox& box) {
+  table.text("name", box.name, {.required = true, .help = "as the log calls it"});
+  table.group("box", box.box, "its corners");
+}
+
+void describe(ParameterTable& table, SolidRegion& region) {
+  table.text("name", region.name, {.required = true, .help = "name of the region", .names_columns = true});
   table.group("box", region.box, "its corners");
+  table.optional("initial_velocity", region.initial_velocity,
+                 "velocity of this region at the start; absent: that of the whole solid");
+  table.flag("observed", region.observed,
+             "whether the displacement and the velocity of its centre of mass go to solid.csv");
 }
 
 void describe(ParameterTable& table, BoxLoad& load) {
@@ -80,6 +89,10 @@ void describe(ParameterTable& table, SolidParameters& p) {
       "gradients", p.gradients, {"plain", "renormalised"},
       {.help = "updated Lagrangian: whether velocity gradient and stress divergence are renormalised; "
                "total Lagrangian always does"});
+  table.choice(
+      "integrator", p.integrator, {"midpoint", "symplectic"},
+      {.help = "updated Lagrangian: two evaluations a step as in the thesis, or one and no growth of "
+               "undamped modes; the total Lagrangian form's is symplectic"});
   table.list("region", p.regions, "boxes filled with the solid; they may touch but not overlap");
   table.list("hole", p.holes, "boxes cut out of the regions");
   table.list("clamp", p.clamps, "boxes whose particles are held in place");
@@ -93,8 +106,14 @@ void describe(ParameterTable& table, SolidParameters& p) {
                  "keeps stretched particles apart (updated Lagrangian)");
   table.optional("damping", p.damping, "slows all motion down, to find a state of rest");
   table.optional("wall_contact", p.wall_contact, "rigid walls act on the solid");
+  table.optional("body_contact", p.body_contact,
+                 "bodies that are not joined push each other (total Lagrangian)");
   table.optional("detachment", p.detachment,
                  "looks for particles that no chain of neighbours joins to a clamp");
+  table.optional(
+      "bonds", p.bonds,
+      "columns that tell whether the body tears or its particles clump: stretches of pairs adjacent "
+      "at the start");
   table.group("limits", p.limits, "bounds beyond which the run stops");
 
   const bool total = p.formulation == Formulation::total_lagrangian;
@@ -104,6 +123,10 @@ void describe(ParameterTable& table, SolidParameters& p) {
                 "Hooke's law");
   table.require(total || !p.hourglass, "hourglass",
                 "[solid.hourglass] is for formulation = \"total_lagrangian\" only");
+  table.require(
+      total || !p.body_contact, "body_contact",
+      "[solid.body_contact] is for formulation = \"total_lagrangian\" only; in the other, bodies see "
+      "each other as neighbours");
   table.require(!total || !p.artificial_stress, "artificial_stress",
                 "[solid.artificial_stress] is for formulation = \"updated_lagrangian\" only");
   table.require(
@@ -112,6 +135,10 @@ void describe(ParameterTable& table, SolidParameters& p) {
       "limit");
   table.require(!p.detachment || !p.clamps.empty(), "detachment",
                 "[solid.detachment] needs a [[solid.clamp]]: detached is what no chain joins to one");
+  table.require(
+      !total || p.integrator == Integrator::midpoint, "integrator",
+      "'integrator' in [solid] is for formulation = \"updated_lagrangian\" only; the other is always "
+      "symplectic");
   table.require(!total || p.gradients == Gradients::plain, "gradients",
                 "'gradients' in [solid] is for formulation = \"updated_lagrangian\" only; the other always "
                 "renormalises");

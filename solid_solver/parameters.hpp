@@ -12,6 +12,7 @@
 #include "solid_solver/observers.hpp"
 #include "solid_solver/terms/artificial_stress.hpp"
 #include "solid_solver/terms/artificial_viscosity.hpp"
+#include "solid_solver/terms/body_contact.hpp"
 #include "solid_solver/terms/damping.hpp"
 #include "solid_solver/terms/hourglass_penalty.hpp"
 #include "solid_solver/terms/wall_contact.hpp"
@@ -21,14 +22,24 @@ namespace toryu {
 
 enum class Formulation { total_lagrangian, updated_lagrangian };
 enum class ElasticLaw { saint_venant_kirchhoff, neo_hookean };
+enum class Integrator { midpoint, symplectic };
 enum class Gradients { plain, renormalised };
 
-/// A box that belongs to the solid, or that is cut out of it, or whose particles are held.
+/// A box that is cut out of the solid, or whose particles are held.
 struct NamedBox {
   std::string name;
   Box box;
 };
-void describe(ParameterTable& table, NamedBox& region);
+void describe(ParameterTable& table, NamedBox& box);
+
+/// A box filled with the solid.
+struct SolidRegion {
+  std::string name;
+  Box box;
+  std::optional<InitialVelocity> initial_velocity = std::nullopt;  ///< absent: that of the whole solid
+  bool observed = false;  ///< whether a run reports where its centre of mass is and how fast
+};
+void describe(ParameterTable& table, SolidRegion& region);
 
 /// A constant force, shared equally by the particles of a box.
 struct BoxLoad {
@@ -55,7 +66,9 @@ struct SolidParameters {
   double time_step_share = 0.8;                ///< of the largest stable time step
   double courant_number = 0.25;                ///< of the acoustic limit of the updated Lagrangian form
   Gradients gradients = Gradients::plain;
-  std::vector<NamedBox> regions, holes, clamps;
+  Integrator integrator = Integrator::midpoint;  ///< of the updated Lagrangian form
+  std::vector<SolidRegion> regions;
+  std::vector<NamedBox> holes, clamps;
   std::vector<BoxLoad> loads;
   std::vector<PointObserver> observers;
   std::optional<InitialVelocity> initial_velocity;
@@ -64,7 +77,9 @@ struct SolidParameters {
   std::optional<ArtificialStress> artificial_stress;
   std::optional<Damping> damping;
   std::optional<WallContact> wall_contact;
+  std::optional<BodyContact> body_contact;
   std::optional<Detachment> detachment;
+  std::optional<BondLimits> bonds;
   SolidLimits limits;
 
   double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]

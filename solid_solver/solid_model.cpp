@@ -11,6 +11,13 @@
 
 namespace toryu {
 
+namespace {
+
+/// After so many steps the bonds are looked at: what tears takes longer, and the look costs little.
+constexpr long steps_between_looks = 50;
+
+}  // namespace
+
 double Stress::von_mises() const {
   const double a = xx - yy, b = yy - zz, c = zz - xx;
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * xy * xy);
@@ -31,7 +38,7 @@ SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body,
     const std::size_t i = number_[std::min(k, count - 1)];  // padding repeats the last particle, held
     set(X_, k, body_.X[i]);
     mobile_[k] = k < count && !body_.held[i] ? 1.0 : 0.0;
-    if (parameters_.initial_velocity) set(v_, k, mobile_[k] * parameters_.initial_velocity->at(body_.X[i]));
+    set(v_, k, mobile_[k] * initial_velocity(i));
     set(constant_, k, gravity_);
   }
   for (const auto& load : parameters_.loads) {
@@ -52,6 +59,13 @@ SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body,
     if (body_.held[i]) held_.push_back(i);
   load_sum_ = sum_of_loads();
   if (parameters_.detachment) detachment_ = std::make_unique<DetachmentObserver>(body_, parameters_);
+  if (parameters_.detachment || parameters_.bonds) watch_bonds();
+}
+
+Vec SolidModel::initial_velocity(std::size_t particle) const {
+  const auto& of_region = parameters_.regions[body_.region[particle]].initial_velocity;
+  const auto& velocity = of_region ? of_region : parameters_.initial_velocity;
+  return velocity ? velocity->at(body_.X[particle]) : Vec(Vec::Zero());
 }
 
 void SolidModel::find_slots() {
@@ -178,7 +192,8 @@ void SolidModel::add_wall_contact(const VecField& x) {
 }
 
 double SolidModel::contact_energy() const {
-  double sum = 0;
+  double sum = bodies_ ? bodies_->energy() : 0.0;
+  if (!walls_) return sum;
   VecField x = X_;
   for (int a = 0; a < dim; ++a)
     for (std::size_t k = 0; k < x[a].size(); ++k) x[a][k] += u_[a][k];
@@ -226,6 +241,52 @@ void SolidModel::look_for_detached() {
   if (detachment_->look(positions(), time_) && hear_detached_) hear_detached_(detachment_->list());
 }
 
+void SolidModel::watch_bonds() {
+  if (!bonds_) bonds_ = std::make_unique<BondWatch>(body_, parameters_.bonds.value_or(BondLimits{}));
+}
+
+void SolidModel::look_at_particles() {
+  look_for_detached();
+  if (!bonds_ || ++steps_ % steps_between_looks != 0) return;
+  const auto scope = timers_.measure("bonds");
+  bonds_->look(positions(), time_);
+}
+
+std::vector<std::pair<std::string, double>> SolidModel::figures() const {
+  if (!bonds_) return {};
+  const auto [torn, clumped] = bonds_->worst();
+  return {{"torn_bonds", static_cast<double>(torn)}, {"clumped_bonds", static_cast<double>(clumped)}};
+}
+
+void SolidModel::observe_regions(std::vector<Observation>& row) const {
+  for (std::size_t r = 0; r < parameters_.regions.size(); ++r) {
+    if (!parameters_.regions[r].observed) continue;
+    double m = 0;
+    Vec moved = Vec::Zero(), momentum = Vec::Zero();
+    for (std::size_t i = 0; i < particle_count(); ++i) {
+      if (body_.region[i] != r) continue;
+      m += mass(i);
+      moved += mass(i) * displacement(i);
+      momentum += mass(i) * velocity(i);
+    }
+    const std::string& name = parameters_.regions[r].name;
+    row.push_back({name + "_displacement_x", "m", moved[0] / m});
+    row.push_back({name + "_displacement_y", "m", moved[1] / m});
+    row.push_back({name + "_velocity_x", "m/s", momentum[0] / m});
+    row.push_back({name + "_velocity_y", "m/s", momentum[1] / m});
+  }
+}
+
+void SolidModel::observe_bonds(std::vector<Observation>& row) const {
+  const Stretches stretches = bonds_->stretches(positions());
+  row.push_back({"largest_stretch", "1", stretches.largest});
+  if (detachment_) row.push_back({"largest_strain", "1", stretches.strain()});
+  if (!parameters_.bonds) return;
+  row.push_back({"smallest_stretch", "1", stretches.smallest});
+  row.push_back({"torn_bonds", "1", static_cast<double>(stretches.torn)});
+  row.push_back({"clumped_bonds", "1", static_cast<double>(stretches.clumped)});
+}
+
 void SolidModel::observe_detachment(std::vector<Observation>& row) const {
   double count = 0, sum = 0, largest = 0;
   for (std::size_t i = 0; i < particle_count(); ++i) {
@@ -236,9 +297,6 @@ void SolidModel::observe_detachment(std::vector<Observation>& row) const {
   }
   row.push_back({"detached_particles", "1", count});
   row.push_back({"detached_mass", "kg/m", sum});
-  const Stretches stretches = detachment_->stretches(positions());
-  row.push_back({"largest_stretch", "1", stretches.largest});
-  row.push_back({"largest_strain", "1", stretches.strain()});
   row.push_back({"largest_von_mises_stress", "Pa", largest});
 }
 
@@ -255,6 +313,7 @@ std::vector<Observation> SolidModel::observe() const {
     row.push_back({name + "_displacement_x", "m", u[0]});
     row.push_back({name + "_displacement_y", "m", u[1]});
   }
+  observe_regions(row);
   const double kinetic = kinetic_energy(), potential = potential_energy(), work = interface_work();
   row.push_back({"kinetic_energy", "J/m", kinetic});
   double held = 0;
@@ -262,7 +321,7 @@ std::vector<Observation> SolidModel::observe() const {
     held += energy.value;
     row.push_back(energy);
   }
-  if (walls_) {
+  if (walls_ || bodies_) {
     row.push_back({"contact_energy", "J/m", contact_energy()});
     held += row.back().value;
   }
@@ -280,6 +339,7 @@ std::vector<Observation> SolidModel::observe() const {
   append("clamps", impulses_.clamps);
   if (walls_) append("walls", impulses_.walls);
   if (detachment_) observe_detachment(row);
+  if (detachment_ || parameters_.bonds) observe_bonds(row);
   return row;
 }
 
@@ -337,6 +397,13 @@ std::vector<ActiveTerm> SolidModel::active_terms() const {
          "in the manner of Adami, Hu & Adams 2012",
          fmt::format("stiffness {:g}, S_0 {:.4g}, {} wall particles", parameters_.wall_contact->stiffness,
                      walls_->touching_sum(), walls_->particle_count())});
+  if (bodies_)
+    terms.push_back(
+        {"body contact",
+         "p_i = stiffness K max(0, S_i/S_0 - 1), Dv_i/Dt = -1/rho_0 sum_j V_j (p_i + p_j) gradW_ij",
+         "in the manner of Adami, Hu & Adams 2012",
+         fmt::format("stiffness {:g}, S_0 {:.4g}, {} bodies", parameters_.body_contact->stiffness,
+                     bodies_->touching_sum(), bodies_->body_count())});
   if (parameters_.damping)
     terms.push_back({"damping", "dv/dt = -rate v", "dynamic relaxation: Otter 1965",
                      fmt::format("rate {:g} 1/s", parameters_.damping->rate)});

@@ -12,6 +12,7 @@
 #include "common/run/timers.hpp"
 #include "common/sph/points.hpp"
 #include "solid_solver/body.hpp"
+#include "solid_solver/bonds.hpp"
 #include "solid_solver/detachment.hpp"
 #include "solid_solver/parameters.hpp"
 
@@ -43,6 +44,7 @@ class SolidModel : public Solver {
   Frame frame() const override;
   std::vector<Observation> observe() const override;
   std::vector<ActiveTerm> active_terms() const override;
+  std::vector<std::pair<std::string, double>> figures() const override;
   std::size_t particle_count() const override { return body_.size(); }
 
   const SolidBody& body() const { return body_; }
@@ -80,8 +82,10 @@ class SolidModel : public Solver {
   void add_wall_contact(const VecField& x);
   /// Counts what acts at present for a time `dt` [s].
   void count_impulses(double dt);
-  /// Looks for particles that have come off, where that is asked for and due.
-  void look_for_detached();
+  /// Ends a step: looks for particles that have come off and at the bonds, where that is asked for and due.
+  void look_at_particles();
+  /// From now on looks at the bonds now and then.
+  void watch_bonds();
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 
   SolidParameters parameters_;
@@ -96,11 +100,13 @@ class SolidModel : public Solver {
   VecField a_;                         ///< acceleration by stress, viscosity and contact [m/s2]
   VecField external_;                  ///< acceleration by gravity and loads [m/s2]
   Timers timers_;
-  std::unique_ptr<ContactWalls> walls_;  ///< if walls act on the solid
-  Field mobile_;                         ///< 0 where a clamp holds, else 1
+  std::unique_ptr<ContactWalls> walls_;     ///< if walls act on the solid
+  std::unique_ptr<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
+  Field mobile_;                            ///< 0 where a clamp holds, else 1
 
  private:
-  void find_slots();  ///< after `number_` changed
+  void find_slots();                                 ///< after `number_` changed
+  Vec initial_velocity(std::size_t particle) const;  ///< [m/s]
   double kinetic_energy() const;
   double potential_energy() const;
   double interface_work() const;
@@ -108,7 +114,10 @@ class SolidModel : public Solver {
   double contact_energy() const;
   Vec momentum() const;
   std::vector<Vec> positions() const;  ///< by number [m]
+  void look_for_detached();
+  void observe_regions(std::vector<Observation>& row) const;
   void observe_detachment(std::vector<Observation>& row) const;
+  void observe_bonds(std::vector<Observation>& row) const;
 
   VecField constant_;  ///< gravity and constant loads [m/s2]
   std::vector<std::uint32_t> loaded_;
@@ -122,6 +131,8 @@ class SolidModel : public Solver {
   Impulses impulses_;
   std::unique_ptr<DetachmentObserver> detachment_;
   HearDetached hear_detached_;
+  std::unique_ptr<BondWatch> bonds_;
+  long steps_ = 0;
 };
 
 }  // namespace toryu

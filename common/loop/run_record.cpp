@@ -67,6 +67,7 @@ void RunRecord::finish(ExitCode code, const std::string& last_words, double wait
   summary_.processor_time = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   summary_.time_step_rule = solver_.time_step_rule();
   if (summary_.steps == 0) summary_.smallest_time_step = 0;
+  summary_.figures = solver_.figures();
   summary_.parts = solver_timers_.parts();
   for (const auto& part : timers_.parts()) summary_.parts.push_back(part);
   write_summary(out_, summary_);

@@ -60,6 +60,8 @@ class Solver {
   /// Adds rows to files of the solver's own, as often as the series.
   virtual void record(double /*time*/) {}
   virtual std::vector<ActiveTerm> active_terms() const = 0;
+  /// Numbers worth keeping of the run as a whole, for its summary.
+  virtual std::vector<std::pair<std::string, double>> figures() const { return {}; }
   virtual std::size_t particle_count() const = 0;
 };
 

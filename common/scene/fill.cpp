@@ -27,9 +27,11 @@ IndexBox lattice_range(const Box& box, const Vec& origin, double spacing) {
 /// A body of more particles is a slip of the pen, and would take all memory before anything notices.
 constexpr double largest_body = 1e8;
 
-bool in_any(const std::vector<IndexBox>& boxes, const Index& index) {
-  for (const auto& box : boxes)
-    if (box.contains(index)) return true;
+/// Whether one of `boxes`, whose lattice ranges are `ranges`, holds the lattice point `index` at x [m].
+bool in_any(const std::vector<IndexBox>& ranges, const std::vector<Box>& boxes, const Index& index,
+            const Vec& x) {
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    if (ranges[b].contains(index) && (!boxes[b].round || boxes[b].in_ellipse(x))) return true;
   return false;
 }
 
@@ -60,8 +62,8 @@ std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& hol
 
   // Counts up like the digits of a clock, the first axis fastest.
   for (Index index = Index::Zero(); index[dim - 1] < end[dim - 1];) {
-    if (in_any(filled, index) && !in_any(empty, index))
-      points.push_back(origin + spacing * (index.cast<double>() + 0.5).matrix());
+    const Vec x = origin + spacing * (index.cast<double>() + 0.5).matrix();
+    if (in_any(filled, boxes, index, x) && !in_any(empty, holes, index, x)) points.push_back(x);
     ++index[0];
     for (int axis = 0; axis + 1 < dim && index[axis] >= end[axis]; ++axis) {
       index[axis] = 0;

@@ -62,11 +62,13 @@ void describe(ParameterTable& table, Scene& scene) {
                 fmt::format("'series_interval' would give {:.1e} rows; at most 1e12 can be counted",
                             scene.end_time / scene.series_interval));
   table.group("domain", scene.domain, "a particle that leaves it stops the run");
+  table.require(!scene.domain.round, "domain.round", "the domain is a box: it cannot be round");
 }
 
 void describe(ParameterTable& table, Box& box) {
   table.vector("min", box.min, {.unit = "m", .required = true, .help = "smallest corner"});
   table.vector("max", box.max, {.unit = "m", .required = true, .help = "largest corner"});
+  table.flag("round", box.round, "the disc or ellipse that touches the sides, in place of the whole box");
   table.require(sound(box), "max", "'max' must exceed 'min' in each direction");
 }
 

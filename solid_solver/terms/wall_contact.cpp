@@ -3,24 +3,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "solid_solver/terms/overlap.hpp"
+
 namespace toryu {
 
 namespace {
-
-/// Sum over a half plane of wall particles whose uppermost row is `distance` below, and the largest slope of
-/// it.
-double half_plane_sum(const CubicSpline& W, double spacing, double distance, double& slope) {
-  const double V = spacing * spacing;
-  double sum = 0;
-  slope = 0;
-  for (double y = distance; y < W.support(); y += spacing)
-    for (double x = -std::ceil(W.support() / spacing) * spacing; x <= W.support(); x += spacing) {
-      const double r = std::hypot(x, y);
-      sum += V * W.value(r);
-      slope -= V * W.gradient_over_r(r, 1.0 / r) * y;
-    }
-  return sum;
-}
 
 /// Largest squared distance between the first `count` points of both.
 double largest_move_squared(const VecField& a, const VecField& b, std::size_t count) {
@@ -40,10 +27,8 @@ ContactWalls::ContactWalls(const std::vector<Wall>& walls, const WallContact& te
       inverse_rho_(1.0 / material.density),
       skin_(0.3 * h),
       strips_(std::sqrt(static_cast<double>(lane_count)) * spacing) {
-  double slope = 0;
-  half_plane_sum(W_, spacing, 0.5 * spacing, slope);  // pressed in by half a spacing
-  double at_touch = 0;
-  S_0_ = half_plane_sum(W_, spacing, spacing, at_touch);
+  const double slope = half_plane(W_, spacing, 0.5 * spacing).slope;  // pressed in by half a spacing
+  S_0_ = half_plane(W_, spacing, spacing).sum;
   highest_frequency_ = slope * std::sqrt(pressure_scale_ * inverse_rho_ / S_0_);
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (const Vec& X : fill({walls_[w].box}, {}, spacing)) {

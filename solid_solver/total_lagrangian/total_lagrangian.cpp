@@ -19,7 +19,10 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
   resize(H_, size);
   resize(T_, size);
   highest_frequency_ = find_highest_frequency();
-  if (!walls_) return;
+  if (parameters_.body_contact)
+    bodies_ = std::make_unique<TouchingBodies>(X_, volume_, particle_count(), *parameters_.body_contact,
+                                               parameters_.material, body_.spacing, parameters_.h());
+  if (!walls_ && !bodies_) return;
   resize(x_, size);
 #pragma omp parallel
   evaluate();
@@ -36,7 +39,7 @@ void TotalLagrangian::advance(double dt) {
     kick(dt);
   }
   count_impulses(0.5 * dt);
-  look_for_detached();
+  look_at_particles();
 }
 
 void TotalLagrangian::kick_and_drift(double dt) {
@@ -67,17 +70,19 @@ void TotalLagrangian::kick(double dt) {
 void TotalLagrangian::evaluate() {
   find_stresses();
   find_accelerations();
-  if (!x_[0].empty()) touch_walls();
+  if (!x_[0].empty()) touch();
 }
 
-void TotalLagrangian::touch_walls() {
+void TotalLagrangian::touch() {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c)
     for (int a = 0; a < dim; ++a) {
       const std::size_t i = c * lane_count;
       store(load(X_[a], i) + load(u_[a], i), x_[a], i);
     }
-  add_wall_contact(x_);
+  if (walls_) add_wall_contact(x_);
+#pragma omp single
+  if (bodies_) bodies_->push(x_, a_);
 }
 
 void TotalLagrangian::find_stresses() {
@@ -182,7 +187,8 @@ double TotalLagrangian::stiffening() const {
 }
 
 double TotalLagrangian::time_step_limit() const {
-  const double contact = walls_ ? walls_->highest_frequency() : 0.0;
+  const double contact =
+      std::hypot(walls_ ? walls_->highest_frequency() : 0.0, bodies_ ? bodies_->highest_frequency() : 0.0);
   const double frequency =
       std::sqrt(stiffening() * highest_frequency_ * highest_frequency_ + contact * contact);
   if (frequency == 0) return 1.0;  // all held: nothing moves

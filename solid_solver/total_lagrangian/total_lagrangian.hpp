@@ -47,7 +47,7 @@ class TotalLagrangian final : public SolidModel {
   /// Largest longitudinal modulus of a particle over that of the unloaded solid, at least 1.
   double stiffening() const;
   Tensor<double> gradient(std::size_t slot) const;
-  void touch_walls();
+  void touch();
   void look_for_inverted(const Tensor<Lanes>& H, std::size_t first_slot);
 
   Field volume_;
@@ -56,7 +56,7 @@ class TotalLagrangian final : public SolidModel {
   double penalty_;                ///< alpha E [Pa]
   Tensor<Field> H_;               ///< displacement gradient
   Tensor<Field> T_;               ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
-  VecField x_;                    ///< present positions, if walls act on the solid [m]
+  VecField x_;                    ///< present positions, if walls or other bodies act on the solid [m]
   double highest_frequency_ = 0;  ///< of the unloaded body [1/s]
   /// The first particle whose volume was no longer positive, looked for in every step.
   struct Inverted {

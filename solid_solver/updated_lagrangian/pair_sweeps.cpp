@@ -38,16 +38,41 @@ PairSweeps::PairSweeps(const SolidParameters& parameters)
 
 void PairSweeps::rates(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
                        UpdatedRates& rates) const {
-  renormalised_ ? rates_of<true>(state, list, cluster, rates) : rates_of<false>(state, list, cluster, rates);
+  const std::size_t i = cluster * lane_count;
+  Tensor<Lanes> grad_v, L{1.0, 0.0, 0.0, 1.0};
+  sweep(state, list, cluster, grad_v, L);
+  store(-load(state.rho, i) * (grad_v[0] + grad_v[3]), rates.rho, i);
+  store(law_.rate(load(state.s, i), grad_v), rates.s, i);
+  store_stresses(state, L, cluster, rates);
+}
+
+Tensor<Lanes> PairSweeps::velocity_gradient(const UpdatedState& state, const ClusterList& list,
+                                            std::size_t cluster) const {
+  Tensor<Lanes> grad_v, L{1.0, 0.0, 0.0, 1.0};
+  sweep(state, list, cluster, grad_v, L);
+  return grad_v;
+}
+
+void PairSweeps::stresses(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+                          UpdatedRates& rates) const {
+  Tensor<Lanes> grad_v, L{1.0, 0.0, 0.0, 1.0};
+  if (renormalised_) sweep(state, list, cluster, grad_v, L);
+  store_stresses(state, L, cluster, rates);
+}
+
+void PairSweeps::sweep(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+                       Tensor<Lanes>& grad_v, Tensor<Lanes>& L) const {
+  renormalised_ ? sweep<true>(state, list, cluster, grad_v, L)
+                : sweep<false>(state, list, cluster, grad_v, L);
 }
 
 template <bool renormalised>
-void PairSweeps::rates_of(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
-                          UpdatedRates& rates) const {
+void PairSweeps::sweep(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+                       Tensor<Lanes>& grad_v, Tensor<Lanes>& L) const {
   const std::size_t i = cluster * lane_count;
   const VecLanes x_i = load(state.x, i), v_i = load(state.v, i);
-  Tensor<Lanes> grad_v{0.0, 0.0, 0.0, 0.0};
   Symmetric<Lanes> M{0.0, 0.0, 0.0};
+  grad_v = {0.0, 0.0, 0.0, 0.0};
   for (const std::uint32_t j : list.sources(cluster)) {
     const VecLanes x_ij{x_i[0] - state.x[0][j], x_i[1] - state.x[1][j]};
     const VecLanes v_ij{v_i[0] - state.v[0][j], v_i[1] - state.v[1][j]};
@@ -64,18 +89,21 @@ void PairSweeps::rates_of(const UpdatedState& state, const ClusterList& list, st
       M.yy -= x_ij[1] * V_gradW[1];
     }
   }
+  if constexpr (renormalised) {
+    L = shape(M);
+    grad_v = product(grad_v, L);
+  }
+}
+
+void PairSweeps::store_stresses(const UpdatedState& state, const Tensor<Lanes>& L, std::size_t cluster,
+                                UpdatedRates& rates) const {
+  const std::size_t i = cluster * lane_count;
   const Lanes rho = load(state.rho, i), p = law_.pressure(rho), inverse_rho_squared = inverse(rho * rho);
   const Symmetric<Lanes> s = load(state.s, i), sigma{s.xx - p, s.yy - p, s.xy};
   Tensor<Lanes> T = sigma.full();
-  if constexpr (renormalised) {
-    const Tensor<Lanes> L = shape(M);
-    grad_v = product(grad_v, L);
-    T = product(T, L);
-  }
+  if (renormalised_) T = product(T, L);
   for (auto& component : T) component *= inverse_rho_squared;
   store(T, rates.T, i);
-  store(-rho * (grad_v[0] + grad_v[3]), rates.rho, i);
-  store(law_.rate(s, grad_v), rates.s, i);
   if (stress_) store(artificial_stress(sigma, inverse_rho_squared, stress_->epsilon), rates.R, i);
 }
 

@@ -41,6 +41,12 @@ class PairSweeps {
   /// where that is near singular, as for a particle torn off).
   void rates(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
              UpdatedRates& rates) const;
+  /// Its two halves, for steps that need them apart: (grad v)_i [1/s], which reads nothing but x, v and V,
+  Tensor<Lanes> velocity_gradient(const UpdatedState& state, const ClusterList& list,
+                                  std::size_t cluster) const;
+  /// and T and R of the present stress.
+  void stresses(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+                UpdatedRates& rates) const;
 
   /// (22) Dv_i/Dt = sum_j m_j [sigma_i L_i/rho_i^2 + sigma_j L_j/rho_j^2 - Pi_ij + (R_i + R_j) F_ij^n]
   /// gradW_ij. With renormalised gradients it is the adjoint of the velocity gradient.
@@ -48,9 +54,16 @@ class PairSweeps {
                         std::size_t cluster) const;
 
  private:
+  /// The gradient and, if renormalised, L.
   template <bool renormalised>
-  void rates_of(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
-                UpdatedRates& rates) const;
+  void sweep(const UpdatedState& state, const ClusterList& list, std::size_t cluster, Tensor<Lanes>& grad_v,
+             Tensor<Lanes>& L) const;
+  /// As `sweep`, chosen by the parameters.
+  void sweep(const UpdatedState& state, const ClusterList& list, std::size_t cluster, Tensor<Lanes>& grad_v,
+             Tensor<Lanes>& L) const;
+  /// T and R of the present stress, given L.
+  void store_stresses(const UpdatedState& state, const Tensor<Lanes>& L, std::size_t cluster,
+                      UpdatedRates& rates) const;
   template <bool viscous, bool stressed>
   VecLanes acceleration_of(const UpdatedState& state, const UpdatedRates& rates, const ClusterList& list,
                            std::size_t cluster) const;

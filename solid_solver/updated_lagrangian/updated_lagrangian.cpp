@@ -34,11 +34,19 @@ UpdatedLagrangian::UpdatedLagrangian(const SolidParameters& parameters, const So
   find_neighbours();
 #pragma omp parallel
   evaluate();
+  watch_bonds();
 }
 
 void UpdatedLagrangian::advance(double dt) {
   find_neighbours_if_moved();
-  const auto scope = timers_.measure("steps");
+  {
+    const auto scope = timers_.measure("steps");
+    parameters_.integrator == Integrator::midpoint ? midpoint_step(dt) : symplectic_step(dt);
+  }
+  look_at_particles();
+}
+
+void UpdatedLagrangian::midpoint_step(double dt) {
 #pragma omp parallel
   {
     keep_start();
@@ -49,7 +57,26 @@ void UpdatedLagrangian::advance(double dt) {
   }
   count_impulses(dt);
   time_ += dt;
-  look_for_detached();
+}
+
+void UpdatedLagrangian::symplectic_step(double dt) {
+  time_ += dt;
+  count_impulses(0.5 * dt);  // of the first kick
+  const double kept = parameters_.damping ? parameters_.damping->factor(0.5 * dt) : 1.0;
+#pragma omp parallel
+  {
+    kick(dt, kept, 1.0);
+    drift(0.5 * dt);
+    place(0.5 * dt);
+    strain(dt);
+    drift(0.5 * dt);
+    place(0.0);
+#pragma omp for schedule(static)
+    for (std::size_t c = 0; c < clusters(); ++c) sweeps_.stresses(state_, list_, c, rates_);
+    accelerate();
+    kick(dt, 1.0, kept);
+  }
+  count_impulses(0.5 * dt);
 }
 
 void UpdatedLagrangian::find_neighbours_if_moved() {
@@ -79,7 +106,7 @@ void UpdatedLagrangian::find_neighbours() {
   const auto order = strips_.sort(state_.x[0], state_.x[1], particle_count());
   reorder_particles(order);
   Field scratch;
-  for (auto* field : {&state_.m, &state_.rho, &state_.s.xx, &state_.s.yy, &state_.s.xy})
+  for (auto* field : {&state_.m, &state_.rho, &rates_.rho, &state_.s.xx, &state_.s.yy, &state_.s.xy})
     reorder(*field, order, scratch);
   find_positions();
   x_listed_ = state_.x;
@@ -98,7 +125,7 @@ void UpdatedLagrangian::keep_start() {
   }
 }
 
-void UpdatedLagrangian::evaluate() {
+void UpdatedLagrangian::place(double ahead) {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
@@ -106,10 +133,18 @@ void UpdatedLagrangian::evaluate() {
       store(load(X_[a], i) + load(u_[a], i), state_.x[a], i);
       store(load(v_[a], i), state_.v[a], i);
     }
-    store(load(state_.m, i) * inverse(load(state_.rho, i)), state_.V, i);
+    store(load(state_.m, i) * inverse(load(state_.rho, i) + ahead * load(rates_.rho, i)), state_.V, i);
   }
+}
+
+void UpdatedLagrangian::evaluate() {
+  place(0.0);
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) sweeps_.rates(state_, list_, c, rates_);
+  accelerate();
+}
+
+void UpdatedLagrangian::accelerate() {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c)
     store(sweeps_.acceleration(state_, rates_, list_, c), a_, c * lane_count);
@@ -131,6 +166,40 @@ void UpdatedLagrangian::move(double dt) {
     store(load(rho_start_, i) + dt * load(rates_.rho, i), state_.rho, i);
     const Symmetric<Lanes> s = load(s_start_, i), ds = load(rates_.s, i);
     store({s.xx + dt * ds.xx, s.yy + dt * ds.yy, s.xy + dt * ds.xy}, state_.s, i);
+  }
+}
+
+void UpdatedLagrangian::kick(double dt, double kept_before, double kept_after) {
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < clusters(); ++c) {
+    const std::size_t i = c * lane_count;
+    const Lanes mobile = load(mobile_, i);
+    for (int a = 0; a < dim; ++a) {
+      const Lanes dv = 0.5 * dt * mobile * (load(a_[a], i) + load(external_[a], i));
+      store(kept_after * (kept_before * load(v_[a], i) + dv), v_[a], i);
+    }
+  }
+}
+
+void UpdatedLagrangian::drift(double dt) {
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < clusters(); ++c)
+    for (int a = 0; a < dim; ++a) {
+      const std::size_t i = c * lane_count;
+      store(load(u_[a], i) + dt * load(v_[a], i), u_[a], i);
+    }
+}
+
+void UpdatedLagrangian::strain(double dt) {
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < clusters(); ++c) {
+    const std::size_t i = c * lane_count;
+    const Tensor<Lanes> grad_v = sweeps_.velocity_gradient(state_, list_, c);
+    const Lanes rho = load(state_.rho, i), half = 0.5 * dt * (grad_v[0] + grad_v[3]);
+    const Lanes rho_after = rho * (1.0 - half) * inverse(1.0 + half);  // the same way back in time
+    store(rho_after, state_.rho, i);
+    store((rho_after - rho) * (1.0 / dt), rates_.rho, i);
+    store(law_.after(load(state_.s, i), grad_v, dt), state_.s, i);
   }
 }
 
@@ -180,10 +249,14 @@ std::vector<ActiveTerm> UpdatedLagrangian::active_terms() const {
   const auto& material = parameters_.material;
   const bool renormalised = parameters_.gradients == Gradients::renormalised;
   std::vector<ActiveTerm> terms;
-  terms.push_back({"updated Lagrangian stress",
-                   renormalised ? "Dv_i/Dt = sum_j m_j (sigma_i L_i/rho_i^2 + sigma_j L_j/rho_j^2) gradW_ij"
-                                : "Dv_i/Dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2) gradW_ij",
-                   "thesis eq. 22", fmt::format("h {:g} m, midpoint", parameters_.h())});
+  terms.push_back(
+      {"updated Lagrangian stress",
+       renormalised ? "Dv_i/Dt = sum_j m_j (sigma_i L_i/rho_i^2 + sigma_j L_j/rho_j^2) gradW_ij"
+                    : "Dv_i/Dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2) gradW_ij",
+       "thesis eq. 22",
+       fmt::format("h {:g} m, {}", parameters_.h(),
+                   parameters_.integrator == Integrator::midpoint ? "midpoint steps of two evaluations"
+                                                                  : "symplectic steps of one evaluation")});
   terms.push_back(
       {"Hooke's law with the Jaumann rate",
        "p = K (rho/rho_0 - 1), Ds/Dt = 2 G dev(e') + s omega^T + omega s, plane strain",

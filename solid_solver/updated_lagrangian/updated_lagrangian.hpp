@@ -6,7 +6,19 @@
 ///
 ///     phi^(n+1/2) = phi^n + dt/2 F(phi^n);   phi^(n+1) = phi^n + dt F(phi^(n+1/2))
 ///
-/// An undamped mode grows by (w dt)^4/8 a step: without artificial viscosity it is weakly unstable. With it
+/// An undamped mode grows by (w dt)^4/8 a step: without artificial viscosity it is weakly unstable.
+///
+/// Symplectic steps, by choice, one evaluation a step: the Stoermer-Verlet scheme (Hairer, Lubich & Wanner
+/// 2003), in which rho and s stand where forces come from the positions,
+///
+///     v^(n+1/2) = v^n + dt/2 a^n;   x^(n+1/2) = x^n + dt/2 v^(n+1/2)
+///     rho, s:  n to n+1 with grad v of x^(n+1/2), v^(n+1/2);   x^(n+1) = x^(n+1/2) + dt/2 v^(n+1/2)
+///     v^(n+1) = v^(n+1/2) + dt/2 a(x^(n+1), rho^(n+1), s^(n+1))
+///
+/// Neutral for undamped modes up to w dt = 2. Renormalised gradients need L at both places, half an
+/// evaluation more.
+///
+/// With artificial viscosity midpoint
 /// steps may be longer than the usual 0.25 h/c_L. Largest courant_number at which a struck block came to rest
 /// (4 x 24 particles, h = 1.2 d0; at an eighth more, or a quarter, it did not):
 ///
@@ -39,7 +51,19 @@ class UpdatedLagrangian final : public SolidModel {
  private:
   void find_neighbours_if_moved();
   void find_neighbours();
+  void midpoint_step(double dt);
+  void symplectic_step(double dt);
   void keep_start();
+  // All below within a parallel region.
+  /// Tells the sweeps where the particles are; V by the density `ahead` [s] in time.
+  void place(double ahead);
+  /// Accelerations by T, R and walls.
+  void accelerate();
+  /// Half a step `dt` [s] of the velocity, times shares that damping keeps.
+  void kick(double dt, double kept_before, double kept_after);
+  void drift(double dt);
+  /// Density and stress after `dt` [s] of the present gradient of the velocity.
+  void strain(double dt);
   /// Accelerations and rates of the present state, within a parallel region.
   void evaluate();
   /// State = start + dt * rates, within a parallel region.

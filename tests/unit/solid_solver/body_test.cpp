@@ -60,6 +60,23 @@ TEST(SolidBody, SurfaceIsClosedAndAsLongAsItsSides) {
   EXPECT_NEAR((body.area_vector.front() - Vec(-0.0025, -0.0025)).norm(), 0, 1e-15) << "outward at the corner";
 }
 
+TEST(SolidBody, ARingIsADiscWithADiscCutOut) {
+  SolidParameters p = free_plate(4);
+  p.spacing = 0.001;
+  p.regions = {{"left", {Vec(-0.05, -0.02), Vec(-0.01, 0.02), true}},
+               {"right", {Vec(-0.01, -0.02), Vec(0.03, 0.02), true}}};
+  p.holes = {{"hole", {Vec(-0.045, -0.015), Vec(-0.015, 0.015), true}}};
+  const SolidBody body = body_of(p);
+  double area[2] = {0, 0};
+  for (std::size_t i = 0; i < body.size(); ++i) area[body.region[i]] += body.volume(i);
+  EXPECT_NEAR(area[0] / (M_PI * (0.02 * 0.02 - 0.015 * 0.015)), 1.0, 0.01);
+  EXPECT_NEAR(area[1] / (M_PI * 0.02 * 0.02), 1.0, 0.01);
+  p.regions.push_back({"inside", {Vec(0.0, -0.005), Vec(0.01, 0.005)}});
+  p.regions.push_back({"in the corner", {Vec(0.027, 0.017), Vec(0.03, 0.02)}});
+  EXPECT_THAT(faults_of(p),
+              ElementsAre("solid.region: region 'inside' overlaps region 'right'; regions may touch only"));
+}
+
 TEST(SolidBody, InterfaceIsWhatAFluidCanReachFromOutside) {
   const SolidBody body = body_of(free_plate(10));  // spacing 2 mm, 40 x 10
   EXPECT_EQ(body.near_surface(0.0021).size(), 400u - 38u * 8u) << "one layer";
@@ -75,9 +92,9 @@ TEST(SolidBody, TellsWhatIsWrongWithTheGeometry) {
   EXPECT_THAT(
       faults_of(p),
       ElementsAre(
-          "solid.region: region 'lid' overlaps region 'plate'; regions may touch only",
           "solid.region: region 'lid' is 1.5 spacings long along y; rows of particles fill it only if "
           "that is within 10 % of a whole number",
+          "solid.region: region 'lid' overlaps region 'plate'; regions may touch only",
           "solid.clamp: clamp 'nowhere' holds no particle of the solid",
           "solid.load: load 'push' acts on no particle of the solid",
           "solid.observer: observer 'far': the point (2, 2) is not in the solid: 0 particles within "

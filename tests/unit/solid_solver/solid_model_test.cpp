@@ -215,6 +215,21 @@ TEST(SolidModel, ConstantLoadsAreSharedByTheParticlesOfTheirBox) {
   EXPECT_NEAR(observed(*model, "momentum_x"), 8.0e-3, 1e-12);
 }
 
+TEST(SolidModel, RegionsHaveVelocitiesOfTheirOwnAndTellThem) {
+  SolidParameters p = free_plate(4);
+  p.initial_velocity = InitialVelocity{.velocity = Vec(1, 2)};
+  p.regions.push_back({.name = "other",
+                       .box = {Vec(0.2, 0), Vec(0.24, 0.02)},
+                       .initial_velocity = InitialVelocity{.velocity = Vec(-3, 0.5)},
+                       .observed = true});
+  const auto model = model_of(p);
+  EXPECT_EQ(model->velocity(0), Vec(1, 2));
+  EXPECT_NEAR(observed(*model, "other_velocity_x"), -3, 1e-12);
+  run_to(*model, 0.01);
+  EXPECT_NEAR(observed(*model, "other_velocity_y"), 0.5, 1e-12);
+  EXPECT_NEAR(observed(*model, "other_displacement_x"), -0.03, 1e-12);
+}
+
 TEST(SolidModel, WorkOfTheInterfaceLoadIsInTheBalance) {
   const auto model = model_of(moving_cantilever(4, 0.0));
   const Interface interface = model->interface(0.011);

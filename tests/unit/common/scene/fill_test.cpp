@@ -66,6 +66,19 @@ TEST(Fill, CountsOverlapsOnceAndLeavesHolesOut) {
   EXPECT_EQ(fill({}, {}, 1).size(), 0u);
 }
 
+TEST(Fill, TakesTheDiscOfARoundBoxAndCutsRoundHoles) {
+  Box disc = box(0, 0, 4, 4);
+  disc.round = true;
+  EXPECT_EQ(fill({disc}, {}, 1).size(), 12u) << "all of 4 x 4 but the corners";
+  Box hole = box(1, 1, 3, 3);
+  hole.round = true;
+  EXPECT_EQ(fill({disc}, {hole}, 1).size(), 8u) << "a ring";
+  Box ellipse = box(0, 0, 8, 2);
+  ellipse.round = true;
+  EXPECT_EQ(fill({ellipse}, {}, 1).size(), 12u)
+      << "6 of 8 in each row: (2.5/4)^2 + (0.5/1)^2 < 1 < (3.5/4)^2 + 0.5^2";
+}
+
 TEST(Fill, RefusesASpacingThatWouldTakeAllMemory) {
   try {
     fill({box(0, 0, 0.1, 0.14)}, {}, 1e-9);

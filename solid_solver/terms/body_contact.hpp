@@ -1,0 +1,72 @@
+/// Contact between bodies in total Lagrangian form, whose neighbours are those of the unloaded body: bodies
+/// that no chain of neighbours joins would pass through each other. As at walls (wall_contact.hpp) particles
+/// push by how much they overlap, here with particles j of other bodies:
+///
+///     S_i = sum_j V_j W_ij,   p_i = stiffness K max(0, S_i/S_0 - 1)
+///     Dv_i/Dt = ... - 1/rho_0 sum_j V_j (p_i + p_j) gradW_ij
+///
+/// S_0 is the sum of a particle whose body touches another with plane faces. The force is the gradient of the
+/// energy sum_i V_i stiffness K S_0/2 max(0, S_i/S_0 - 1)^2, so momentum and energy are kept. There is no
+/// friction, and a body does not touch itself.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/case/parameter_table.hpp"
+#include "common/sph/kernel.hpp"
+#include "common/sph/points.hpp"
+#include "solid_solver/material.hpp"
+
+namespace toryu {
+
+struct BodyContact {
+  double stiffness = 1.0;  ///< contact pressure where the overlap has doubled, over the bulk modulus
+};
+inline void describe(ParameterTable& table, BodyContact& p) {
+  table.number("stiffness", p.stiffness,
+               {.minimum = 0,
+                .maximum = 10,
+                .above_minimum = true,
+                .help = "contact pressure where the overlap has doubled, over the bulk modulus"});
+}
+
+class TouchingBodies {
+ public:
+  /// `X` [m] and `volume` [m2] of the first `count` particles in storage order, which must not change.
+  /// `spacing` and `h` [m] are the solid's.
+  TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const BodyContact& term,
+                 const ElasticMaterial& material, double spacing, double h);
+
+  /// Adds the push at positions x [m] to the accelerations a [m/s2].
+  void push(const VecField& x, VecField& a);
+  /// After `push` [J per metre depth].
+  double energy() const;
+
+  std::size_t body_count() const { return bodies_; }
+  double touching_sum() const { return S_0_; }
+  /// Of a particle against a body it touches firmly [1/s].
+  double highest_frequency() const { return highest_frequency_; }
+
+ private:
+  std::vector<Vec> points(const VecField& x) const;
+  void find_bodies(const std::vector<Vec>& X);
+  void find_pairs_if_moved(const VecField& x);
+  double pressure(std::size_t i) const;
+
+  struct Pair {
+    std::uint32_t i, j;
+  };
+  Field V_;
+  std::size_t count_;
+  CubicSpline W_;
+  double pressure_scale_, inverse_rho_, skin_;
+  double S_0_ = 0, highest_frequency_ = 0;
+  std::size_t bodies_ = 0;
+  std::vector<std::uint32_t> body_;  ///< of each particle
+  std::vector<Pair> pairs_;          ///< of different bodies, within the support and the skin
+  std::vector<Vec> x_listed_;        ///< at the last search [m]
+  Field S_;
+};
+
+}  // namespace toryu
