@@ -6,6 +6,12 @@ namespace toryu {
 
 Vec InitialVelocity::at(const Vec& X) const {
   if (profile == VelocityProfile::uniform) return velocity;
+  if (profile == VelocityProfile::linear) {
+    Vec v = velocity;
+    for (int a = 0; a < dim; ++a)
+      for (int b = 0; b < dim; ++b) v[a] += gradient[a][b] * (X - origin)[b];
+    return v;
+  }
   const double x = X[0] - origin[0];
   if (x <= 0) return Vec::Zero();
   const double kL = 1.8751041, k = kL / length;
@@ -17,12 +23,18 @@ Vec InitialVelocity::at(const Vec& X) const {
 }
 
 void describe(ParameterTable& table, InitialVelocity& v) {
-  table.choice("profile", v.profile, {"uniform", "cantilever_mode_1"},
-               {.help = "the same everywhere, or the first bending mode of a beam along x"});
+  table.choice(
+      "profile", v.profile, {"uniform", "cantilever_mode_1", "linear"},
+      {.help = "the same everywhere, the first bending mode of a beam along x, or growing linearly"});
   table.vector("velocity", v.velocity,
-               {.unit = "m/s", .required = true, .help = "of all particles, or of the tip of the beam"});
-  table.vector("origin", v.origin, {.unit = "m", .help = "where the beam is held"});
+               {.unit = "m/s",
+                .required = true,
+                .help = "of all particles, of the tip of the beam, or at the origin"});
+  table.vector("origin", v.origin, {.unit = "m", .help = "where the beam is held, or v = velocity"});
   table.number("length", v.length, {.unit = "m", .minimum = 0, .above_minimum = true, .help = "of the beam"});
+  table.rows("gradient", v.gradient, {"d/dx [1/s]", "d/dy [1/s]"}, {.help = "linear: of v_x, then of v_y"});
+  table.require(v.profile != VelocityProfile::linear || v.gradient.size() == dim, "gradient",
+                "profile = \"linear\" needs 'gradient', a row for v_x and one for v_y");
 }
 
 }  // namespace toryu
