@@ -100,7 +100,7 @@ def run(options):
         return DONE
     begin = time.monotonic()
     with runner.sole_user(out):
-        records = search(study, make, runs) if study.bisects else runs(known)
+        records = search(study, make, runs) if study.bisects else all_runs(study, known, runs)
         finish(study, records, out, len(done), time.monotonic() - begin, checks.versions(programs))
     return BUG if any(record.exit_code == runner.HUNG for record in records) else DONE
 
@@ -113,11 +113,23 @@ def search(study, make, run):
     return bisection.search(study, make, lambda record: verdicts.judge_alone(study, record), run)
 
 
+def all_runs(study, every, run):
+    """The records of a study whose settings are known beforehand, but for the repetitions that a slow run is spared."""
+    if study.timing is None or math.isinf(study.timing.repeat_below):
+        return run(every)
+    first = run([setting for setting in every if setting.repetition == 0])
+    chosen = timing.repeated(study.timing, every, {record.setting.key: record for record in first})
+    again = [setting for setting in chosen if setting.repetition > 0]
+    return first + (run(again) if again else [])
+
+
 def known_runs(study, make, runs):
     """The settings that are known before anything runs, and the records of those that are done."""
     if not study.bisects:
         every = settings(study, make)
-        return every, runs.done(every)
+        done = runs.done(every)
+        chosen = timing.repeated(study.timing, every, done) if study.timing else every
+        return chosen, {s.key: done[s.key] for s in chosen if s.key in done}
     seen, done = [], {}
 
     def look(wave):

@@ -3,6 +3,8 @@
 import itertools
 import math
 
+from settings import left_out
+
 
 def ordered(y, tried):
     """The values that were tried, from the stable side on. `tried`: value -> whether it is stable."""
@@ -58,10 +60,16 @@ class Columns:
         self.y, self.make = study.map.y, make
         others = [axis.values for axis in study.axes if axis is not self.y.axis]
         self.place = study.axes.index(self.y.axis)
-        self.columns = list(itertools.product(*others))
+        any_y = self.y.axis.values[0]
+        self.columns = [column for column in itertools.product(*others)
+                        if not any(left_out(study, rule, self.values(column, any_y)) for rule in study.leave_out)]
 
     def setting(self, column, value):
-        return self.make([*column[:self.place], self.y.axis.value_of(value), *column[self.place:]])
+        return self.make(self.values(column, self.y.axis.value_of(value)))
+
+    def values(self, column, y_value):
+        """One of each axis of the study."""
+        return [*column[:self.place], y_value, *column[self.place:]]
 
     def waiting(self, tried):
         """(column number, value, setting) of all that can run now. `tried`: for each column value -> whether stable."""

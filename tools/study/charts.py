@@ -152,7 +152,8 @@ def heat_map(chart, study, table):
         image = panel.imshow(grid, origin="lower", aspect="auto", cmap=HEAT, norm=norm)
         for j, line in enumerate(grid):
             for i, value in enumerate(line):
-                write_cell(panel, i, j, value, norm)
+                if (across.values[i].name, along.values[j].name) in cells:
+                    write_cell(panel, i, j, value, norm)
         panel.set_title(title)
         panel.grid(False)
         panel.set_xticks(range(len(across.values)), [value_text(v.name, "") for v in across.values])

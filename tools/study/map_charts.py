@@ -131,11 +131,13 @@ def cells(study, table):
     for panel, name in zip(panels, names):
         panel.set_title("" if name is None else charts.value_text(name, sheets.unit))
         at = {(row[made.x_name], row[made.y_name]): row for row in table.rows if name is None or row[made.edges] == name}
-        grid = [[kinds.index(at[a.name, b.name]["verdict"]) for a in across.values] for b in along.values]
+        grid = [[kinds.index(at[a.name, b.name]["verdict"]) if (a.name, b.name) in at else math.nan for a in across.values]
+                for b in along.values]
         panel.imshow(grid, origin="lower", aspect="auto", cmap=colours, vmin=-0.5, vmax=len(kinds) - 0.5, alpha=0.75)
         for j, b in enumerate(along.values):
             for i, a in enumerate(across.values):
-                write_cell(panel, i, j, at[a.name, b.name], made.figure)
+                if (a.name, b.name) in at:
+                    write_cell(panel, i, j, at[a.name, b.name], made.figure)
         panel.grid(False)
         panel.set_xticks(range(len(across.values)), [charts.value_text(v.name, "") for v in across.values])
         panel.set_yticks(range(len(along.values)), [charts.value_text(v.name, "") for v in along.values])

@@ -111,7 +111,7 @@ def add_axes(table, study):
             inner.fault(f"'grid' must lie between 'stable' and 'unstable', found {value}", "grid")
     inner.close()
     first = dict.fromkeys([*given, *grid])
-    axis = study_file.Axis(name, unit, [rule(v) for v in first] if rule.keys else [], line, rule)
+    axis = study_file.Axis(name, unit, [rule(v) for v in first] if rule.keys or rule.derived else [], line, rule)
     study.axes.append(axis)
     study.map = Map(Bisected(axis, stable, unstable, resolution, grid, log), y_name=name)
 

@@ -65,7 +65,7 @@ def combinations(study):
     if study.bisects:
         return "as many as the search took"
     rounds = f"{study.timing.repeat} times " if study.timing else ""
-    return rounds + " × ".join(str(len(axis.values)) for axis in study.axes)
+    return rounds + " × ".join(str(len(axis.values)) for axis in study.axes) + (", some left out" if study.leave_out else "")
 
 
 def figure(chart):

@@ -13,6 +13,7 @@ class Setting:
     values: dict[str, float | str]  # axis name -> value
     overrides: dict[str, str]  # key of the case -> value as TOML
     key: str = ""  # names the folder of its run
+    repetition: int = 0  # of a timed study, from 0
 
     def options(self):
         """As a user would give it to run.sh."""
@@ -57,7 +58,8 @@ class Maker:
             overrides |= value.overrides
         as_toml = {key: toml(value) for key, value in overrides.items()}
         as_toml |= dict(pair.split("=", 1) for pair in self.extra)
-        setting = Setting({axis.name: value.name for axis, value in zip(self.study.axes, values)}, as_toml)
+        setting = Setting({axis.name: value.name for axis, value in zip(self.study.axes, values)}, as_toml,
+                          repetition=repetition)
         parts = [self.program_identity, self.case, list(as_toml.items())]
         parts += [[self.mark, repetition]] if self.mark else []
         setting.key = hashlib.sha256(json.dumps(parts, default=str).encode()).hexdigest()[:12]
@@ -65,8 +67,15 @@ class Maker:
 
 
 def settings(study, make):
-    """Every combination of the axes, the last axis changing fastest; with repetitions in rounds, so that a machine that
-    slows down treats all alike."""
-    combinations = list(itertools.product(*(axis.values for axis in study.axes)))
+    """Every combination of the axes but those that are left out, the last axis changing fastest; with repetitions in
+    rounds, so that a machine that slows down treats all alike."""
+    combinations = [values for values in itertools.product(*(axis.values for axis in study.axes))
+                    if not any(left_out(study, rule, values) for rule in study.leave_out)]
     rounds = study.timing.repeat if study.timing else 1
     return [make(values, repetition) for repetition in range(rounds) for values in combinations]
+
+
+def left_out(study, rule, values):
+    """Whether the rule, axis -> values, matches."""
+    names = {axis.name: value.name for axis, value in zip(study.axes, values)}
+    return all(names[axis] in matching for axis, matching in rule.items())

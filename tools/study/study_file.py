@@ -3,7 +3,7 @@
 import math
 import pathlib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import chart_file
 import metric_file
@@ -44,6 +44,7 @@ class Study:
     axes: list[Axis]
     metrics: list[metric_file.Metric]
     charts: list[chart_file.Chart]
+    leave_out: list[dict[str, list]] = field(default_factory=list)  # combinations of axes' values that do not run
     timing: Timing | None = None
     small: bool = False  # the small version that [small] describes
     removal: object = None  # the tables of special views: removal.py,
@@ -108,6 +109,7 @@ def read(path, views=(), small=False):
                   document.line(head.path, "set"), head.get("keep_frames", bool, False), [], [], [], small=small)
     head.close()
     study.axes = [_axis(table) for table in root.tables("axis")]
+    study.leave_out = [_leave_out(table, study.axes) for table in root.tables("leave_out")]
     study.timing = timing.read(root.table("timing"))
     tables = {view: table for view in views if (table := root.table(view.key)) is not None}
     for view, table in tables.items():
@@ -148,6 +150,23 @@ def _axis(table):
     return Axis(name, unit, values, line, value_of)
 
 
+def _leave_out(table, axes):
+    """Axis -> values: a combination that matches all of them does not run."""
+    rule = {}
+    for axis in axes:
+        if table.has(axis.name):
+            table.known.append(axis.name)
+            given = table.content[axis.name]
+            rule[axis.name] = given if isinstance(given, list) else [given]
+            for value in rule[axis.name]:
+                if value not in (names := [v.name for v in axis.values]):
+                    table.fault(f"'{axis.name}' must be one or some of {names}, found {value}", axis.name)
+    if not rule:
+        table.fault(f"{table.name} names no axis; there are {one_of(axis.name for axis in axes)}")
+    table.close()
+    return rule
+
+
 def _choice(table):
     value = Value(table.get("name", str), flat(table.get("set", dict, {})))
     table.close()
@@ -176,7 +195,7 @@ def read_rule(table):
 
 def check_values(table, rule, values, key="values"):
     """Whether the rule can take the values; tells what it cannot."""
-    if values and not rule.keys:
+    if values and not (rule.keys or rule.derived):
         table.fault(f"{table.name} needs 'keys', the keys of the case that take its values")
     for value in values:
         if not (is_number(value) and math.isfinite(value)) and (rule.derived or not isinstance(value, str)):

@@ -127,7 +127,8 @@ def effects(study, table):
             continue
         changes = {q: change(study, table, row, q) for q in study.terms.quantities}
         in_errors = {q: abs(value) / error[q] if error[q] > 0 else math.nan if value else 0.0 for q, value in changes.items()}
-        effect = Effect(row[AXIS], changes, in_errors, 1 - row["processor_time"] / shipped["processor_time"], "", row)
+        saved = math.nan if row["cause"] else 1 - row["processor_time"] / shipped["processor_time"]  # it ended early
+        effect = Effect(row[AXIS], changes, in_errors, saved, "", row)
         effect.verdict = verdict(effect, noise(row, shipped), row[AXIS] in study.terms.adds)
         found.append(effect)
     return found

@@ -33,7 +33,7 @@ def charts(study, effects, folder):
     left.invert_yaxis()
     left.grid(axis="y", visible=False)
     left.set_xlabel("change over discretisation error; beyond 1 it is seen")
-    left.legend(loc="lower right")
+    left.legend(loc="best")
     right.barh(range(len(names)), [100 * e.time_saved if math.isfinite(e.time_saved) else 0 for e in effects], 0.5,
                color=[drawing.PALETTE["good" if e.time_saved > 0 else "bad"] for e in effects])
     right.axvline(0, color=drawing.PALETTE["soft"], linewidth=1)

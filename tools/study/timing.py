@@ -17,6 +17,7 @@ class Timing:
     """The table [timing]."""
 
     repeat: int
+    repeat_below: float  # [s]: a run that took longer is not repeated, its own length evens out what disturbs it
 
 
 @dataclass
@@ -30,7 +31,9 @@ class Loop:
 def read(table):
     if table is None:
         return None
-    timing = Timing(table.get("repeat", int, 3))
+    timing = Timing(table.get("repeat", int, 3), table.get("repeat_below", float, math.inf))
+    if not timing.repeat_below > 0:
+        table.fault(f"'repeat_below' must be above 0 s, found {timing.repeat_below}", "repeat_below")
     if not 1 <= timing.repeat <= 100:
         table.fault(f"'repeat' must be from 1 to 100, found {timing.repeat}", "repeat")
     table.close()
@@ -48,6 +51,12 @@ def run_loop(folder):
                        "with the programs") from None
 
 
+def repeated(timing, settings, done):
+    """Of the settings those that are to run: a repetition does not if the first run took too long. `done`: key -> record."""
+    slow = [r.setting.values for r in done.values() if r.setting.repetition == 0 and r.elapsed > timing.repeat_below]
+    return [s for s in settings if s.repetition == 0 or s.values not in slow]
+
+
 def figures(records, times):
     """Medians over the repetitions of one setting. `times`: of each record, as metrics.times gives them. A repetition's
     relative time is its processor time over the mean of the loops before and after it; the spread is the distance of the
@@ -62,13 +71,17 @@ def figures(records, times):
                       "reference_loop": statistics.median(every) if every else math.nan}
 
 
+def once(timing):
+    return f" (of runs above {timing.repeat_below:g} s one)" if math.isfinite(timing.repeat_below) else ""
+
+
 def sentence(timing, records):
     """How the times were measured, and whether the machine was left alone."""
     every = [loop for record in records for loop in record.loops]
     if not every:
         return ""
     loops = [loop["processor_time"] for loop in every]
-    text = (f"Times are medians of {timing.repeat} repetitions, one run at a time; beside them the reference loop took "
+    text = (f"Times are medians of {timing.repeat} repetitions{once(timing)}, one run at a time; beside them the reference loop took "
             f"{statistics.median(loops):.3f} s of processor time ({min(loops):.3f} to {max(loops):.3f} s).")
     busy = statistics.median(loop["wall_time"] / loop["processor_time"] for loop in every)
     if busy > BUSY:

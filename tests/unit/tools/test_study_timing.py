@@ -95,6 +95,16 @@ class SpeedAgainstAccuracy(Study):
         self.assertEqual((record["jobs"], record["loops"]), (1, [{"processor_time": 0.5, "wall_time": 0.6}] * 2))
         self.assertIn("one run at a time", self.study("--jobs", "2").stderr)
 
+    def test_left_out_and_not_repeated(self):
+        text = SPEED.replace("keys = []\n", 'keys = ["fluid.y"]\n').replace("repeat = 2", "repeat = 2\nrepeat_below = 1.0")
+        self.write(text[:text.index("[[metric]]")].replace("set = { fluid.x = 3 }", "set = { fluid.seconds = 1.0 }") +
+                   '[[leave_out]]\nspacing = [0.4, 0.1]\nscheme = "slow"\n')
+        self.done()
+        self.assertEqual([(row["spacing[m]"], row["scheme"]) for row in self.table()],
+                         [("0.4", "plain"), ("0.2", "plain"), ("0.2", "slow"), ("0.1", "plain")])
+        self.assertEqual(len(self.starts()), 4 + 3)
+        self.assertEqual(len(self.done("--list").stdout.splitlines()), 7)
+
     def test_faults(self):
         self.write(SPEED.replace("keys = []\n", 'keys = ["fluid.y"]\n').replace('along = "spacing"', 'along = "spacng"')
                    .replace("repeat = 2", "repeat = 0").replace('formula = "sqrt(', 'formula = "sqr(')
