@@ -129,6 +129,20 @@ class LinkTest : public testing::Test {
   RawFluid fluid_{settings_.out};
 };
 
+TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
+  const auto out = std::filesystem::temp_directory_path() / fmt::format("toryu_node_{}", getpid());
+  dds::Node node(dds::meeting_place(out));
+  dds::Reader<toryu_Status> reader(node, wire::status);
+  dds::Writer<toryu_Status> writer(node, wire::status);
+  std::string nothing;
+  toryu_Status status{};
+  status.reason = nothing.data();
+  writer.write(status);
+  EXPECT_TRUE(node.wait(2s));
+  EXPECT_FALSE(node.wait(20ms)) << "a loop around it would spin";
+  EXPECT_TRUE(reader.take([](const toryu_Status&) {})) << "the message is still there";
+}
+
 TEST_F(LinkTest, HandshakeCarriesTheInterface) {
   auto solid = start_solid();
   fluid_.say_hello();
