@@ -18,10 +18,13 @@ ActiveTerm active_law(const SolidParameters& parameters) {
                   material.poissons_ratio, material.bulk_modulus(), material.shear_modulus(),
                   material.longitudinal_sound_speed());
   if (const auto& yeoh = parameters.yeoh)
-    return {"Yeoh", "psi = sum_k c_k0 (J^(-2/3) I_1 - 3)^k + K/4 (J^2 - 1 - 2 ln J), plane strain",
+    return {"Yeoh",
+            "psi = sum_k c_k0 (I - 3)^k + alpha/beta (1 - exp(-beta (I - 3))) + K/4 (J^2 - 1 - 2 ln J), I = "
+            "J^(-2/3) I_1, plane strain",
             "Yeoh 1993; volumetric part: Simo & Taylor 1982",
-            fmt::format("c_10 {:g}, c_20 {:g}, c_30 {:g}, K {:g} Pa; for small strains {}", yeoh->c_10,
-                        yeoh->c_20, yeoh->c_30, yeoh->bulk_modulus, constants)};
+            fmt::format(
+                "c_10 {:g}, c_20 {:g}, c_30 {:g}, alpha {:g}, K {:g} Pa, beta {:g}; for small strains {}",
+                yeoh->c_10, yeoh->c_20, yeoh->c_30, yeoh->alpha, yeoh->bulk_modulus, yeoh->beta, constants)};
   if (parameters.law == ElasticLaw::neo_hookean)
     return {"neo-Hookean", "psi = G/2 (I_1 - 3 - 2 ln J) + lambda/4 (J^2 - 1 - 2 ln J), plane strain",
             "Simo & Pister 1984", constants};

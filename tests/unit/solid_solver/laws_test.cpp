@@ -15,7 +15,12 @@ constexpr double lambda = 3e6, G = 1e6;
 template <class AnyLaw>
 AnyLaw sample() {
   if constexpr (std::is_same_v<AnyLaw, Yeoh>)
-    return {.c_10 = 0.5 * G, .c_20 = -0.1 * G, .c_30 = 0.04 * G, .bulk_modulus = lambda + 2.0 / 3.0 * G};
+    return {.c_10 = 0.3 * G,
+            .c_20 = -0.1 * G,
+            .c_30 = 0.04 * G,
+            .bulk_modulus = lambda + 2.0 / 3.0 * G,
+            .alpha = 0.2 * G,
+            .beta = 3.0};
   else
     return {lambda, G};
 }
@@ -112,6 +117,14 @@ TEST(Yeoh, StressesByHand) {
   const double change = 66.0 / 4 - 3, steep = 1 - 0.4 * change + 0.15 * change * change;
   EXPECT_NEAR(law.stress<double>({7, 0, 0, 0})[0], 2 * steep / 4 * (8 - 22.0 / 8) + 5 * 63.0 / 8, 1e-11);
   EXPECT_NEAR(law.stress<double>({7, 0, 0, 0})[3], 2 * steep / 4 * (1 - 22.0) + 5 * 63.0, 1e-11);
+}
+
+TEST(Yeoh, FillerStiffensSmallShearOnly) {
+  const Yeoh law{.c_10 = 1.0, .bulk_modulus = 10.0, .alpha = 2.0, .beta = std::log(2.0) / 0.25};
+  // Simple shear by 0.5: I - 3 = 0.25 halves the filler's share; by 5 nothing of it is left.
+  EXPECT_NEAR(law.stress<double>({0, 0.5, 0, 0})[1], 2 * (1 + 2 * 0.5) * 0.5, 1e-14);
+  EXPECT_NEAR(law.stress<double>({0, 1e-6, 0, 0})[1], 2 * 3 * 1e-6, 1e-15);
+  EXPECT_NEAR(law.stress<double>({0, 5, 0, 0})[1], 2 * 5, 1e-14);
 }
 
 TEST(Yeoh, ForSmallStrainsItHasTheModulusOfItsConstants) {

@@ -99,6 +99,12 @@ TEST_F(SolidSection, ARubberTakesThePlaceOfTheElasticConstants) {
     EXPECT_EQ(used_.find("youngs_modulus"), std::string::npos) << "only what is used stands in the used case";
     EXPECT_EQ(read(used_).material.bulk_modulus(), p.material.bulk_modulus());
   }
+  EXPECT_EQ(
+      faults(plate + rubber, {"solid.yeoh.alpha=2e6", "solid.yeoh.beta=1"}),
+      "--set solid.yeoh.alpha=2e6: error: 'alpha' in [solid.yeoh] must be below 2.24 c_10: above it the "
+      "rubber gives way");
+  EXPECT_EQ(faults(plate + rubber, {"solid.yeoh.alpha=1e5"}),
+            "case.toml:9:8: error: 'beta' in [solid.yeoh] must be above 0 where there is an 'alpha'");
   EXPECT_EQ(faults(plate + rubber, {"solid.yeoh.c_20=-0.3e6"}),
             "--set solid.yeoh.c_20=-0.3e6: error: 'c_20' in [solid.yeoh] must be above -sqrt(3 c_10 c_30): "
             "below it "
