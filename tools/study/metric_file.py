@@ -13,7 +13,7 @@ TAKES = ("last", "first", "largest", "smallest", "peak", "peak_time", "mean", "r
          "frequency", "amplitude_loss", "distance")
 TAKE_UNITS = {"peak_time": "s", "period": "s", "frequency": "Hz", "amplitude_loss": "", "distance": ""}
 SWINGING = ("period", "frequency", "amplitude_loss")  # these know a level
-NEXT = "next"
+NEXT, LAST = "next", "last"  # of the values of an axis
 
 
 @dataclass
@@ -84,7 +84,7 @@ def _read_reference(table, study, metric):
 
 
 def _read_against(table, study, metric):
-    """A number, or { AXIS = VALUE or "next", ... }: axes that are not named have the run's own value."""
+    """A number, or { AXIS = VALUE, "next" or "last", ... }: axes that are not named have the run's own value."""
     table.known.append("against")
     against, axes = table.content["against"], {axis.name: axis for axis in study.axes}
     metric.relative = table.get("relative", bool, True)
@@ -100,9 +100,9 @@ def _read_against(table, study, metric):
             if name not in axes:
                 table.fault(f"'against' names no axis '{name}'{did_you_mean(name, axes)}; there are {one_of(axes)}",
                             "against")
-            elif value != NEXT and value not in (names := [v.name for v in axes[name].values]):
-                table.fault(f"'against' must name a value of the axis '{name}', one of {names}, or '{NEXT}', found {value}",
-                            "against")
+            elif value not in (NEXT, LAST) and value not in (names := [v.name for v in axes[name].values]):
+                table.fault(f"'against' must name a value of the axis '{name}', one of {names}, or '{NEXT}' or '{LAST}', found "
+                            f"{value}", "against")
     else:
         table.fault(f"'against' must be a number, or a run, {{ AXIS = VALUE }}, found {against}", "against")
         return

@@ -5,7 +5,7 @@ import math
 
 import oscillation
 import results
-from metric_file import NEXT, OF_RUN
+from metric_file import LAST, NEXT, OF_RUN
 from processes import DONE
 
 
@@ -59,13 +59,13 @@ def partner(against, study, row, rows):
     """The row that `against` means from `row`, or None."""
     wanted = {axis.name: row[axis.name] for axis in study.axes}
     for axis in study.axes:
-        value = against.get(axis.name)
+        if axis.name not in against:
+            continue
+        value, names = against[axis.name], [v.name for v in axis.values]
         if value == NEXT:
-            names = [v.name for v in axis.values]
             after = names.index(row[axis.name]) + 1
             value = names[after] if after < len(names) else None
-        if axis.name in against:
-            wanted[axis.name] = value
+        wanted[axis.name] = names[-1] if value == LAST else value
     return next((r for r in rows if all(r[name] == value for name, value in wanted.items())), None)
 
 

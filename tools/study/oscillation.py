@@ -38,14 +38,15 @@ def period(times, values, level=None):
 
 
 def swings(times, values, level):
-    """(time, height above `level`) of the top of each whole swing between two rises; the top of the parabola through
-    the three highest rows."""
-    rises = crossings(times, values, level)
+    """(time, height above or depth below `level`) of the extreme of each half swing between two crossings; that of the
+    parabola through the three rows about it."""
+    mirrored = [-v for v in values]
+    rises, falls = crossings(times, values, level), crossings(times, mirrored, -level)
+    ends = sorted([(t, values, level) for t in rises] + [(t, mirrored, -level) for t in falls], key=lambda end: end[0])
     found = []
-    for begin, end in zip(rises, rises[1:]):
-        inner = [k for k, t in enumerate(times) if begin <= t <= end]
-        top = max(inner, key=values.__getitem__)
-        found.append((times[top], _height(values, top) - level))
+    for (begin, seen, at), (end, _, _) in zip(ends, ends[1:]):
+        top = max((k for k, t in enumerate(times) if begin <= t <= end), key=seen.__getitem__)
+        found.append((times[top], _height(seen, top) - at))
     return found
 
 
@@ -58,8 +59,8 @@ def _height(values, k):
 
 
 def amplitude_loss(times, values, level=None):
-    """Share of the amplitude that is lost in a period: the straight line through the logarithm of the tops over time,
-    least squares; below 0 where it grows, nan with fewer than two tops."""
+    """Share of the amplitude that is lost in a period: the straight line through the logarithm of the extremes over
+    time, least squares; below 0 where it grows, nan with fewer than two half swings."""
     level = middle(values) if level is None else level
     tops = [(t, math.log(h)) for t, h in swings(times, values, level) if h > 0]
     length = period(times, values, level)

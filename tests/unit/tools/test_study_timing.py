@@ -45,7 +45,7 @@ against = 1.0
 name = "moved"
 series = "fluid.csv:swing[m]"
 take = "distance"
-against = { spacing = 0.1 }
+against = { spacing = "last" }
 [[metric]]
 name = "step"
 series = "fluid.csv:speed[m/s]"
@@ -112,7 +112,7 @@ class SpeedAgainstAccuracy(Study):
         found = [line.split(": error: ")[1] for line in self.study().stderr.splitlines()]
         self.assertEqual(found, [
             "'repeat' must be from 1 to 100, found 0", "'against' 0 has no relative difference; give relative = false",
-            "'against' must name a value of the axis 'spacing', one of [0.4, 0.2, 0.1], or 'next', found nxt",
+            "'against' must name a value of the axis 'spacing', one of [0.4, 0.2, 0.1], or 'next' or 'last', found nxt",
             "'formula': 'sqr(period_error**2 + 0*spacing)' has the unknown function 'sqr'; did you mean 'sqrt'?; there "
             "are 'sqrt', 'exp', 'log', 'log10', 'sin', 'cos', 'tan', 'atan', 'sinh', 'cosh', 'tanh', 'abs', 'min', 'max'",
             "'along' must be one of 'spacing', 'scheme', found 'spacng'; did you mean 'spacing'?"])
