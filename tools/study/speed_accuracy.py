@@ -75,7 +75,7 @@ def front(points):
 def answer(chart, study, table):
     lines = lines_of(chart, study, table)
     points = [point for line in lines for point in line.points]
-    sentences = [sentence(chart, study, points, wanted) for wanted in sorted(chart.wanted, reverse=True)]
+    sentences = [sentence(chart, study, lines, wanted) for wanted in sorted(chart.wanted, reverse=True)]
     parts = [exponents(lines), front_table(chart, study, front(points)), left_out(chart, study, table, points), marks(chart)]
     return Answer(chart.title, " ".join(sentences) or f"{len(front(points))} settings are on the front.", "".join(parts))
 
@@ -96,17 +96,32 @@ def setting(chart, study, row):
     return ", ".join([*words, value if isinstance(value, str) else f"{chart.along.replace('_', ' ')} {value:g} {unit}".strip()])
 
 
-def sentence(chart, study, points, wanted):
-    """Which setting to take for a wanted error."""
+def sentence(chart, study, lines, wanted):
+    """Which setting to take for a wanted error: the cheapest from which on its line stays within it. An error that only
+    passes through zero is told as such."""
+    points = [point for line in lines for point in line.points]
     good = [p for p in points if p.error <= wanted]
     if not good:
         closest = min(points, key=lambda p: p.error, default=None)
         if closest is None:
             return "No setting has an error and a time."
         return f"No setting has an error of {wanted:g}; the smallest, {closest.error:.3g}, has {setting(chart, study, closest.row)}."
-    best = min(good, key=lambda p: p.time)
-    return (f"For an error of {wanted:g} take {setting(chart, study, best.row)}: {best.error:.3g} in "
-            f"{in_words(best.time, time_unit(chart, study.units()))}.")
+    unit = time_unit(chart, study.units())
+
+    def said(point):
+        return f"{setting(chart, study, point.row)}: {point.error:.3g} in {in_words(point.time, unit)}"
+
+    staying = [p for line in lines for p in line.points if stays(line, p, wanted)]
+    cheapest, best = (min(some, key=lambda p: p.time, default=None) for some in (good, staying))
+    if best is None:
+        return f"For an error of {wanted:g} take {said(cheapest)}, but at greater cost its error is larger again: it passes through zero."
+    passing = "" if best is cheapest else f" (Cheaper only in passing through zero: {said(cheapest)}.)"
+    return f"For an error of {wanted:g} take {said(best)}.{passing}"
+
+
+def stays(line, point, wanted):
+    """Whether the error is within `wanted` there and wherever the line costs more."""
+    return all(p.error <= wanted for p in line.points if p.time >= point.time)
 
 
 def exponents(lines):

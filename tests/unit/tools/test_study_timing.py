@@ -4,6 +4,7 @@ import json
 import math
 import sys
 import unittest
+from types import SimpleNamespace
 
 from study_case import TOOLS, Study
 
@@ -125,6 +126,20 @@ class Fit(unittest.TestCase):
     def test_the_front_holds_what_nothing_beats(self):
         points = self.points((1, 0.5), (2, 0.6), (3, 0.2), (4, 0.2), (5, 0.1), (0.5, 0.9))
         self.assertEqual([(p.time, p.error) for p in speed_accuracy.front(points)], [(0.5, 0.9), (1, 0.5), (3, 0.2), (5, 0.1)])
+
+    def test_an_error_that_passes_through_zero_is_no_recommendation(self):
+        rows = [{"spacing": s} for s in (0.4, 0.2, 0.1)]
+        chart = SimpleNamespace(lines=[], along="spacing", time="processor_time")
+        study = SimpleNamespace(axes=[SimpleNamespace(name="spacing", unit="m")], units=lambda: {"processor_time": "s"})
+
+        def answer(*errors):
+            points = [speed_accuracy.Point(t, e, row) for t, e, row in zip((1, 2, 3), errors, rows)]
+            return speed_accuracy.sentence(chart, study, [speed_accuracy.Line("", points, 1, 1)], 0.1)
+
+        self.assertEqual(answer(0.2, 0.09, 0.05), "For an error of 0.1 take spacing 0.2 m: 0.09 in 2 s.")
+        self.assertEqual(answer(0.01, 0.2, 0.05), "For an error of 0.1 take spacing 0.1 m: 0.05 in 3 s. (Cheaper only in passing "
+                                                  "through zero: spacing 0.4 m: 0.01 in 1 s.)")
+        self.assertIn("it passes through zero", answer(0.2, 0.01, 0.2))
 
     def test_the_exponent(self):
         k, factor = speed_accuracy.power_law(self.points((1, 1), (8, 0.25), (64, 0.0625)))
