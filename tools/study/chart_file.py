@@ -34,7 +34,7 @@ class Mark:
 
 @dataclass
 class SpeedAccuracy:
-    """A chart of error against time: a line for each combination of the axes `lines`, its points along the axis `along`."""
+    """A chart of error against time: a line for each combination of the axes `lines`, its points along `along`."""
 
     title: str
     error: str  # a metric; its magnitude counts
@@ -111,7 +111,8 @@ def _speed_accuracy(table, study, extra):
 
 
 def _mark(table):
-    mark = Mark(table.get("label", str), table.get("value", float), table.get("time", float, None), table.get("source", str))
+    mark = Mark(table.get("label", str), table.get("value", float), table.get("time", float, None),
+                table.get("source", str))
     for key, value in (("value", mark.value), ("time", mark.time)):
         if value is not None and not value > 0:
             table.fault(f"'{key}' must be above 0, found {value}", key)

@@ -36,8 +36,8 @@ class Formula:
             return
         if isinstance(node, ast.Name):
             if node.id not in names and node.id not in CONSTANTS:
-                raise BadFormula(f"'{self.text}' has the unknown name '{node.id}'{did_you_mean(node.id, names)}; there are "
-                                 f"{one_of([*names, *CONSTANTS])}")
+                raise BadFormula(f"'{self.text}' has the unknown name '{node.id}'{did_you_mean(node.id, names)}; there "
+                                 f"are {one_of([*names, *CONSTANTS])}")
             if node.id not in CONSTANTS:
                 self.names.add(node.id)
         elif isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:

@@ -20,7 +20,7 @@ class Bisected:
     axis: study_file.Axis  # its values are the two sides and the grid; in the end all that ran
     stable: float
     unstable: float
-    resolution: float  # the bracket is narrow enough once it is this share of its larger side, on a linear axis of the range
+    resolution: float  # the bracket ends at this share of its larger side, on a linear axis of the whole range
     grid: list[float]
     log: bool
 
@@ -126,11 +126,12 @@ def read(table, study):
     made.edges = table.get("edges", str, None, allowed=axes)
     made.log = table.texts("log", [], allowed=["x"] if y else [])
     made.time_limit = table.get("time_limit", float, TIME_LIMIT)
-    made.explanation = table.get("explanation", str).strip() if table.has("explanation") else table.get("explanation", str)
+    made.explanation = (table.get("explanation", str) or "").strip()
     if not made.time_limit > 0:
         table.fault(f"'time_limit' must be above 0 s, found {made.time_limit}", "time_limit")
     if y and made.x_name in axes and not all(is_number(v.name) for v in axes[made.x_name].values):
-        table.fault(f"'x' must be an axis of numbers where y is bisected, found '{made.x_name}'; put choices on 'edges'", "x")
+        table.fault(f"'x' must be an axis of numbers where y is bisected, found '{made.x_name}'; choices go to 'edges'",
+                    "x")
     if study.timing:
         table.fault("a map cannot be timed: leave [timing] out")
     free = [name for name in axes if name not in (made.x_name, made.y_name, made.edges)]

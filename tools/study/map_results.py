@@ -12,7 +12,6 @@ import page
 import tables
 import verdicts
 from answer import Answer
-from processes import DONE
 
 
 @dataclass
@@ -65,14 +64,14 @@ def answers(study, table, out):
         parts.insert(1, edge_table(study, every) + '<p class="note">The same in <a href="edges.csv">edges.csv</a>.</p>')
     hung = [row for row in table.rows if row["verdict"] == verdicts.HANGS]
     if hung:
-        sentences.insert(0, f"{len(hung)} {'run' if len(hung) == 1 else 'runs'} HUNG: {page.setting_text(study, hung[0])}. "
-                            "That is a bug.")
+        sentences.insert(0, f"{len(hung)} of the runs HUNG: {page.setting_text(study, hung[0])}. That is a bug.")
     return [Answer("Where it fails", " ".join(sentences), "".join(parts))]
 
 
 def counts(table):
     found = Counter(row["verdict"] for row in table.rows)
-    return f"{len(table.rows)} runs: " + ", ".join(f"{found[kind]} {kind}" for kind in verdicts.WORDS if found[kind]) + "."
+    told = ", ".join(f"{found[kind]} {kind}" for kind in verdicts.WORDS if found[kind])
+    return f"{len(table.rows)} runs: {told}."
 
 
 def edge_sentences(study, every):
@@ -83,7 +82,8 @@ def edge_sentences(study, every):
         name = f"{edge_of}: " if edge_of is not None else ""
         edges = [column.edge(y) for column in found]
         text = f"{name}an edge at {len(found)} of {len(mine)} values of {made.x_name.replace('_', ' ')}"
-        text += f", {y.axis.name.replace('_', ' ')} {min(edges):.4g} to {max(edges):.4g} {y.axis.unit}".rstrip() if edges else ""
+        if edges:
+            text += f", {y.axis.name.replace('_', ' ')} {min(edges):.4g} to {max(edges):.4g} {y.axis.unit}".rstrip()
         sentences.append(text + ".")
         for theory in [t for t in made.theories if t.edge in (None, edge_of)]:
             ratios = [r for column in found if math.isfinite(r := ratio(column, y, theory))]
@@ -107,7 +107,8 @@ def edge_table(study, every):
         if column.stable is None:
             failure = column.rows[0] if column.rows[0]["verdict"] != verdicts.STABLE else None
         rows.append([f"{column.x:g}"] + ([str(column.edge_of)] if made.edges else []) + [
-            shown(column.stable, "none" if failure else f"all up to {y.unstable:g}"), shown(column.unstable, "all" if failure else "none"),
+            shown(column.stable, "none" if failure else f"all up to {y.unstable:g}"),
+            shown(column.unstable, "all" if failure else "none"),
             f"{failure['verdict']}: {failure['cause']}" if failure else "",
             f"{failure['detected_at']:.4g}" if failure and math.isfinite(failure["detected_at"]) else "",
             *(f"{ratio(column, y, t):.3g}" if t in theories_of(study, column) and math.isfinite(ratio(column, y, t)) else ""
@@ -150,7 +151,7 @@ def blank(value):
 
 def tally(table):
     """How often each verdict came, and how failures were told."""
-    causes = Counter((row["verdict"], row["cause"]) for row in table.rows if row["record"].exit_code != DONE or row["cause"])
+    causes = Counter((row["verdict"], row["cause"]) for row in table.rows if row["verdict"] != verdicts.STABLE)
     rows = [[kind, cause, str(number)] for (kind, cause), number in causes.most_common(12)]
     told = tables.table(["verdict", "as told", "runs"], rows) if rows else ""
     words = tables.table(["verdict", "means"], [[kind, text] for kind, text in verdicts.WORDS.items()])

@@ -101,8 +101,8 @@ def _read_against(table, study, metric):
                 table.fault(f"'against' names no axis '{name}'{did_you_mean(name, axes)}; there are {one_of(axes)}",
                             "against")
             elif value not in (NEXT, LAST) and value not in (names := [v.name for v in axes[name].values]):
-                table.fault(f"'against' must name a value of the axis '{name}', one of {names}, or '{NEXT}' or '{LAST}', found "
-                            f"{value}", "against")
+                table.fault(f"'against' must name a value of the axis '{name}', one of {names}, or '{NEXT}' or '{LAST}', "
+                            f"found {value}", "against")
     else:
         table.fault(f"'against' must be a number, or a run, {{ AXIS = VALUE }}, found {against}", "against")
         return

@@ -31,7 +31,8 @@ def write(path, study, table, records, drawn, answers, versions):
         answers="".join(f'<section id="answer"><h2>{html.escape(a.title)}</h2><p class="answer">'
                         f"{html.escape(a.sentence)}</p>{a.html}</section>" for a in answers),
         charts="".join(map(figure, drawn)), table=runs(study, table),
-        timing=f'<p class="note">{html.escape(timing.sentence(study.timing, records))}</p>' if study.timing else "", axes=axes(study), fixed=fixed(study, records),
+        timing=f'<p class="note">{html.escape(timing.sentence(study.timing, records))}</p>' if study.timing else "",
+        axes=axes(study), fixed=fixed(study, records),
         provenance=provenance(records, versions), study=html.escape(study.text),
         case=html.escape(study.case.read_text(encoding="utf-8")))
     part = path.with_name(path.name + ".part")
@@ -65,7 +66,8 @@ def combinations(study):
     if study.bisects:
         return "as many as the search took"
     rounds = f"{study.timing.repeat} times " if study.timing else ""
-    return rounds + " × ".join(str(len(axis.values)) for axis in study.axes) + (", some left out" if study.leave_out else "")
+    but = ", some left out" if study.leave_out else ""
+    return rounds + " × ".join(str(len(axis.values)) for axis in study.axes) + but
 
 
 def figure(chart):

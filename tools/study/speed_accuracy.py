@@ -76,7 +76,8 @@ def answer(chart, study, table):
     lines = lines_of(chart, study, table)
     points = [point for line in lines for point in line.points]
     sentences = [sentence(chart, study, lines, wanted) for wanted in sorted(chart.wanted, reverse=True)]
-    parts = [exponents(lines), front_table(chart, study, front(points)), left_out(chart, study, table, points), marks(chart)]
+    parts = [exponents(lines), front_table(chart, study, front(points)), left_out(chart, study, table, points),
+             marks(chart)]
     return Answer(chart.title, " ".join(sentences) or f"{len(front(points))} settings are on the front.", "".join(parts))
 
 
@@ -90,10 +91,7 @@ def time_unit(chart, table_units):
 
 def setting(chart, study, row):
     """The setting on a line of words: the axes that the chart moves."""
-    words = [named(study, axis, row[axis]) for axis in chart.lines if axis in row]
-    unit = next(a.unit for a in study.axes if a.name == chart.along)
-    value = row[chart.along]
-    return ", ".join([*words, value if isinstance(value, str) else f"{chart.along.replace('_', ' ')} {value:g} {unit}".strip()])
+    return ", ".join(named(study, axis, row[axis]) for axis in [*chart.lines, chart.along])
 
 
 def sentence(chart, study, lines, wanted):
@@ -105,7 +103,8 @@ def sentence(chart, study, lines, wanted):
         closest = min(points, key=lambda p: p.error, default=None)
         if closest is None:
             return "No setting has an error and a time."
-        return f"No setting has an error of {wanted:g}; the smallest, {closest.error:.3g}, has {setting(chart, study, closest.row)}."
+        return (f"No setting has an error of {wanted:g}; the smallest, {closest.error:.3g}, has "
+                f"{setting(chart, study, closest.row)}.")
     unit = time_unit(chart, study.units())
 
     def said(point):
@@ -114,7 +113,8 @@ def sentence(chart, study, lines, wanted):
     staying = [p for line in lines for p in line.points if stays(line, p, wanted)]
     cheapest, best = (min(some, key=lambda p: p.time, default=None) for some in (good, staying))
     if best is None:
-        return f"For an error of {wanted:g} take {said(cheapest)}, but at greater cost its error is larger again: it passes through zero."
+        return (f"For an error of {wanted:g} take {said(cheapest)}, but at greater cost its error is larger again: it passes "
+                "through zero.")
     passing = "" if best is cheapest else f" (Cheaper only in passing through zero: {said(cheapest)}.)"
     return f"For an error of {wanted:g} take {said(best)}.{passing}"
 
@@ -144,8 +144,8 @@ def front_table(chart, study, points):
 def left_out(chart, study, table, points):
     """Settings without a point, and why."""
     drawn = {id(p.row) for p in points}
-    rows = [[page.setting_text(study, row), row["cause"] or "has no error above 0: it is what the others are held against, or "
-             "the figure is missing"] for row in table.rows
+    no_error = "has no error above 0: it is what the others are held against, or the figure is missing"
+    rows = [[page.setting_text(study, row), row["cause"] or no_error] for row in table.rows
             if id(row) not in drawn and all(row[name] == value for name, value in chart.at.items())]
     return "<h3>Not drawn</h3>" + tables.table(["setting", "why"], rows) if rows else ""
 

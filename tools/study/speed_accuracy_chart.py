@@ -1,4 +1,4 @@
-"""The picture of speed against accuracy: error over time, both logarithmic, with the Pareto front and published errors."""
+"""The picture of speed against accuracy: error over time, both logarithmic, the Pareto front and published errors."""
 
 import math
 

@@ -224,6 +224,10 @@ def _check_names(document, study):
         document.fault("a study needs at least one [[axis]]")
 
 
+def names_of(axis):
+    return [value.name for value in axis.values]
+
+
 def _read_small(table, study):
     """[small]: what makes the study small enough for a test. It takes effect if the small version was asked for."""
     if table is None:
@@ -236,9 +240,9 @@ def _read_small(table, study):
     for name, values in chosen.items():
         if name not in axes:
             table.fault(f"'values' names no axis '{name}'{did_you_mean(name, axes)}; there are {one_of(axes)}", "values")
-        elif not isinstance(values, list) or not values or any(v not in [n.name for n in axes[name].values] for v in values):
-            table.fault(f"'values' must list some values of the axis '{name}', {[v.name for v in axes[name].values]}, found "
-                        f"{values}", "values")
+        elif not isinstance(values, list) or not values or any(v not in names_of(axes[name]) for v in values):
+            table.fault(f"'values' must list some values of the axis '{name}', {names_of(axes[name])}, found {values}",
+                        "values")
         elif study.small:
             axes[name].values = [v for v in axes[name].values if v.name in values]
     table.close()

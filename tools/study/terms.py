@@ -1,5 +1,5 @@
-"""What the table [terms] of a study file says, and what comes of it: each alteration of the shipped case alone, its effect
-measured against the case's own discretisation error. README.md describes the keys."""
+"""What the table [terms] of a study file says, and what comes of it: each alteration of the shipped case alone, its
+effect measured against the case's own discretisation error. README.md describes the keys."""
 
 import math
 from dataclasses import dataclass
@@ -126,12 +126,17 @@ def effects(study, table):
         if row[AXIS] in (SHIPPED, study.terms.discretisation):
             continue
         changes = {q: change(study, table, row, q) for q in study.terms.quantities}
-        in_errors = {q: abs(value) / error[q] if error[q] > 0 else math.nan if value else 0.0 for q, value in changes.items()}
+        in_errors = {q: in_units(value, error[q]) for q, value in changes.items()}
         saved = math.nan if row["cause"] else 1 - row["processor_time"] / shipped["processor_time"]  # it ended early
         effect = Effect(row[AXIS], changes, in_errors, saved, "", row)
         effect.verdict = verdict(effect, noise(row, shipped), row[AXIS] in study.terms.adds)
         found.append(effect)
     return found
+
+
+def in_units(value, error):
+    """nan where there is a change but no error to measure it by."""
+    return abs(value) / error if error > 0 else math.nan if value else 0.0
 
 
 def noise(*rows):

@@ -52,7 +52,7 @@ def run_loop(folder):
 
 
 def repeated(timing, settings, done):
-    """Of the settings those that are to run: a repetition does not if the first run took too long. `done`: key -> record."""
+    """Of the settings those that are to run: no repetition of a run that took too long. `done`: key -> record."""
     slow = [r.setting.values for r in done.values() if r.setting.repetition == 0 and r.elapsed > timing.repeat_below]
     return [s for s in settings if s.repetition == 0 or s.values not in slow]
 
@@ -71,8 +71,11 @@ def figures(records, times):
                       "reference_loop": statistics.median(every) if every else math.nan}
 
 
-def once(timing):
-    return f" (of runs above {timing.repeat_below:g} s one)" if math.isfinite(timing.repeat_below) else ""
+def how_often(timing):
+    if timing.repeat == 1:
+        return "Each setting ran once"
+    spared = f" (runs above {timing.repeat_below:g} s once)" if math.isfinite(timing.repeat_below) else ""
+    return f"Times are medians of {timing.repeat} repetitions{spared}"
 
 
 def sentence(timing, records):
@@ -81,10 +84,11 @@ def sentence(timing, records):
     if not every:
         return ""
     loops = [loop["processor_time"] for loop in every]
-    text = (f"Times are medians of {timing.repeat} repetitions{once(timing)}, one run at a time; beside them the reference loop took "
+    text = (f"{how_often(timing)}, one run at a time; beside them the reference loop took "
             f"{statistics.median(loops):.3f} s of processor time ({min(loops):.3f} to {max(loops):.3f} s).")
     busy = statistics.median(loop["wall_time"] / loop["processor_time"] for loop in every)
     if busy > BUSY:
-        text += (f" Other programs were running: the loop took {busy:.2f} times as long by the clock as by the processor, so "
-                 "wall times say little; processor times, and more so times relative to the loop, are less affected.")
+        text += (f" Other programs were running: the loop took {busy:.2f} times as long by the clock as by the "
+                 "processor, so wall times say little; processor times, and more so times relative to the loop, are less "
+                 "affected.")
     return text

@@ -95,11 +95,14 @@ class Map(Study):
         kinds = {row["verdict"]: row for row in rows}
         self.assertEqual(set(kinds), {"stable", "wrong", "unstable"})
         self.assertEqual(kinds["wrong"]["cause"], "energy is 31, more than 5")
-        self.assertEqual((kinds["unstable"]["cause"], kinds["unstable"]["detected_at[s]"]), ("particle 7 left the domain", "0.5"))
-        for text in ("an edge at 2 of 2 values of stiffness", "Measured over theory (step limit): 0.", "2 columns are not monotone"):
+        unstable = kinds["unstable"]
+        self.assertEqual((unstable["cause"], unstable["detected_at[s]"]), ("particle 7 left the domain", "0.5"))
+        for text in ("an edge at 2 of 2 values of stiffness", "Measured over theory (step limit): 0.",
+                     "2 columns are not monotone"):
             self.assertIn(text, ended.stdout)
         page = (self.out / "study.html").read_text()
-        self.assertIn("<p>An explicit oscillator is stable while the step times its frequency is below 2 &amp; no more.</p>", page)
+        self.assertIn("<p>An explicit oscillator is stable while the step times its frequency is below 2 &amp; no more."
+                      "</p>", page)
         self.assertTrue((self.out / "charts/map.png").is_file())
         starts = len(self.starts())
         self.assertIn(f"{starts} were done before", self.done("--set", "fluid.islands=10").stdout)
@@ -109,8 +112,8 @@ class Map(Study):
         self.assertIn(f"{self.case}/window.toml: no errors; at most", self.done("--check").stdout)
 
     def test_a_run_that_hangs_is_ended_and_told(self):
-        self.write(MAP.replace('keys = ["fluid.step"]', 'keys = ["fluid.hangs"]').replace("stable = 0.1\n", "stable = 0\n", 1)
-                   .replace("grid = [4.0]", "").replace("[1, 16]", "[1]").replace('log = ["x"]', "time_limit = 1.5")
+        self.write(MAP.replace('keys = ["fluid.step"]', 'keys = ["fluid.hangs"]')
+                   .replace("stable = 0.1\n", "stable = 0\n", 1).replace("grid = [4.0]", "").replace("[1, 16]", "[1]").replace('log = ["x"]', "time_limit = 1.5")
                    .replace("unstable = 10\nresolution = 0.4", "unstable = 1\nresolution = 0.9"))
         ended = self.study()
         self.assertEqual(ended.returncode, 1, ended.stderr)

@@ -125,7 +125,8 @@ class Fit(unittest.TestCase):
 
     def test_the_front_holds_what_nothing_beats(self):
         points = self.points((1, 0.5), (2, 0.6), (3, 0.2), (4, 0.2), (5, 0.1), (0.5, 0.9))
-        self.assertEqual([(p.time, p.error) for p in speed_accuracy.front(points)], [(0.5, 0.9), (1, 0.5), (3, 0.2), (5, 0.1)])
+        self.assertEqual([(p.time, p.error) for p in speed_accuracy.front(points)],
+                         [(0.5, 0.9), (1, 0.5), (3, 0.2), (5, 0.1)])
 
     def test_an_error_that_passes_through_zero_is_no_recommendation(self):
         rows = [{"spacing": s} for s in (0.4, 0.2, 0.1)]
@@ -137,8 +138,8 @@ class Fit(unittest.TestCase):
             return speed_accuracy.sentence(chart, study, [speed_accuracy.Line("", points, 1, 1)], 0.1)
 
         self.assertEqual(answer(0.2, 0.09, 0.05), "For an error of 0.1 take spacing 0.2 m: 0.09 in 2 s.")
-        self.assertEqual(answer(0.01, 0.2, 0.05), "For an error of 0.1 take spacing 0.1 m: 0.05 in 3 s. (Cheaper only in passing "
-                                                  "through zero: spacing 0.4 m: 0.01 in 1 s.)")
+        self.assertEqual(answer(0.01, 0.2, 0.05), "For an error of 0.1 take spacing 0.1 m: 0.05 in 3 s. (Cheaper only in "
+                                                  "passing through zero: spacing 0.4 m: 0.01 in 1 s.)")
         self.assertIn("it passes through zero", answer(0.2, 0.01, 0.2))
 
     def test_the_exponent(self):
@@ -158,7 +159,8 @@ class Formulas(unittest.TestCase):
             self.assertTrue(math.isnan(Formula(text, ["x"])(x=0)), text)
 
     def test_nothing_else_is_taken(self):
-        for text in ("x.real", "x[0]", "(lambda: 1)()", "'a'", "x if x else 1", "y", "open(x)", "x +", "True", "sqrt(x=1)", "x // 2"):
+        for text in ("x.real", "x[0]", "(lambda: 1)()", "'a'", "x if x else 1", "y", "open(x)", "x +", "True", "sqrt(x=1)",
+                     "x // 2"):
             with self.assertRaises(BadFormula, msg=text):
                 Formula(text, ["x"])
 
@@ -168,7 +170,8 @@ class Oscillation(unittest.TestCase):
 
     def series(self, loss=0.0, noise=0.0, shift=0.0):
         """Period 0.8 s; the amplitude falls by the share `loss` in each."""
-        return [shift + (1 - loss) ** (t / 0.8) * math.sin(2 * math.pi * t / 0.8) + noise * math.sin(300 * t) for t in self.TIMES]
+        return [shift + (1 - loss) ** (t / 0.8) * math.sin(2 * math.pi * t / 0.8) + noise * math.sin(300 * t)
+                for t in self.TIMES]
 
     def test_period_of_a_shifted_and_noisy_swing(self):
         self.assertAlmostEqual(oscillation.period(self.TIMES, self.series()), 0.8, places=4)
