@@ -6,5 +6,5 @@ from dataclasses import dataclass
 @dataclass
 class Answer:
     title: str
-    sentence: str
+    sentence: str  # or several, a line each
     html: str

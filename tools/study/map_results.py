@@ -65,7 +65,7 @@ def answers(study, table, out):
     hung = [row for row in table.rows if row["verdict"] == verdicts.HANGS]
     if hung:
         sentences.insert(0, f"{len(hung)} of the runs HUNG: {page.setting_text(study, hung[0])}. That is a bug.")
-    return [Answer("Where it fails", " ".join(sentences), "".join(parts))]
+    return [Answer("Where it fails", "\n".join(sentences), "".join(parts))]
 
 
 def counts(table):
@@ -84,11 +84,12 @@ def edge_sentences(study, every):
         text = f"{name}an edge at {len(found)} of {len(mine)} values of {made.x_name.replace('_', ' ')}"
         if edges:
             text += f", {y.axis.name.replace('_', ' ')} {min(edges):.4g} to {max(edges):.4g} {y.axis.unit}".rstrip()
-        sentences.append(text + ".")
+        text += "."
         for theory in [t for t in made.theories if t.edge in (None, edge_of)]:
             ratios = [r for column in found if math.isfinite(r := ratio(column, y, theory))]
             if ratios:
-                sentences.append(f"Measured over theory ({theory.label}): {min(ratios):.3g} to {max(ratios):.3g}.")
+                text += f" Measured over theory ({theory.label}): {min(ratios):.3g} to {max(ratios):.3g}."
+        sentences.append(text)
     odd = [column for column in every if column.against]
     if odd:
         sentences.append(f"{len(odd)} {'column is' if len(odd) == 1 else 'columns are'} not monotone: stable runs lie beyond "
@@ -99,7 +100,8 @@ def edge_sentences(study, every):
 def edge_table(study, every):
     made, y = study.map, study.map.y
     header = [made.x_name.replace("_", " ")] + ([made.edges.replace("_", " ")] if made.edges else [])
-    header += ["last stable", "first failure", "how it fails", "seen at [s]"]
+    unit = f" [{y.axis.unit}]" if y.axis.unit else ""
+    header += [f"last stable{unit}", f"first failure{unit}", "how it fails", "seen at [s]"]
     header += [f"over theory: {t.label}" for t in made.theories] + ["not monotone at"]
     rows = []
     for column in every:

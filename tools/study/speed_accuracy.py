@@ -78,7 +78,7 @@ def answer(chart, study, table):
     sentences = [sentence(chart, study, lines, wanted) for wanted in sorted(chart.wanted, reverse=True)]
     parts = [exponents(lines), front_table(chart, study, front(points)), left_out(chart, study, table, points),
              marks(chart)]
-    return Answer(chart.title, " ".join(sentences) or f"{len(front(points))} settings are on the front.", "".join(parts))
+    return Answer(chart.title, "\n".join(sentences) or f"{len(front(points))} settings are on the front.", "".join(parts))
 
 
 def in_words(value, unit):

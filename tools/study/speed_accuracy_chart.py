@@ -55,8 +55,8 @@ def draw_marks(panel, chart, factor):
     for mark in chart.marks:
         if mark.time is None:
             panel.axhline(mark.value, color=drawing.PALETTE["soft"], linewidth=1, linestyle=(0, (4, 3)), zorder=0)
-            panel.annotate(mark.label, (0.995, mark.value), xycoords=("axes fraction", "data"), ha="right", va="bottom",
-                           fontsize=7.5, color=drawing.PALETTE["soft"])
+            panel.annotate(mark.label, (0.995, mark.value), xycoords=("axes fraction", "data"), xytext=(0, 2),
+                           textcoords="offset points", ha="right", va="bottom", fontsize=7.5, color=drawing.PALETTE["soft"])
         else:
             panel.plot([mark.time * factor], [mark.value], "*", color=drawing.PALETTE["ink"], markersize=9, zorder=4)
             panel.annotate(mark.label, (mark.time * factor, mark.value), xytext=(6, 4), textcoords="offset points",

@@ -62,7 +62,7 @@ def sentence(effects):
                               []).append(effect.name + saved)
     order = ["can be left out", terms.NEEDED, terms.FREE]
     ranked = sorted(by_verdict.items(), key=lambda item: order.index(item[0]) if item[0] in order else len(order))
-    return " ".join(f"{words[0].upper()}{words[1:]}: {', '.join(names)}." for words, names in ranked)
+    return "\n".join(f"{words[0].upper()}{words[1:]}: {', '.join(names)}." for words, names in ranked)
 
 
 def shown(value, unit):

@@ -61,7 +61,7 @@ class Terms(Study):
         self.assertEqual([row[name] for name in ("change_end[m/s]", "discretisation_error_end[m/s]", "end_in_errors")],
                          ["1", "0.4", "2.5"])
         self.assertEqual((row["curve_in_errors"], row["time_saved"]), ("2.5", "0.2"))
-        self.assertIn("Can be left out: no drag (20 % of the time). Needed: no gravity, no walls.", ended.stdout)
+        self.assertIn("Can be left out: no drag (20 % of the time).\nNeeded: no gravity, no walls.\n", ended.stdout)
         table = (self.out / "table.md").read_text().splitlines()
         self.assertEqual(table[2], "| no drag | +100 mm/s | 0.25 | +0.0143 | 0.25 | 20 | below discretisation error: can "
                                    "be left out |")
