@@ -1,9 +1,11 @@
 /// Rubber (Yeoh 1993), with the change of volume split off and the volumetric energy of Simo & Taylor (1982),
 /// in plane strain:
 ///
-///     psi = sum_k c_k0 (I - 3)^k + alpha/beta (1 - exp(-beta (I - 3))) + K/4 (J^2 - 1 - 2 ln J),   k = 1, 2,
-///     3 I = J^(-2/3) I_1, I_1 = tr(F^T F) P = 2 psi' J^(-2/3) (F - I_1/3 F^-T) + K/2 (J^2 - 1) F^-T psi' =
-///     c_10 + 2 c_20 (I - 3) + 3 c_30 (I - 3)^2 + alpha exp(-beta (I - 3))
+///     psi = sum_k c_k0 (I - 3)^k + alpha/beta (1 - exp(-beta (I - 3))) + K/4 (J^2 - 1 - 2 ln J)
+///     P = 2 psi' J^(-2/3) (F - I_1/3 F^-T) + K/2 (J^2 - 1) F^-T
+///     psi' = c_10 + 2 c_20 (I - 3) + 3 c_30 (I - 3)^2 + alpha exp(-beta (I - 3))
+///
+/// with k = 1, 2, 3, I = J^(-2/3) I_1 and I_1 = tr(F^T F).
 ///
 /// For small strains Hooke's law with G = 2 (c_10 + alpha) and the bulk modulus K. Filled rubber has
 /// c_20 < 0 < c_30: the modulus falls with the strain and rises again when the chains are drawn out; alpha is

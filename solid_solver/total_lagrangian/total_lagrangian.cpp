@@ -9,8 +9,8 @@ namespace toryu {
 TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
       law_(law_of(parameters)),
-      penalty_(parameters.hourglass ? parameters.hourglass->coefficient * parameters.material.youngs_modulus
-                                    : 0.0) {
+      penalty_(parameters.hourglass ? parameters.hourglass->stiffness(parameters.material) : 0.0),
+      held_factor_(parameters.hourglass ? parameters.hourglass->held_factor : 1.0) {
   const std::size_t size = padded(particle_count());
   volume_.resize(size);
   for (std::size_t k = 0; k < size; ++k)
@@ -95,8 +95,9 @@ void TotalLagrangian::find_stresses() {
           pairs_->displacement_gradient(u_, c, H);
           if (!all_of(volume_change(H) > -1.0)) look_for_inverted(H, i);
           const Tensor<Lanes> T = product(law.stress(H), pairs_->shape(c));
+          const Lanes factor = held_factor_ + (1.0 - held_factor_) * load(mobile_, i);
           store(H, H_, i);
-          for (std::size_t n = 0; n < H.size(); ++n) store(T[n] - 0.5 * penalty_ * H[n], T_[n], i);
+          for (std::size_t n = 0; n < H.size(); ++n) store(factor * T[n] - 0.5 * penalty_ * H[n], T_[n], i);
         }
       },
       law_);
@@ -242,7 +243,9 @@ std::vector<Observation> TotalLagrangian::internal_energies() const {
     const Lanes unseen = pairs_->unseen_motion(u_, H_, c);
     for (std::size_t lane = 0; lane < lane_count && c * lane_count + lane < particle_count(); ++lane) {
       const std::size_t k = c * lane_count + lane;
-      elastic += volume_[k] * std::visit([&](const auto& law) { return law.energy(gradient(k)); }, law_);
+      const double factor = mobile_[k] > 0 ? 1.0 : held_factor_;
+      elastic +=
+          factor * volume_[k] * std::visit([&](const auto& law) { return law.energy(gradient(k)); }, law_);
       penalty += volume_[k] * 0.25 * penalty_ * unseen[lane];
     }
   }
@@ -258,9 +261,10 @@ std::vector<ActiveTerm> TotalLagrangian::active_terms() const {
   terms.push_back(active_law(parameters_));
   if (parameters_.hourglass)
     terms.push_back({"hourglass penalty",
-                     "f_i = -(alpha E/2) V_i sum_j V_j k_ij (2 x_ij - (F_i + F_j) X_ij), k_ij = -W'/R_ij",
+                     "f_i = -(k/2) V_i sum_j V_j w_ij (2 x_ij - (F_i + F_j) X_ij), w_ij = -W'/R_ij",
                      "after Ganzenmueller 2015",
-                     fmt::format("alpha {:g}", parameters_.hourglass->coefficient)});
+                     fmt::format("alpha {:g}: k {:.4g} Pa; stress of held particles times {:g}",
+                                 parameters_.hourglass->coefficient, penalty_, held_factor_)});
   for (auto& term : SolidModel::active_terms()) terms.push_back(std::move(term));
   return terms;
 }

@@ -53,9 +53,10 @@ class TotalLagrangian final : public SolidModel {
   Field volume_;
   std::unique_ptr<ReferencePairs> pairs_;
   Law law_;
-  double penalty_;                ///< alpha E [Pa]
+  double penalty_;                ///< k of the hourglass penalty [Pa]
+  double held_factor_;            ///< of the stress of held particles
   Tensor<Field> H_;               ///< displacement gradient
-  Tensor<Field> T_;               ///< P L - (alpha E/2) H: what a particle brings to the pairs [Pa]
+  Tensor<Field> T_;               ///< P L - (k/2) H: what a particle brings to the pairs [Pa]
   VecField x_;                    ///< present positions, if walls or other bodies act on the solid [m]
   double highest_frequency_ = 0;  ///< of the unloaded body [1/s]
   /// The first particle whose volume was no longer positive, looked for in every step.

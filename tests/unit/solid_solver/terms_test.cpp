@@ -6,6 +6,7 @@
 #include "solid_solver/terms/artificial_stress.hpp"
 #include "solid_solver/terms/artificial_viscosity.hpp"
 #include "solid_solver/terms/hookes_law.hpp"
+#include "solid_solver/terms/hourglass_penalty.hpp"
 
 namespace toryu {
 namespace {
@@ -37,6 +38,13 @@ TEST(ArtificialStress, HandlesEqualPrincipalStresses) {
   const auto compressed = artificial_stress({-2.0, -1.0, 0.5}, 1.0, 0.3);
   EXPECT_EQ(compressed.xx[0], 0.0);
   EXPECT_EQ(compressed.yy[0], 0.0);
+}
+
+TEST(HourglassPenalty, StiffnessFollowsPoissonsRatioAsBendingDoes) {
+  const HourglassPenalty penalty{.coefficient = 2.0};
+  EXPECT_DOUBLE_EQ(penalty.stiffness({1000, 3e6, 0.0}), 6e6) << "alpha E";
+  // nu = 1/3: n = 1/2, E/(1 - nu^2) = 9/8 E, 7 + 1 + 3/4 = 35/4
+  EXPECT_NEAR(penalty.stiffness({1000, 3e6, 1.0 / 3.0}) / (6e6 * 9 / 8 * 7 * 4 / 35), 1.0, 1e-14);
 }
 
 class HookesLawTest : public testing::Test {
