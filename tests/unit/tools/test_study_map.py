@@ -109,7 +109,6 @@ class Map(Study):
         self.assertEqual(len(self.starts()), starts)
         listed = self.done("--set", "fluid.islands=10", "--list").stdout.splitlines()
         self.assertEqual(len(listed), starts + 1)
-        self.assertIn(f"{self.case}/window.toml: no errors; at most", self.done("--check").stdout)
 
     def test_a_run_that_hangs_is_ended_and_told(self):
         self.write(MAP.replace('keys = ["fluid.step"]', 'keys = ["fluid.hangs"]')
@@ -122,7 +121,7 @@ class Map(Study):
         self.assertIn("hung: a bug", (self.out / "study.html").read_text())
 
     def test_choices_have_an_edge_each_and_small_is_small(self):
-        self.write(MAP.replace('log = ["x"]', 'edges = "model"') + """
+        self.write(MAP.replace('log = ["x"]', 'edges = "model"').replace("grid = [4.0]", "") + """
 [[axis]]
 name = "model"
 [[axis.choice]]
