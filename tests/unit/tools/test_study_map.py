@@ -104,11 +104,8 @@ class Map(Study):
         self.assertIn("<p>An explicit oscillator is stable while the step times its frequency is below 2 &amp; no more."
                       "</p>", page)
         self.assertTrue((self.out / "charts/map.png").is_file())
-        starts = len(self.starts())
-        self.assertIn(f"{starts} were done before", self.done("--set", "fluid.islands=10").stdout)
-        self.assertEqual(len(self.starts()), starts)
-        listed = self.done("--set", "fluid.islands=10", "--list").stdout.splitlines()
-        self.assertEqual(len(listed), starts + 1)
+        listed = self.done("--set", "fluid.islands=10", "--list").stdout  # nothing is left to do
+        self.assertEqual((len(listed.splitlines()), listed.count("to do")), (len(self.starts()) + 1, 0))
 
     def test_a_run_that_hangs_is_ended_and_told(self):
         self.write(MAP.replace('keys = ["fluid.step"]', 'keys = ["fluid.hangs"]')
