@@ -9,6 +9,7 @@
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
 #include "solid_solver/detached_list.hpp"
+#include "solid_solver/guards.hpp"
 #include "solid_solver/make_model.hpp"
 
 namespace {
@@ -109,6 +110,7 @@ ExitCode solve(const Options& options) {
   omp_set_num_threads(thread_count(options, body.size(), particles_per_thread));
   const auto model = make_model(parameters, body, scene);
   check_start(*model, "[solid]");
+  for (const auto& beyond : beyond_edges(parameters)) spdlog::warn("{}", beyond);
   if (options.check) return ExitCode::done;
   spdlog::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
   if (!file.has("fluid")) {

@@ -81,7 +81,7 @@ void describe(ParameterTable& table, SolidParameters& p) {
   table.number(
       "courant_number", p.courant_number,
       {.minimum = 0,
-       .maximum = 1,
+       .maximum = 4,
        .above_minimum = true,
        .help = "updated Lagrangian: acoustic limit of the time step, times h/(c_L + |v|); artificial "
                "viscosity bears more than 0.25"});

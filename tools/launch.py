@@ -85,12 +85,15 @@ def complain(text):
     return BAD_INPUT
 
 
-def check(commands):
-    """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file."""
+def check(commands, show_warnings):
+    """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file. A run
+    that follows gives the warnings itself."""
     errors, others = set(), []
     for name, command in commands.items():
         done = subprocess.run([*command, "--check"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
         if done.returncode == DONE:
+            if show_warnings and done.stderr:
+                print(done.stderr, end="", file=sys.stderr)
             continue
         lines = (done.stdout + done.stderr).splitlines()
         if done.returncode == BAD_INPUT:
@@ -163,7 +166,7 @@ def main(arguments):
         return describe(commands)
     # A program that takes a solver's place checks its own input when it starts.
     own = {name: command for name, command in commands.items() if pathlib.Path(command[0]).parent == options.bin}
-    if code := check(own):
+    if code := check(own, show_warnings=options.check):
         return code
     if options.check:
         print(f"{results.case_file(options.case)}: no errors")

@@ -8,7 +8,8 @@ import results
 
 def of_run(case, out):
     summaries = results.read_summaries(out)
-    lines = [*displacements(out), *distances(case, out), *times(summaries), *coupling(summaries)]
+    lines = [*displacements(out), *distances(case, out), *failed_bonds(summaries), *times(summaries),
+             *coupling(summaries)]
     width = max((len(label) for label, _ in lines), default=0)
     return "\n".join(f"{label:{width}}  {text}" for label, text in lines)
 
@@ -30,6 +31,14 @@ def distances(case, out):
         return [("references", f"cannot be read: {error!r}")]
     return [(f"distance in {c.quantity}", f"{100 * c.distance:.1f} % of the peak of '{c.label}' (root mean square)")
             for c in comparisons if math.isfinite(c.distance)]
+
+
+def failed_bonds(summaries):
+    """Whether a solid tore or its particles clumped, which no other figure may show."""
+    figures = summaries.get("solid", {}).get("figures", {})
+    for key, words in {"torn_bonds": "torn", "clumped_bonds": "clumped"}.items():
+        if (number := figures.get(key, 0)) > 0:
+            yield "WARNING", f"the solid has {words}: up to {number:.0f} pairs of adjacent particles; see log.txt"
 
 
 def times(summaries):

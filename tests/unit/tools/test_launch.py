@@ -155,6 +155,11 @@ class BadInput(Launch):
         self.assertEqual((done.returncode, done.stdout), (0, f"{self.case}/case.toml: no errors\n"))
         self.assertEqual(self.pids(), [])
 
+    def test_check_alone_shows_warnings(self):
+        self.plan(solid="check_fails 0 solid_solver: warning: beyond an edge")
+        self.assertEqual(self.launch("--check").stderr, "solid_solver: warning: beyond an edge\n")
+        self.assertNotIn("beyond an edge", self.launch().stderr)  # the run itself would say it
+
     def test_a_check_that_crashes_is_a_bug(self):
         self.plan(solid="check_fails 1 terrible")
         done = self.launch()

@@ -81,6 +81,16 @@ class Files(unittest.TestCase):
         share = math.sqrt(sum((0.1 * x) ** 2 for x in path) / 10) / (1.1 * measured_peak)
         self.assertIn(f"{100 * share:.1f} % of the peak of 'Somebody 2007'", text)
         self.assertIn("61.5 s, 23 % of it waiting", text)
+        self.assertNotIn("WARNING", text)
+
+    def test_the_summary_warns_of_a_solid_that_has_torn(self):
+        made_up_run.make_results(self.out, frames=2)
+        summary = self.out / "solid_summary.toml"
+        summary.write_text(summary.read_text().replace(
+            "[figures]\n", '[figures]\n"torn_bonds" = 16.0\n"clumped_bonds" = 0.0\n'))
+        text = summary_text.of_run(self.case, self.out)
+        self.assertRegex(text, r"WARNING +the solid has torn: up to 16 pairs of adjacent particles; see log.txt")
+        self.assertNotIn("clumped", text)
 
     def test_a_run_that_left_nothing_has_an_empty_summary(self):
         self.assertEqual(summary_text.of_run(self.case, self.out), "")

@@ -1,0 +1,55 @@
+#include "solid_solver/guards.hpp"
+
+#include <gmock/gmock.h>
+
+#include "samples.hpp"
+
+namespace toryu {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+SolidParameters updated(double epsilon, double alpha) {
+  SolidParameters p = free_plate(4);
+  p.formulation = Formulation::updated_lagrangian;
+  p.artificial_stress = ArtificialStress{.epsilon = epsilon};
+  p.artificial_viscosity = ArtificialViscosity{.alpha = alpha};
+  return p;
+}
+
+TEST(Guards, LeaveTheMiddleAndTheOtherFormulationAlone) {
+  EXPECT_THAT(beyond_edges(updated(0.3, 1.0)), ElementsAre());
+  EXPECT_THAT(beyond_edges(free_plate(4)), ElementsAre());
+}
+
+TEST(Guards, NameTheMapBeyondWhoseEdgeACaseLies) {
+  EXPECT_THAT(beyond_edges(updated(0.1, 1.0)),
+              ElementsAre(HasSubstr("cases/stretched_bar/tensile_map.toml")));
+  EXPECT_THAT(beyond_edges(updated(0.7, 1.0)),
+              ElementsAre(HasSubstr("cases/stretched_bar/tensile_window_map.toml")));
+  SolidParameters p = updated(0.3, 1.0);
+  p.artificial_stress.reset();
+  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("epsilon 0 is below the 0.18 that")));
+  p = updated(0.3, 0.2);
+  p.courant_number = 1.0;
+  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("cases/oscillating_plate/time_step_map.toml")));
+  p.integrator = Integrator::symplectic;
+  EXPECT_THAT(beyond_edges(p), ElementsAre());
+  p.courant_number = 2.4;
+  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("is 1.92, beyond the edge of stability at 1.87")));
+  p = updated(0.3, 1.0);
+  p.artificial_viscosity.reset();
+  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("midpoint steps amplify")));
+}
+
+TEST(ArtificialStress, MustOutweighWhatTensionDrivesInALattice) {
+  // From sums over the lattice by another program.
+  EXPECT_NEAR(least_epsilon(1.3, 4, 0.0), 0.150, 1e-3);
+  EXPECT_NEAR(least_epsilon(1.3, 4), 0.185, 1e-3);
+  EXPECT_NEAR(least_epsilon(1.2, 2), 0.320, 1e-3);
+  EXPECT_NEAR(least_epsilon(1.5, 6), 0.063, 1e-3);
+}
+
+}  // namespace
+}  // namespace toryu
