@@ -9,6 +9,7 @@ import shutil
 import subprocess
 
 import results
+import timing
 from document import BadStudy
 from processes import DONE
 
@@ -25,6 +26,8 @@ def programs(study, bin_folder):
     for name in names:
         if not shutil.which(bin_folder / name):
             raise BadStudy(f"{bin_folder / name}: error: no such program, needed as {name}")
+    if study.timing and not shutil.which(bin_folder / timing.PROGRAM):
+        raise BadStudy(f"{bin_folder / timing.PROGRAM}: error: no such program, needed by [timing]")
     return [bin_folder / name for name in names]
 
 

@@ -47,8 +47,7 @@ def run_loop(folder):
         done = subprocess.run([program], capture_output=True, text=True, stdin=subprocess.DEVNULL)
         return Loop(*map(float, done.stdout.split()))
     except (OSError, ValueError, TypeError):
-        raise BadStudy(f"{program}: error: the reference loop, which a study with [timing] needs, cannot be run; build it "
-                       "with the programs") from None
+        raise BadStudy(f"{program}: error: the reference loop, needed by [timing], cannot be run") from None
 
 
 def repeated(timing, settings, done):

@@ -119,6 +119,14 @@ class SpeedAgainstAccuracy(Study):
             "'along' must be one of 'spacing', 'scheme', found 'spacng'; did you mean 'spacing'?"])
 
 
+    def test_without_the_reference_loop_nothing_runs(self):
+        self.write(SPEED.replace("keys = []\n", 'keys = ["fluid.y"]\n'))
+        (self.bin / "reference_loop").unlink()
+        ended = self.study()
+        self.assertEqual((ended.returncode, ended.stderr, self.starts()), (
+            2, f"{self.bin}/reference_loop: error: no such program, needed by [timing]\n", []))
+
+
 class Fit(unittest.TestCase):
     def points(self, *pairs):
         return [speed_accuracy.Point(t, e, {}) for t, e in pairs]
