@@ -7,7 +7,6 @@ import argparse
 import math
 import os
 import pathlib
-import subprocess
 import sys
 import time
 
@@ -21,7 +20,6 @@ import checks  # noqa: E402
 import map_file  # noqa: E402
 import page  # noqa: E402
 import removal  # noqa: E402
-import results  # noqa: E402
 import runner  # noqa: E402
 import study_file  # noqa: E402
 import table  # noqa: E402

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import metrics
 import results
-from processes import BAD_INPUT, DONE, PHYSICS_FAILED
+from processes import BAD_INPUT, PHYSICS_FAILED
 from runner import HUNG
 
 STABLE, UNSTABLE, WRONG, REFUSED, HANGS = "stable", "unstable", "wrong", "refused", "hung"
