@@ -1,9 +1,12 @@
 #include "coupler/coupled_run.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "common/run/failure.hpp"
 
 namespace toryu {
 
@@ -27,13 +30,13 @@ CoupledRun::CoupledRun(Settings settings, CouplerLink& link)
       series_due_(settings_.series_interval) {}
 
 void CoupledRun::run(const CouplerLink::Start& start) {
-  motion_ = start.motion;
-  time_step_limit_ = start.time_step_limit;
+  scheme_ = make_scheme(settings_.coupling, link_, start);
+  time_step_limit_ = start.traits.time_step_limit;
   particles_ = start.interface.size();
   series_.emplace(settings_.out, "coupler");
   if (settings_.frame_interval > 0) {
     record_.emplace(settings_.out, start.interface);
-    record_->write(0, motion_, {});
+    record_->write(0, start.motion, {});
   }
   Progress progress(settings_.end_time, "window");
   while (time_ < settings_.end_time) {
@@ -42,80 +45,96 @@ void CoupledRun::run(const CouplerLink::Start& start) {
   }
 }
 
-/// The load that the case lets the solid feel.
-InterfaceLoad CoupledRun::felt(const InterfaceLoad& given) const {
-  InterfaceLoad load = given;
-  if (!settings_.coupling.feels("pressure_and_viscous")) std::fill(load.force.begin(), load.force.end(), 0.0);
-  if (!settings_.coupling.feels("friction")) load.friction_force.clear();
-  return load;
-}
-
 void CoupledRun::advance() {
   using Clock = std::chrono::steady_clock;
   const double left = settings_.end_time - time_;
   const double dt = window_length(left, settings_.coupling.fluid_steps_per_window, time_step_limit_);
   window_ = {.number = window_.number + 1, .iteration = 0, .time = time_, .dt = dt};
   const auto start = Clock::now();
-  const auto fluid = [&] {
-    const auto scope = timers_.measure("fluid's turn");
-    return link_.ask_fluid(window_, motion_);
-  }();
-  const InterfaceLoad load = felt(fluid.load);
-  const auto solid = [&] {
-    const auto scope = timers_.measure("solid's turn");
-    return link_.ask_solid(window_, load);
+  const Exchange done = [&] {
+    const auto scope = timers_.measure("turns of the participants");
+    return scheme_->compute(window_);
   }();
   const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
 
   const auto scope = timers_.measure("audit and record");
-  motion_ = solid.motion;
-  time_step_limit_ = fluid.time_step_limit;
+  time_step_limit_ = done.fluid.time_step_limit;
   time_ = dt == left ? settings_.end_time : time_ + dt;
   smallest_window_ = window_.number == 1 ? dt : std::min(smallest_window_, dt);
   largest_window_ = std::max(largest_window_, dt);
-
-  const double error = audit_.compare(fluid.load, load, solid.impulse_taken, dt);
-  if (!(error <= ExchangeAudit::tolerance) && !warned_) {
-    spdlog::warn(
-        "window {}: impulse given and taken differ by {:.3g} of the sum of the forces; the largest "
-        "difference of the run is in the summary",
-        window_.number, error);
-    warned_ = true;
-  }
-  round_trips_.push_back(elapsed - fluid.health.compute_time - solid.health.compute_time);
-  fluid_compute_ += fluid.health.compute_time;
-  solid_compute_ += solid.health.compute_time;
-  ++row_.windows;
-  row_.round_trip += round_trips_.back();
-  row_.fluid_compute += fluid.health.compute_time;
-  row_.solid_compute += solid.health.compute_time;
-  row_.impulse_error = std::max(row_.impulse_error, error);
-  if (series_due_.at(time_)) write_series(load, fluid, solid);
-  if (record_ && frame_due_.at(time_)) record_->write(time_, motion_, load);
+  note_convergence(done);
+  note_times(done, elapsed);
+  audit(done);
+  if (series_due_.at(time_)) write_series(done);
+  if (record_ && frame_due_.at(time_)) record_->write(time_, done.solid.motion, done.felt);
 }
 
-void CoupledRun::write_series(const InterfaceLoad& load, const CouplerLink::FluidAnswer& fluid,
-                              const CouplerLink::SolidAnswer& solid) {
-  const Vec force = sum_of(load.force) + sum_of(load.friction_force);
+void CoupledRun::audit(const Exchange& done) {
+  const double error = audit_.compare(done.fluid.load, done.felt, done.solid.impulse_taken, window_.dt);
+  row_.impulse_error = std::max(row_.impulse_error, error);
+  if (error <= ExchangeAudit::tolerance || warned_) return;
+  spdlog::warn(
+      "window {}: impulse given and taken differ by {:.3g} of the sum of the forces; the largest difference "
+      "of "
+      "the run is in the summary",
+      window_.number, error);
+  warned_ = true;
+}
+
+void CoupledRun::note_times(const Exchange& done, double elapsed) {
+  round_trips_.push_back(elapsed - done.compute);
+  fluid_compute_ += done.fluid_compute;
+  solid_compute_ += done.solid_compute;
+  ++row_.windows;
+  row_.round_trip += round_trips_.back();
+  row_.fluid_compute += done.fluid_compute;
+  row_.solid_compute += done.solid_compute;
+}
+
+void CoupledRun::note_convergence(const Exchange& done) {
+  iterations_ += done.iterations;
+  row_.iterations = std::max(row_.iterations, done.iterations);
+  row_.residual = std::max(row_.residual, done.residual);
+  unconverged_in_a_row_ = done.converged ? 0 : unconverged_in_a_row_ + 1;
+  if (done.converged) return;
+  if (unconverged_++ == 0)
+    spdlog::warn(
+        "window {}: not converged after {} iterations, residual {:.3g}; the summary counts such windows",
+        window_.number, done.iterations, done.residual);
+  if (unconverged_in_a_row_ < settings_.coupling.implicit->unconverged_windows_to_stop) return;
+  throw PhysicsFailure(fmt::format(
+      "coupling: {} windows in a row have not converged in {} iterations each, the last at t = {:.6g} s with "
+      "a "
+      "residual of {:.3g} (tolerance {:.3g})",
+      unconverged_in_a_row_, done.iterations, time_, done.residual, settings_.coupling.implicit->tolerance));
+}
+
+void CoupledRun::write_series(const Exchange& done) {
+  const Vec force = sum_of(done.felt.force) + sum_of(done.felt.friction_force);
   const double windows = row_.windows;
-  series_->write(time_, {{"dt", "s", window_.dt},
-                         {"window", "1", static_cast<double>(window_.number)},
-                         {"round_trip", "s", row_.round_trip / windows},
-                         {"fluid_compute", "s", row_.fluid_compute / windows},
-                         {"solid_compute", "s", row_.solid_compute / windows},
-                         {"impulse_error", "1", row_.impulse_error},
-                         {"interface_force_x", "N/m", force.x()},
-                         {"interface_force_y", "N/m", force.y()},
-                         {"fluid_kinetic_energy", "J/m", fluid.health.kinetic_energy},
-                         {"fluid_potential_energy", "J/m", fluid.health.potential_energy},
-                         {"solid_kinetic_energy", "J/m", solid.health.kinetic_energy},
-                         {"solid_potential_energy", "J/m", solid.health.potential_energy}});
+  std::vector<Observation> row{{"dt", "s", window_.dt},
+                               {"window", "1", static_cast<double>(window_.number)},
+                               {"round_trip", "s", row_.round_trip / windows},
+                               {"fluid_compute", "s", row_.fluid_compute / windows},
+                               {"solid_compute", "s", row_.solid_compute / windows},
+                               {"impulse_error", "1", row_.impulse_error},
+                               {"interface_force_x", "N/m", force.x()},
+                               {"interface_force_y", "N/m", force.y()},
+                               {"fluid_kinetic_energy", "J/m", done.fluid.health.kinetic_energy},
+                               {"fluid_potential_energy", "J/m", done.fluid.health.potential_energy},
+                               {"solid_kinetic_energy", "J/m", done.solid.health.kinetic_energy},
+                               {"solid_potential_energy", "J/m", done.solid.health.potential_energy}};
+  if (settings_.coupling.windows_repeat()) {
+    row.push_back({"iterations", "1", static_cast<double>(row_.iterations)});
+    row.push_back({"residual", "1", row_.residual});
+  }
+  series_->write(time_, row);
   row_ = {};
 }
 
 void CoupledRun::report(Summary& summary) const {
   summary.simulated_time = time_;
-  summary.waiting_time = timers_.seconds("fluid's turn") + timers_.seconds("solid's turn");
+  summary.waiting_time = timers_.seconds("turns of the participants");
   summary.steps = static_cast<long>(round_trips_.size());
   summary.smallest_time_step = smallest_window_;
   summary.largest_time_step = largest_window_;
@@ -134,6 +153,9 @@ void CoupledRun::report(Summary& summary) const {
                      {"round_trip_share", total / summary.wall_time},
                      {"fluid_compute_total", fluid_compute_},
                      {"solid_compute_total", solid_compute_}};
+  if (!settings_.coupling.windows_repeat()) return;
+  summary.figures.emplace_back("iterations", static_cast<double>(iterations_));
+  summary.figures.emplace_back("unconverged_windows", static_cast<double>(unconverged_));
 }
 
 }  // namespace toryu

@@ -1,6 +1,5 @@
-/// The schedule of a coupled run, serial explicit: in each window first the fluid steps with the motion that
-/// the solid had at its start, then the solid steps under the load that this gave. Both answers are checked
-/// and recorded before the next window is granted.
+/// A coupled run, window after window: each is computed as the scheme of the case says (schemes.hpp), then
+/// audited and recorded.
 #pragma once
 
 #include <optional>
@@ -12,6 +11,7 @@
 #include "coupler/exchange_audit.hpp"
 #include "coupler/interface_record.hpp"
 #include "coupler/parameters.hpp"
+#include "coupler/schemes.hpp"
 
 namespace toryu {
 
@@ -46,13 +46,14 @@ class CoupledRun {
 
  private:
   void advance();
-  InterfaceLoad felt(const InterfaceLoad& given) const;
-  void write_series(const InterfaceLoad& load, const CouplerLink::FluidAnswer& fluid,
-                    const CouplerLink::SolidAnswer& solid);
+  void audit(const Exchange& done);
+  void note_times(const Exchange& done, double elapsed);
+  void note_convergence(const Exchange& done);
+  void write_series(const Exchange& done);
 
   Settings settings_;
   CouplerLink& link_;
-  InterfaceMotion motion_;
+  std::unique_ptr<Scheme> scheme_;
   double time_ = 0, time_step_limit_ = 0;  // [s]
   Window window_;
   ExchangeAudit audit_;
@@ -61,6 +62,8 @@ class CoupledRun {
   std::vector<double> round_trips_;                  // one a window [s]
   double fluid_compute_ = 0, solid_compute_ = 0;     // [s], sums over the run
   double smallest_window_ = 0, largest_window_ = 0;  // [s]
+  long iterations_ = 0, unconverged_ = 0;            // sum over the windows; windows
+  int unconverged_in_a_row_ = 0;
 
   std::optional<InterfaceRecord> record_;
   std::optional<SeriesWriter> series_;
@@ -71,7 +74,8 @@ class CoupledRun {
   struct Row {
     int windows = 0;
     double round_trip = 0, fluid_compute = 0, solid_compute = 0;  // [s], sums
-    double impulse_error = 0;                                     // largest
+    double impulse_error = 0, residual = 0;                       // largest
+    int iterations = 0;                                           // largest
   } row_;
 };
 

@@ -50,7 +50,7 @@ void run_windows(const Options& options, const CaseFile& file, const CoupledRun:
     write_summary(options.out, summary);
   };
   try {
-    const auto gathered = link.gather();
+    const auto gathered = link.gather(settings.coupling.windows_repeat());
     write_atomically(options.out / "used_case.toml",
                      merge_used_cases({file.used(), gathered.fluid.used_case, gathered.solid.used_case}));
     run.run(gathered);

@@ -1,6 +1,7 @@
 /// The section `[coupling]` of a case.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,33 @@
 
 namespace toryu {
 
+/// In which order both sides compute a window: see schemes.hpp.
+enum class CouplingScheme { serial_explicit, parallel_explicit, serial_implicit };
+
+/// How an iteration gets to its next guess: see relaxation.hpp.
+enum class RelaxationKind { fixed, aitken, quasi_newton };
+
+/// `[coupling.implicit]`
+struct ImplicitParameters {
+  RelaxationKind relaxation = RelaxationKind::aitken;
+  double relaxation_factor = 0.5;    ///< fixed: of each step, else of the first one of the run
+  double tolerance = 1e-3;           ///< of the residual over the interface's displacement in a window
+  int largest_iteration_count = 20;  ///< in a window
+  int remembered_windows = 8;        ///< whose differences quasi-Newton uses beside those of the present one
+  int unconverged_windows_to_stop = 5;  ///< in a row
+};
+void describe(ParameterTable& table, ImplicitParameters& p);
+
 struct CouplingParameters {
+  CouplingScheme scheme = CouplingScheme::serial_explicit;
+  std::optional<ImplicitParameters> implicit;
+  int extrapolation_order = 0;  ///< of the interface's motion: see forecast.hpp
   int fluid_steps_per_window = 1;
   double time_limit = 30;  ///< [s]
   std::vector<std::string> loads = {"pressure_and_viscous", "friction"};
 
   bool feels(const std::string& load) const;
+  bool windows_repeat() const { return scheme == CouplingScheme::serial_implicit; }
 };
 void describe(ParameterTable& table, CouplingParameters& p);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/run/remember.hpp"
 #include "fluid_solver/taken_places.hpp"
 #include "fluid_solver/work_piece.hpp"
 
@@ -237,6 +238,12 @@ void FluidSolver::advance(double dt) {
   time_ += dt;
   move_boundaries(time_);
   note_extremes();
+}
+
+/// All that a step changes. The lists are among it: what is summed in another order rounds otherwise.
+void FluidSolver::save() {
+  restore_ = remember(fluid_, boundaries_, neighbours_, given_, impulses_, gravity_impulse_, surface_record_,
+                      interface_, time_, largest_);
 }
 
 void FluidSolver::note_surface(double dt) {

@@ -29,6 +29,8 @@ class FluidSolver : public Solver {
   std::string_view time_step_rule() const override;
   /// Midpoint step (31)-(32): two evaluations.
   void advance(double dt) override;
+  void save() override;
+  void restore() override { restore_(); }
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;
@@ -43,6 +45,9 @@ class FluidSolver : public Solver {
   // the coupled run's side
   /// How far the kernel sees [m].
   double reach() const { return dynamics_.kernel().support(); }
+  FluidTraits traits() const {
+    return {reach(), time_step_limit(), parameters_.density, parameters_.sound_speed, parameters_.spacing};
+  }
   void attach(const Interface& interface);
   void begin_window(const InterfaceMotion& motion, double dt);
   InterfaceLoad take_load() { return interface_.take_load(); }
@@ -91,6 +96,7 @@ class FluidSolver : public Solver {
   double time_ = 0;
   Extremes largest_;
   Timers timers_;
+  std::function<void()> restore_;  ///< what `save` kept
 };
 
 }  // namespace toryu::fluid

@@ -35,15 +35,14 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
 
 /// Takes turns with the solid until the coupler ends the run.
 void take_turns(FluidLink& link, FluidSolver& solver, RunRecord& record) {
-  record.at(0);
-  while (const auto turn = link.next_window()) {
-    solver.begin_window(turn->motion, turn->dt);
-    advance_window(solver, record, turn->time, turn->dt, 1, [&](const SubSteps&) { link.count_step(); });
+  take_windows(link, solver, record, [&](const FluidLink::Turn& turn) {
+    solver.begin_window(turn.motion, turn.dt);
+    advance_window(solver, record, turn.time, turn.dt, 1, [&](const SubSteps&) { link.count_step(); });
     link.send(solver.take_load(), solver.time_step_limit(),
               {.kinetic_energy = solver.kinetic_energy(),
                .potential_energy = solver.potential_energy(),
                .momentum = solver.momentum()});
-  }
+  });
 }
 
 void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
@@ -51,9 +50,10 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .version = provenance(1).version,
                   .out = options.out,
                   .case_hash = file.hash(),
+                  .can_repeat = true,
                   .used_case = file.used()});
   try {
-    const Interface interface = link.join(solver.reach(), solver.time_step_limit());
+    const Interface interface = link.join(solver.traits());
     spdlog::info("the solid's interface has {} particles of spacing {:g} m", interface.size(),
                  interface.spacing);
     solver.attach(interface);

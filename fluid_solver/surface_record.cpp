@@ -92,7 +92,7 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
 }
 
 void SurfaceRecord::open(const std::filesystem::path& out) {
-  file_ = std::make_unique<HdfSeriesFile>(out / "surface.h5");
+  file_ = std::make_shared<HdfSeriesFile>(out / "surface.h5");
   const hsize_t count = size();
   file_->constant("start_position", "m", {count, dim}, position_);
   file_->constant("normal", "1", {count, dim}, normal_);

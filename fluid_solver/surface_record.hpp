@@ -60,7 +60,7 @@ class SurfaceRecord {
   std::vector<double> pressure_, speed_, traction_;       ///< [Pa s], [m], [Pa s]
   std::vector<double> friction_work_, sliding_pressure_;  ///< [J/m2], [Pa m]
   double since_row_ = 0;
-  std::unique_ptr<HdfSeriesFile> file_;
+  std::shared_ptr<HdfSeriesFile> file_;  ///< which copies of the record share
 };
 
 }  // namespace toryu::fluid

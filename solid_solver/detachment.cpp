@@ -7,7 +7,7 @@
 namespace toryu {
 
 DetachmentObserver::DetachmentObserver(const SolidBody& body, const SolidParameters& parameters)
-    : body_(body),
+    : body_(&body),
       density_(parameters.material.density),
       bond_length_(parameters.detachment->bond_length > 0 ? parameters.detachment->bond_length * body.spacing
                                                           : 2.0 * parameters.h()),
@@ -17,7 +17,7 @@ DetachmentObserver::DetachmentObserver(const SolidBody& body, const SolidParamet
 
 std::vector<char> DetachmentObserver::reached_from_clamps(const std::vector<Vec>& x) {
   const SortedPoints points(x, bond_length_);
-  std::vector<char> reached(body_.held);
+  std::vector<char> reached(body_->held);
   std::vector<std::uint32_t> front;
   for (std::uint32_t i = 0; i < x.size(); ++i)
     if (reached[i]) front.push_back(i);
@@ -42,7 +42,7 @@ bool DetachmentObserver::look(const std::vector<Vec>& x, double time) {
     detached_[i] = !reached[i];
     if (!detached_[i] || ever_detached_[i]) continue;
     ever_detached_[i] = 1;
-    list_.push_back({i, time, density_ * body_.volume(i), body_.X[i], x[i]});
+    list_.push_back({i, time, density_ * body_->volume(i), body_->X[i], x[i]});
   }
   return list_.size() > before;
 }

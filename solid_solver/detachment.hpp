@@ -22,7 +22,7 @@ struct DetachedParticle {
 
 class DetachmentObserver {
  public:
-  /// `parameters` are those of a body that has clamps.
+  /// `parameters` are those of a body that has clamps; `body` must outlive the observer.
   DetachmentObserver(const SolidBody& body, const SolidParameters& parameters);
 
   /// Whether a look is due at `time` [s].
@@ -39,7 +39,7 @@ class DetachmentObserver {
  private:
   std::vector<char> reached_from_clamps(const std::vector<Vec>& x);
 
-  const SolidBody& body_;
+  const SolidBody* body_;
   double density_, bond_length_, interval_;
   double next_ = 0;  ///< time of the next look [s]
   std::vector<char> detached_, ever_detached_;

@@ -58,16 +58,15 @@ std::vector<std::uint32_t> join(SolidLink& link, const SolidModel& model) {
 /// solid takes as many equal sub-steps as its stability needs.
 void take_turns(SolidLink& link, SolidModel& model, RunRecord& record,
                 const std::vector<std::uint32_t>& touched) {
-  record.at(0);
-  while (const auto turn = link.next_window()) {
-    const Vec force = model.set_interface_load(touched, turn->load);
+  take_windows(link, model, record, [&](const SolidLink::Turn& turn) {
+    const Vec force = model.set_interface_load(touched, turn.load);
     Vec impulse_taken = Vec::Zero();
-    advance_window(model, record, turn->time, turn->dt, steps_between_checks, [&](const SubSteps& steps) {
+    advance_window(model, record, turn.time, turn.dt, steps_between_checks, [&](const SubSteps& steps) {
       link.count_step();
       for (long n = 0; n < steps.taken; ++n) impulse_taken += steps.dt * force;
     });
     link.send(model.motion(touched), impulse_taken, model.health());
-  }
+  });
 }
 
 void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene,
@@ -76,6 +75,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .version = provenance(1).version,
                   .out = options.out,
                   .case_hash = file.hash(),
+                  .can_repeat = true,
                   .used_case = file.used()});
   std::vector<std::uint32_t> touched;
   try {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/run/failure.hpp"
+#include "common/run/remember.hpp"
 #include "common/sph/strip_order.hpp"
 
 namespace toryu {
@@ -51,14 +52,14 @@ SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body,
   for (const auto& observer : parameters_.observers)
     observers_.emplace_back(observer.name, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h()));
   if (parameters_.wall_contact)
-    walls_ = std::make_unique<ContactWalls>(scene.walls, *parameters_.wall_contact, parameters_.material,
-                                            body_.spacing, parameters_.h());
+    walls_.emplace(scene.walls, *parameters_.wall_contact, parameters_.material, body_.spacing,
+                   parameters_.h());
   if (walls_) resize(push_, size);
   first_energy_ = kinetic_energy();
   for (std::uint32_t i = 0; i < count; ++i)
     if (body_.held[i]) held_.push_back(i);
   load_sum_ = sum_of_loads();
-  if (parameters_.detachment) detachment_ = std::make_unique<DetachmentObserver>(body_, parameters_);
+  if (parameters_.detachment) detachment_.emplace(body_, parameters_);
   if (parameters_.detachment || parameters_.bonds) watch_bonds();
 }
 
@@ -66,6 +67,13 @@ Vec SolidModel::initial_velocity(std::size_t particle) const {
   const auto& of_region = parameters_.regions[body_.region[particle]].initial_velocity;
   const auto& velocity = of_region ? of_region : parameters_.initial_velocity;
   return velocity ? velocity->at(body_.X[particle]) : Vec(Vec::Zero());
+}
+
+/// All that a step or a load changes, here and in what a formulation adds.
+void SolidModel::save() {
+  restore_ =
+      remember(time_, number_, slot_, X_, u_, v_, a_, external_, constant_, mobile_, walls_, loaded_, load_,
+               u_at_load_, past_work_, load_sum_, push_, impulses_, bodies_, detachment_, bonds_, steps_);
 }
 
 void SolidModel::find_slots() {
@@ -116,6 +124,7 @@ Interface SolidModel::interface(double reach) const {
   result.spacing = body_.spacing;
   for (const auto i : result.id) {
     result.volume.push_back(body_.volume(i));
+    result.mass.push_back(mass(i));
     for (int a = 0; a < dim; ++a) {
       result.position.push_back(body_.X[i][a]);
       result.area_vector.push_back(body_.area_vector[i][a]);
@@ -233,16 +242,23 @@ std::vector<Vec> SolidModel::positions() const {
 void SolidModel::tell_detached(const HearDetached& hear) {
   hear_detached_ = hear;
   look_for_detached();
+  accept();
+}
+
+void SolidModel::accept() {
+  if (!hear_detached_ || detachment_->list().size() == heard_detached_) return;
+  heard_detached_ = detachment_->list().size();
+  hear_detached_(detachment_->list());
 }
 
 void SolidModel::look_for_detached() {
   if (!detachment_ || !detachment_->due(time_)) return;
   const auto scope = timers_.measure("detachment");
-  if (detachment_->look(positions(), time_) && hear_detached_) hear_detached_(detachment_->list());
+  detachment_->look(positions(), time_);
 }
 
 void SolidModel::watch_bonds() {
-  if (!bonds_) bonds_ = std::make_unique<BondWatch>(body_, parameters_.bonds.value_or(BondLimits{}));
+  if (!bonds_) bonds_.emplace(body_, parameters_.bonds.value_or(BondLimits{}));
 }
 
 void SolidModel::look_at_particles() {

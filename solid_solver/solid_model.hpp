@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/link/participant.hpp"
@@ -40,6 +41,9 @@ class SolidModel : public Solver {
  public:
   SolidModel(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
 
+  void save() override;
+  void restore() override { restore_(); }
+  void accept() override;
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;
@@ -100,9 +104,9 @@ class SolidModel : public Solver {
   VecField a_;                         ///< acceleration by stress, viscosity and contact [m/s2]
   VecField external_;                  ///< acceleration by gravity and loads [m/s2]
   Timers timers_;
-  std::unique_ptr<ContactWalls> walls_;     ///< if walls act on the solid
-  std::unique_ptr<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
-  Field mobile_;                            ///< 0 where a clamp holds, else 1
+  std::optional<ContactWalls> walls_;     ///< if walls act on the solid
+  std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
+  Field mobile_;                          ///< 0 where a clamp holds, else 1
 
  private:
   void find_slots();                                 ///< after `number_` changed
@@ -129,10 +133,12 @@ class SolidModel : public Solver {
   Vec load_sum_;                     ///< of gravity and all loads [N/m]
   VecField push_;                    ///< acceleration by walls, if walls act on the solid [m/s2]
   Impulses impulses_;
-  std::unique_ptr<DetachmentObserver> detachment_;
+  std::optional<DetachmentObserver> detachment_;
   HearDetached hear_detached_;
-  std::unique_ptr<BondWatch> bonds_;
+  std::optional<BondWatch> bonds_;
   long steps_ = 0;
+  std::size_t heard_detached_ = 0;  ///< how many were told of
+  std::function<void()> restore_;   ///< what `save` kept
 };
 
 }  // namespace toryu

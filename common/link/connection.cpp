@@ -45,8 +45,12 @@ void Connection::write_hello() {
   message.case_hash = settings_.case_hash;
   message.units = units.data();
   message.dimension = dim;
-  message.reach = reach_;
-  message.time_step_limit = time_step_limit_;
+  message.reach = traits_.reach;
+  message.time_step_limit = traits_.time_step_limit;
+  message.density = traits_.density;
+  message.sound_speed = traits_.sound_speed;
+  message.spacing = traits_.spacing;
+  message.can_repeat = settings_.can_repeat;
   message.used_case = settings_.used_case.data();
   hello_.write(message);
 }
@@ -65,9 +69,8 @@ void Connection::write_status(toryu_Activity activity, ExitCode code, const std:
   status_sent_ = Clock::now();
 }
 
-void Connection::join(double reach, double time_step_limit) {
-  reach_ = reach;
-  time_step_limit_ = time_step_limit;
+void Connection::join(const FluidTraits& traits) {
+  traits_ = traits;
   write_hello();
   spdlog::info("waiting for the coupler, at most {} s", time_limit_);
   if (!wait([this] { return running_; })) throw PeerLost("coupler ended the run before it began");
@@ -104,7 +107,8 @@ void Connection::heed(const toryu_Session& session) {
   }
   if (session_ != 0 && session.phase == toryu_RUNNING && !running_) {
     running_ = true;
-    reach_ = session.reach;
+    traits_.reach = session.reach;
+    windows_repeat_ = session.windows_repeat;
   }
 }
 
@@ -167,8 +171,10 @@ bool Connection::accept(const toryu_WindowHead& window) {
                  window.session_id, session_);
     return false;
   }
-  // An iteration beyond the first would ask for the state before the window, which no participant keeps.
-  wire::check(window, {.number = window_.number + 1}, "coupler");
+  const bool again = windows_repeat_ && window.number == window_.number;
+  const Window expected = again ? Window{.number = window_.number, .iteration = window_.iteration + 1}
+                                : Window{.number = window_.number + 1};
+  wire::check(window, expected, "coupler");
   window_ = wire::window(window);
   return true;
 }

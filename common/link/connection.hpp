@@ -16,7 +16,7 @@ class Connection {
   ~Connection();
 
   /// Introduces this side and waits until the coupler has taken in both.
-  void join(double reach, double time_step_limit);
+  void join(const FluidTraits& traits);
   /// Blocks until `arrived` is true; false if the run is over in good order. Throws if it ended otherwise, if
   /// the coupler is lost, or on an interruption.
   bool wait(const std::function<bool()>& arrived);
@@ -33,7 +33,8 @@ class Connection {
 
   dds::Node& node() { return node_; }
   std::uint64_t session() const { return session_; }
-  double reach() const { return reach_; }
+  double reach() const { return traits_.reach; }
+  bool windows_repeat() const { return windows_repeat_; }
   void expect_particles(std::size_t count) { particles_ = count; }
   std::size_t particles() const { return particles_; }
 
@@ -57,7 +58,9 @@ class Connection {
   bool running_ = false;       // both sides were taken in
   bool over_ = false;
   bool left_ = false;
-  double reach_ = 0, time_step_limit_ = 0, time_limit_;
+  FluidTraits traits_;  // the solid's link keeps the fluid's reach here
+  double time_limit_;
+  bool windows_repeat_ = false;
   Window window_{.number = 0};  // the window at hand; numbers start at 1
   std::size_t particles_ = 0;
   std::uint64_t steps_ = 0;

@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "common/link/dds.hpp"
-#include "common/run/ending.hpp"
 #include "common/link/wire.hpp"
+#include "common/run/ending.hpp"
 #include "common/run/program.hpp"
 
 namespace toryu {
@@ -28,7 +28,7 @@ struct Guest {
   const char* part;  ///< "fluid"
   std::uint64_t id = 0;
   CouplerLink::Partner partner = {};
-  double reach = 0, time_step_limit = 0;
+  FluidTraits traits = {};  ///< of the fluid
   std::uint64_t window = 0, steps = 0;
   Clock::time_point moved = Clock::now();
   std::optional<Clock::time_point> lapsed = {};  ///< since when its lease is over
@@ -64,6 +64,7 @@ struct CouplerLink::Connection {
   ExitCode code = ExitCode::done;
   std::string reason;
   std::uint64_t beat = 0;
+  bool windows_repeat = false;
   std::size_t particles = 0;
   Clock::time_point beaten{}, checked = Clock::now();
 
@@ -85,8 +86,9 @@ void CouplerLink::Connection::announce() {
   message.beat = ++beat;
   message.fluid = fluid.id;
   message.solid = solid.id;
-  message.reach = fluid.reach;
+  message.reach = fluid.traits.reach;
   message.time_limit = settings.time_limit;
+  message.windows_repeat = windows_repeat;
   message.exit_code = static_cast<std::uint32_t>(code);
   message.reason = reason.data();
   sessions.write(message);
@@ -106,6 +108,9 @@ void CouplerLink::Connection::compare(const toryu_Hello& hello, const Guest& gue
              fmt::format("{:016x}", settings.case_hash));
   must_agree("system of units", std::string(hello.units), std::string(wire::units));
   must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
+  if (windows_repeat && !hello.can_repeat)
+    errors.push_back({.place = guest.partner.program,
+                      .message = "cannot repeat a window, which the scheme of the case asks for"});
   if (!errors.empty()) throw BadInput(errors);
   if (guest.partner.version != settings.version)
     spdlog::warn("{} is version {}, the coupler {}", guest.partner.program, guest.partner.version,
@@ -121,8 +126,7 @@ void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
     return;
   }
   guest.partner = {hello.program, hello.version, hello.used_case};
-  guest.reach = hello.reach;
-  guest.time_step_limit = hello.time_step_limit;
+  guest.traits = {hello.reach, hello.time_step_limit, hello.density, hello.sound_speed, hello.spacing};
   guest.id = hello.sender;
   guest.moved = Clock::now();
   if (phase == toryu_OVER) return;
@@ -207,11 +211,12 @@ CouplerLink::~CouplerLink() {
   stop(ExitCode::bug, "coupler ended before the run was over");
 }
 
-CouplerLink::Start CouplerLink::gather() {
+CouplerLink::Start CouplerLink::gather(bool windows_repeat) {
   Connection& c = *connection_;
+  c.windows_repeat = windows_repeat;
   for (const Guest* guest : {&c.fluid, &c.solid})
     c.wait(*guest, "did not join", [&] { return guest->joined(); });
-  Start start{c.fluid.partner, c.solid.partner, c.fluid.reach, c.fluid.time_step_limit, {}, {}};
+  Start start{c.fluid.partner, c.solid.partner, c.fluid.traits, {}, {}};
   c.wait(c.solid, "did not register its interface", [&] {
     bool mine = false;
     c.interfaces.take([&](const toryu_Interface& message) {
@@ -229,10 +234,13 @@ CouplerLink::Start CouplerLink::gather() {
   return start;
 }
 
-CouplerLink::FluidAnswer CouplerLink::ask_fluid(const Window& window,
-                                                const InterfaceMotion& motion_at_start) {
+void CouplerLink::grant_fluid(const Window& window, const InterfaceMotion& motion) {
   Connection& c = *connection_;
-  c.motions.write(wire::motion(wire::window(c.session, window), motion_at_start));
+  c.motions.write(wire::motion(wire::window(c.session, window), motion));
+}
+
+CouplerLink::FluidAnswer CouplerLink::await_fluid(const Window& window) {
+  Connection& c = *connection_;
   FluidAnswer answer;
   c.wait(c.fluid, fmt::format("did not answer in window {}", window.number), [&] {
     bool mine = false;
@@ -251,9 +259,13 @@ CouplerLink::FluidAnswer CouplerLink::ask_fluid(const Window& window,
   return answer;
 }
 
-CouplerLink::SolidAnswer CouplerLink::ask_solid(const Window& window, const InterfaceLoad& load) {
+void CouplerLink::grant_solid(const Window& window, const InterfaceLoad& load) {
   Connection& c = *connection_;
   c.loads_on.write(wire::load(wire::window(c.session, window), load));
+}
+
+CouplerLink::SolidAnswer CouplerLink::await_solid(const Window& window) {
+  Connection& c = *connection_;
   SolidAnswer answer;
   c.wait(c.solid, fmt::format("did not answer in window {}", window.number), [&] {
     bool mine = false;

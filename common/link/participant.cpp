@@ -19,8 +19,8 @@ struct FluidLink::Connection : toryu::Connection {
 FluidLink::FluidLink(const LinkSettings& settings) : connection_(std::make_unique<Connection>(settings)) {}
 FluidLink::~FluidLink() = default;
 
-Interface FluidLink::join(double reach, double time_step_limit) {
-  connection_->join(reach, time_step_limit);
+Interface FluidLink::join(const FluidTraits& traits) {
+  connection_->join(traits);
   Interface interface;
   const bool came = connection_->wait([&] {
     bool mine = false;
@@ -59,6 +59,9 @@ void FluidLink::send(const InterfaceLoad& load, double time_step_limit, const He
   connection_->loads.write(message);
 }
 
+bool FluidLink::windows_repeat() const {
+  return connection_->windows_repeat();
+}
 void FluidLink::count_step() {
   connection_->count_step();
 }
@@ -88,7 +91,7 @@ SolidLink::SolidLink(const LinkSettings& settings) : connection_(std::make_uniqu
 SolidLink::~SolidLink() = default;
 
 double SolidLink::join() {
-  connection_->join(0, 0);
+  connection_->join({});
   return connection_->reach();
 }
 
@@ -120,6 +123,9 @@ void SolidLink::send(const InterfaceMotion& motion_at_end, const Vec& impulse_ta
   connection_->motions.write(message);
 }
 
+bool SolidLink::windows_repeat() const {
+  return connection_->windows_repeat();
+}
 void SolidLink::count_step() {
   connection_->count_step();
 }

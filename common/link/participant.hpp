@@ -5,6 +5,7 @@
 ///     try {
 ///       link.join(...);                                  // handshake with the coupler, within a time limit
 ///       while (auto turn = link.next_window()) {         // blocks; empty at the end of the run
+///         ... turn->iteration > 0: back to the start of this window; else keep it for that ...
 ///         ... turn->motion ... advance by turn->dt, link.count_step() after each step ...
 ///         link.send(load, time_step_limit, health);
 ///       }
@@ -36,6 +37,7 @@ struct Interface {
   std::vector<double> position;     ///< dim values a particle [m]
   std::vector<double> volume;       ///< [m2 per metre depth]
   std::vector<double> area_vector;  ///< outward, dim values [m per metre depth]; zero inside
+  std::vector<double> mass;         ///< [kg per metre depth]
   double spacing = 0;               ///< [m]
   std::size_t size() const { return id.size(); }
 };
@@ -55,7 +57,8 @@ struct InterfaceLoad {
   Vec impulse_on_fluid = Vec::Zero();
 };
 
-/// A coupling window granted by the coupler.
+/// A coupling window granted by the coupler. Iteration 0 takes the one before as it stands; with a higher
+/// one the participant goes back to the start of this window and computes it again.
 struct Window {
   std::uint64_t number = 0;
   std::uint32_t iteration = 0;
@@ -76,18 +79,31 @@ struct LinkSettings {
   std::filesystem::path out;  ///< the results folder names the run: its domain and tag follow from it
   std::uint64_t case_hash = 0;
   double time_limit = 30;      ///< longest wait for the coupler to come [s]; from then on the case's counts
+  bool can_repeat = false;     ///< whether this participant can go back to the start of a window
   std::string used_case = {};  ///< this participant's sections with defaults, for used_case.toml
+};
+
+/// What the coupler must know of a fluid.
+struct FluidTraits {
+  double reach = 0;            ///< how deep its kernel sees into the solid [m]
+  double time_step_limit = 0;  ///< bounds the first window [s]
+  double density = 0;          ///< at rest [kg/m3]
+  double sound_speed = 0;      ///< [m/s]
+  double spacing = 0;          ///< [m]
 };
 
 class FluidLink {
  public:
   explicit FluidLink(const LinkSettings& settings);
   ~FluidLink();
-  /// Registers with the coupler and returns the solid's interface. `reach` [m] is how deep the fluid's kernel
-  /// sees into the solid; `time_step_limit` [s] bounds the first window.
-  Interface join(double reach, double time_step_limit);
+  /// Registers with the coupler and returns the solid's interface.
+  Interface join(const FluidTraits& traits);
+  /// Whether windows of this run may be repeated; known once joined.
+  bool windows_repeat() const;
   struct Turn : Window {
-    InterfaceMotion motion;  ///< at the start of the window
+    /// To which position the interface is to be brought by the end of the window. The velocity is that of
+    /// the way there; it counts in the first window, for where the way begins.
+    InterfaceMotion motion;
   };
   /// Blocks until the coupler grants a window; empty when the run is over in good order.
   std::optional<Turn> next_window();
@@ -113,6 +129,7 @@ class SolidLink {
   ~SolidLink();
   /// Returns the fluid's reach [m], by which the solid chooses the particles of its interface.
   double join();
+  bool windows_repeat() const;
   /// Once, after join: the particles that the fluid may touch and where they start.
   void register_interface(const Interface& interface, const InterfaceMotion& at_start);
   struct Turn : Window {

@@ -69,6 +69,7 @@ toryu_Interface interface_message(std::uint64_t session_id, const Interface& int
   message.reference_position = sequence(interface.position);
   message.volume = sequence(interface.volume);
   message.area_vector = sequence(interface.area_vector);
+  message.mass = sequence(interface.mass);
   message.position = sequence(start.position);
   message.velocity = sequence(start.velocity);
   message.acceleration = sequence(start.acceleration);
@@ -81,6 +82,7 @@ Interface interface_of(const toryu_Interface& message) {
   interface.position = values(message.reference_position);
   interface.volume = values(message.volume);
   interface.area_vector = values(message.area_vector);
+  interface.mass = values(message.mass);
   interface.spacing = message.spacing;
   return interface;
 }
@@ -122,6 +124,7 @@ void check(const Interface& interface, const std::string& sender) {
   check_values(interface.position, count, dim, "reference position", sender);
   check_values(interface.volume, count, 1, "volume", sender);
   check_values(interface.area_vector, count, dim, "area vector", sender);
+  check_values(interface.mass, count, 1, "mass", sender);
   if (!(interface.spacing > 0))
     throw PeerLost(fmt::format("{}: spacing {} of the interface is not above 0", sender, interface.spacing));
 }

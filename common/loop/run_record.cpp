@@ -36,11 +36,13 @@ RunRecord::RunRecord(const std::string& participant, const Options& options, con
   spdlog::info("largest time step {:.4g} s ({} limit)", solver.time_step_limit(), solver.time_step_rule());
 }
 
-void RunRecord::at(double time) {
-  {
-    const auto scope = timers_.measure("check");
-    solver_.check(time);
-  }
+void RunRecord::check(double time) {
+  const auto scope = timers_.measure("check");
+  solver_.check(time);
+}
+
+void RunRecord::write(double time) {
+  solver_.accept();
   summary_.simulated_time = time;
   if (series_due_.reached(time) || every_step_) {
     const auto scope = timers_.measure("series");

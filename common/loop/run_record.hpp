@@ -36,8 +36,14 @@ class RunRecord {
   RunRecord(const std::string& participant, const Options& options, const Scene& scene, Solver& solver,
             const Counts& counts, const Timers& timers);
 
-  /// Checks the state at `time` [s], and writes what is due.
-  void at(double time);
+  /// Checks the state at `time` [s].
+  void check(double time);
+  /// Takes the state at `time` [s], which was checked, as final and writes what is due.
+  void write(double time);
+  void check_and_write(double time) {
+    check(time);
+    write(time);
+  }
   /// Counts sub-steps of length `dt` [s].
   void count_steps(long steps, double dt);
   /// The next time at which something is due [s].

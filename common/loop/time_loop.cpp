@@ -40,13 +40,12 @@ void advance_window(Solver& solver, RunRecord& record, double time, double lengt
                     const std::function<void(const SubSteps&)>& taken) {
   for (double left = length; left > 1e-9 * length;) {
     throw_if_interrupted();
-    if (left < length) solver.check(time + length - left);
     const SubSteps steps = advance_by(solver, left, steps_between_checks);
     left -= static_cast<double>(steps.taken) * steps.dt;
     record.count_steps(steps.taken, steps.dt);
     taken(steps);
+    record.check(time + length - left);
   }
-  record.at(time + length);
 }
 
 void check_start(const Solver& solver, const std::string& section) {
@@ -60,14 +59,14 @@ void check_start(const Solver& solver, const std::string& section) {
 void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks) {
   Progress progress(scene.end_time, "step");
   double time = 0;
-  record.at(time);
+  record.check_and_write(time);
   while (time < scene.end_time) {
     throw_if_interrupted();
     const double until = std::min(scene.end_time, record.next_output());
     const SubSteps steps = advance_by(solver, until - time, steps_between_checks);
     time = steps.taken == steps.needed ? until : time + static_cast<double>(steps.taken) * steps.dt;
     record.count_steps(steps.taken, steps.dt);
-    record.at(time);
+    record.check_and_write(time);
     progress.update(time, record.steps());
   }
 }

@@ -20,10 +20,31 @@ SubSteps advance_by(Solver& solver, double length, long most = std::numeric_limi
 /// `particles_per_thread` of their own. With fewer, threads only wait for each other.
 int thread_count(const Options& options, std::size_t particles, int particles_per_thread);
 
-/// Advances over a coupling window from `time` [s], `length` [s] long, and records its end. After every
-/// `steps_between_checks` sub-steps at most, `taken` hears of them and the state is checked.
+/// Advances over a coupling window from `time` [s], `length` [s] long. After every `steps_between_checks`
+/// sub-steps at most, `taken` hears of them and the state is checked.
 void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,
                     const std::function<void(const SubSteps&)>& taken);
+
+/// Takes the windows of a coupled run until it is over; `take` computes one and answers it. What a window
+/// leaves in files is written when it is final: at its end, or where windows may be repeated when the next
+/// one has begun.
+template <class Link, class Take>
+void take_windows(Link& link, Solver& solver, RunRecord& record, Take&& take) {
+  record.check_and_write(0);
+  double pending = 0;  // end of a window that may yet be repeated [s]
+  while (const auto turn = link.next_window()) {
+    if (turn->iteration > 0) {
+      solver.restore();
+    } else if (link.windows_repeat()) {
+      if (pending > 0) record.write(pending);
+      solver.save();
+    }
+    take(*turn);
+    pending = turn->time + turn->dt;
+    if (!link.windows_repeat()) record.write(pending);
+  }
+  if (link.windows_repeat() && pending > 0) record.write(pending);
+}
 
 /// Throws BadInput, at `section` of the case, if the state at the start is beyond the limits of physics.
 void check_start(const Solver& solver, const std::string& section);

@@ -51,6 +51,12 @@ class Solver {
   virtual std::string_view time_step_rule() const = 0;
   /// Advances by `dt` [s], which must not exceed the limit.
   virtual void advance(double dt) = 0;
+  /// Keeps the present state, and brings it back bit by bit, as often as asked: for a window that is
+  /// repeated.
+  virtual void save() = 0;
+  virtual void restore() = 0;
+  /// The present state is final: no window that led to it will be repeated.
+  virtual void accept() {}
   /// Throws PhysicsFailure if a value has left physics at `time`.
   virtual void check(double time) const = 0;
 

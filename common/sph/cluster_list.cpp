@@ -29,11 +29,12 @@ void ClusterList::build(const VecField& targets, std::size_t target_count, const
   const std::size_t clusters = padded(target_count) / lane_count;
   const std::size_t blocks = (clusters + clusters_per_block - 1) / clusters_per_block;
   lists_.assign(clusters, {});
-  storage_.resize(blocks);
+  if (!storage_ || storage_.use_count() > 1) storage_ = std::make_shared<Storage>();
+  storage_->resize(blocks);
 
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t block = 0; block < blocks; ++block) {
-    auto& found = storage_[block];
+    auto& found = (*storage_)[block];
     found.clear();
     const std::size_t begin = block * clusters_per_block;
     const std::size_t end = std::min(begin + clusters_per_block, clusters);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 
 namespace toryu {
 
+/// A copy shares the lists until one of the two is built anew.
 class ClusterList {
  public:
   /// Finds for the first `target_count` targets the sources within `reach` [m]; `source_strips` holds the
@@ -27,7 +29,8 @@ class ClusterList {
 
  private:
   std::vector<std::span<const std::uint32_t>> lists_;
-  std::vector<std::vector<std::uint32_t>> storage_;  ///< one a block of clusters
+  using Storage = std::vector<std::vector<std::uint32_t>>;  ///< one a block of clusters
+  std::shared_ptr<Storage> storage_;
   std::vector<std::uint32_t> active_;
 };
 

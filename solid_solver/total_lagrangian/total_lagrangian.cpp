@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/run/remember.hpp"
+
 namespace toryu {
 
 TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene)
@@ -20,12 +22,22 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
   resize(T_, size);
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
-    bodies_ = std::make_unique<TouchingBodies>(X_, volume_, particle_count(), *parameters_.body_contact,
-                                               parameters_.material, body_.spacing, parameters_.h());
+    bodies_.emplace(X_, volume_, particle_count(), *parameters_.body_contact, parameters_.material,
+                    body_.spacing, parameters_.h());
   if (!walls_ && !bodies_) return;
   resize(x_, size);
 #pragma omp parallel
   evaluate();
+}
+
+void TotalLagrangian::save() {
+  SolidModel::save();
+  restore_ = remember(H_, T_);
+}
+
+void TotalLagrangian::restore() {
+  SolidModel::restore();
+  restore_();
 }
 
 void TotalLagrangian::advance(double dt) {

@@ -27,6 +27,8 @@ class TotalLagrangian final : public SolidModel {
   double time_step_limit() const override;
   std::string_view time_step_rule() const override { return "acoustic"; }
   void advance(double dt) override;
+  void save() override;
+  void restore() override;
   std::vector<ActiveTerm> active_terms() const override;
   Stress stress(std::size_t particle) const override;
   std::vector<Observation> internal_energies() const override;
@@ -65,6 +67,7 @@ class TotalLagrangian final : public SolidModel {
     double time, volume_ratio;
   };
   std::optional<Inverted> inverted_;
+  std::function<void()> restore_;  ///< what `save` kept
 };
 
 }  // namespace toryu

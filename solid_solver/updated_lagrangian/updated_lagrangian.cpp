@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/run/remember.hpp"
+
 namespace toryu {
 
 namespace {
@@ -35,6 +37,16 @@ UpdatedLagrangian::UpdatedLagrangian(const SolidParameters& parameters, const So
 #pragma omp parallel
   evaluate();
   watch_bonds();
+}
+
+void UpdatedLagrangian::save() {
+  SolidModel::save();
+  restore_ = remember(state_, x_listed_, strips_, list_);
+}
+
+void UpdatedLagrangian::restore() {
+  SolidModel::restore();
+  restore_();
 }
 
 void UpdatedLagrangian::advance(double dt) {

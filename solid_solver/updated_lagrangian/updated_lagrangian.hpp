@@ -41,6 +41,8 @@ class UpdatedLagrangian final : public SolidModel {
   double time_step_limit() const override { return limit().first; }
   std::string_view time_step_rule() const override { return limit().second; }
   void advance(double dt) override;
+  void save() override;
+  void restore() override;
   std::vector<ActiveTerm> active_terms() const override;
   Stress stress(std::size_t particle) const override;
   std::vector<Observation> internal_energies() const override;
@@ -79,7 +81,8 @@ class UpdatedLagrangian final : public SolidModel {
   Symmetric<Field> s_start_;
   StripOrder strips_;
   ClusterList list_;
-  double skin_;  ///< [m]
+  double skin_;                    ///< [m]
+  std::function<void()> restore_;  ///< what `save` kept
 };
 
 }  // namespace toryu

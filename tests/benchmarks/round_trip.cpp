@@ -38,7 +38,7 @@ InterfaceMotion rest(std::size_t particles) {
 
 void play_fluid(const LinkSettings& settings) {
   FluidLink link(settings);
-  const std::size_t particles = link.join(1, 1).size();
+  const std::size_t particles = link.join({.reach = 1, .time_step_limit = 1}).size();
   const InterfaceLoad load{
       std::vector<double>(particles, 1.0), std::vector<double>(dim * particles, 1.0), {}, Vec::Zero()};
   while (link.next_window()) link.send(load, 1, {});
@@ -48,9 +48,9 @@ void play_solid(const LinkSettings& settings, std::size_t particles) {
   SolidLink link(settings);
   link.join();
   const std::vector<double> values(dim * particles, 1.0);
-  link.register_interface(
-      {std::vector<std::uint32_t>(particles), values, std::vector<double>(particles), values, 1},
-      rest(particles));
+  link.register_interface({std::vector<std::uint32_t>(particles), values, std::vector<double>(particles),
+                           values, std::vector<double>(particles), 1},
+                          rest(particles));
   while (link.next_window()) link.send(rest(particles), Vec::Zero(), {});
 }
 

@@ -17,10 +17,11 @@ namespace {
 
 using namespace toryu;
 
-constexpr double peak = 1000;             // [Pa]
-constexpr double period = 0.02;           // [s]
-constexpr double time_step_limit = 1e-4;  // [s] that a real fluid takes from its sound speed
-constexpr double reach = 0.005;           // [m] how deep its kernel sees into the solid
+constexpr double peak = 1000;    // [Pa]
+constexpr double period = 0.02;  // [s]
+// Of a real fluid these are its own: its kernel's reach, its step limit, its medium.
+constexpr FluidTraits traits{
+    .reach = 0.005, .time_step_limit = 1e-4, .density = 1000, .sound_speed = 10, .spacing = 0.0025};
 
 InterfaceLoad load_at(double time, double dt, const Interface& interface) {
   const double s = std::sin(std::numbers::pi * time / period);
@@ -38,16 +39,20 @@ InterfaceLoad load_at(double time, double dt, const Interface& interface) {
 ExitCode run(const Options& options) {
   // A real participant reads its sections here; the hash tells the coupler that both compute the same case.
   const CaseFile file(options.case_path, options.overrides);
-  FluidLink link(
-      {.role = "fake_fluid", .version = provenance(1).version, .out = options.out, .case_hash = file.hash()});
+  FluidLink link({.role = "fake_fluid",
+                  .version = provenance(1).version,
+                  .out = options.out,
+                  .case_hash = file.hash(),
+                  .can_repeat = true});  // what it does depends on the time alone
   try {
-    const Interface interface = link.join(reach, time_step_limit);
+    const Interface interface = link.join(traits);
     while (const auto turn = link.next_window()) {
-      // A real fluid moves its copy of the interface along turn->motion here, takes its steps of at most its
-      // own limit, and calls count_step after each.
+      // A real fluid goes back to the start of this window if turn->iteration > 0, and else keeps its state
+      // for that. It moves its copy of the interface to turn->motion, takes its steps of at most its own
+      // limit, and calls count_step after each.
       const InterfaceLoad load = load_at(turn->time + 0.5 * turn->dt, turn->dt, interface);
       link.count_step();
-      link.send(load, time_step_limit, Health{});
+      link.send(load, traits.time_step_limit, Health{});
     }
   } catch (...) {
     link.leave();  // the others learn why and end alike

@@ -20,6 +20,7 @@ using namespace toryu;
 constexpr double amplitude = 1e-3;  // [m]
 constexpr double period = 0.02;     // [s]
 constexpr double spacing = 1e-3;    // [m]
+constexpr double density = 1100;    // [kg/m3]
 constexpr int rows = 40;
 constexpr int sub_steps = 10;  // in a window
 
@@ -31,6 +32,7 @@ Interface strip() {
     interface.id.push_back(static_cast<std::uint32_t>(row));
     interface.position.insert(interface.position.end(), {0.1 + 0.5 * spacing, (row + 0.5) * spacing});
     interface.volume.push_back(spacing * spacing);
+    interface.mass.push_back(density * spacing * spacing);
     interface.area_vector.insert(interface.area_vector.end(), {-spacing, 0.0});
   }
   return interface;
@@ -59,13 +61,17 @@ Vec sum_of(const InterfaceLoad& load) {
 ExitCode run(const Options& options) {
   // A real participant reads its sections here; the hash tells the coupler that both compute the same case.
   const CaseFile file(options.case_path, options.overrides);
-  SolidLink link(
-      {.role = "fake_solid", .version = provenance(1).version, .out = options.out, .case_hash = file.hash()});
+  SolidLink link({.role = "fake_solid",
+                  .version = provenance(1).version,
+                  .out = options.out,
+                  .case_hash = file.hash(),
+                  .can_repeat = true});  // its motion depends on the time alone
   try {
     link.join();  // returns the fluid's reach, by which a real solid chooses its interface
     const Interface interface = strip();
     link.register_interface(interface, motion_at(0, interface));
     while (const auto turn = link.next_window()) {
+      // A real solid goes back to the start of this window if turn->iteration > 0.
       Vec impulse_taken = Vec::Zero();
       for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
         impulse_taken += turn->dt / sub_steps * sum_of(turn->load);  // a real solid moves by it

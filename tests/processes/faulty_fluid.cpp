@@ -46,7 +46,7 @@ ExitCode run(const Options& options) {
                   .case_hash = file.hash()});
   if (fault == "before joining") _exit(0);
   try {
-    const Interface interface = link.join(0.005, time_step_limit);
+    const Interface interface = link.join({.reach = 0.005, .time_step_limit = time_step_limit});
     while (const auto turn = link.next_window()) {
       InterfaceLoad load;
       load.pressure.assign(interface.size(), 1.0);

@@ -74,6 +74,53 @@ class GoodEnd(ProcessTest):
         self.assertEqual(*records)
 
 
+class Schemes(ProcessTest):
+    """The coupling schemes with the real solvers."""
+    IMPLICIT = "coupling.scheme=serial_implicit"
+
+    def exchanged(self, *settings, end_time="0.01"):
+        """What crossed the interface of the strip's case, and the coupler's figures."""
+        programs = {"coupler": "coupler", "fluid": "fluid_solver", "solid": "solid_solver"}
+        run = self.enterContext(trio.Trio({role: PROGRAMS["bin"] / name for role, name in programs.items()},
+                                          end_time=end_time, settings=settings)).start_all()
+        self.assert_all_end(run, trio.EXIT_DONE)
+        figures = self.summary(run)["figures"]
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+        with h5py.File(run.out / "interface.h5") as file:
+            return {name: file[name][:] for name in file}, figures
+
+    def test_a_window_repeated_with_the_same_motion_is_bitwise_the_same(self):
+        # A step too small to be seen repeats the first guess, which is what the explicit scheme goes by.
+        once, _ = self.exchanged("coupling.extrapolation_order=1")
+        again, figures = self.exchanged(
+            self.IMPLICIT, "coupling.implicit={relaxation='fixed', relaxation_factor=1e-300, "
+            "largest_iteration_count=3, unconverged_windows_to_stop=1000000, tolerance=1e-12}")
+        self.assertEqual(figures["iterations"] % 3, 0)
+        self.assertGreater(figures["unconverged_windows"], 10)
+        for name, values in once.items():
+            self.assertEqual(values.tobytes(), again[name].tobytes(), name)
+
+    def test_all_schemes_move_the_strip_alike(self):
+        once, _ = self.exchanged()
+        scale = abs(once["position"] - once["reference_position"]).max()
+        for settings in (["coupling.scheme=parallel_explicit"], ["coupling.extrapolation_order=2"], [self.IMPLICIT],
+                         [self.IMPLICIT, "coupling.implicit.relaxation=quasi_newton"]):
+            with self.subTest(settings):
+                other, figures = self.exchanged(*settings)
+                self.assertEqual(figures.get("unconverged_windows", 0), 0)
+                self.assertLess(abs(other["position"] - once["position"]).max(), 0.05 * scale)
+
+    def test_no_convergence_ends_the_run(self):
+        run = self.run_of_three(settings=[
+            self.IMPLICIT, "coupling.implicit={relaxation='fixed', relaxation_factor=0.01, largest_iteration_count=3}"
+        ]).start_all()
+        self.assert_all_end(run, trio.EXIT_PHYSICS_FAILED, "5 windows in a row have not converged")
+
+    def test_who_cannot_repeat_is_refused(self):
+        run = self.run_of_three(fluid="faulty_fluid", settings=[self.IMPLICIT]).start_all()
+        self.assert_all_end(run, trio.EXIT_BAD_INPUT, "faulty_fluid", "cannot repeat a window")
+
+
 class Death(ProcessTest):
     def test_in_mid_run(self):
         for role in trio.ROLES:

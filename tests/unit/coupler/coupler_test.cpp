@@ -137,7 +137,7 @@ TEST(InterfaceRecord, GrowsByRowsAndGetsItsNameAtTheEnd) {
   const Folder scratch;
   const fs::path& folder = scratch.path;
   const fs::path path = folder / "interface.h5";
-  const Interface interface { {7, 8}, {0, 0, 1, 0}, {1, 1}, {0, 1, 0, 1}, 1.0 };
+  const Interface interface { {7, 8}, {0, 0, 1, 0}, {1, 1}, {0, 1, 0, 1}, {1, 1}, 1.0 };
   {
     InterfaceRecord record(folder, interface);
     record.write(0.0, {{0, 0, 1, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}, {});

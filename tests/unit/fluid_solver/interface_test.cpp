@@ -100,6 +100,43 @@ INSTANTIATE_TEST_SUITE_P(
                             Friction{.coefficient = 0.3, .form = FrictionForm::as_printed}}),
     [](const auto& one) { return one.param.name; });
 
+/// Ten windows beside the plate, in which the lists are built anew; the loads of all of them.
+std::vector<double> loads_of_ten_windows(FluidSolver& solver, const Interface& interface) {
+  std::vector<double> loads;
+  for (int n = 0; n < 10; ++n) {
+    const double dt = solver.time_step_limit();
+    solver.begin_window(moved(interface, Vec(0.2, 0.1), solver.time()), dt);
+    solver.advance(dt);
+    const InterfaceLoad load = solver.take_load();
+    loads.insert(loads.end(), load.force.begin(), load.force.end());
+  }
+  return loads;
+}
+
+TEST(RepeatedWindow, IsBitwiseTheSame) {
+  omp_set_num_threads(1);
+  Setting setting = tank_with_a_plate();
+  setting.parameters.friction = Friction{.coefficient = 0.3};
+  setting.parameters.neighbour_skin = 0.01;
+  FluidSolver solver = setting.solver();
+  const Interface interface = plate();
+  solver.attach(interface);
+  loads_of_ten_windows(solver, interface);
+  solver.save();
+  const long builds = solver.list_builds();
+  const auto first = loads_of_ten_windows(solver, interface);
+  EXPECT_GT(solver.list_builds(), builds) << "the order of the particles has changed";
+  const auto places = positions(solver);
+  const auto told = solver.observe();
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    solver.restore();
+    ASSERT_EQ(loads_of_ten_windows(solver, interface), first);
+    ASSERT_EQ(positions(solver), places);
+    const auto again = solver.observe();
+    for (std::size_t k = 0; k < told.size(); ++k) ASSERT_EQ(again[k].value, told[k].value) << told[k].name;
+  }
+}
+
 TEST(PlateAtRest, BearsThePressureOfTheWater) {
   omp_set_num_threads(1);
   Setting setting = tank_with_a_plate();

@@ -30,11 +30,9 @@ InterfaceMotion still() {
 }
 
 Interface three_particles() {
-  return {{4, 5, 6},
-          std::vector<double>(dim * particles, 0.5),
-          {1, 1, 1},
-          std::vector<double>(dim * particles, 1.0),
-          0.1};
+  return {{4, 5, 6}, std::vector<double>(dim * particles, 0.5),
+          {1, 1, 1}, std::vector<double>(dim * particles, 1.0),
+          {2, 2, 2}, 0.1};
 }
 
 /// Speaks the fluid's messages without the link's checks.
@@ -149,7 +147,7 @@ TEST_F(LinkTest, HandshakeCarriesTheInterface) {
   const auto start = coupler_.gather();
   EXPECT_EQ(start.fluid.program, "raw_fluid");
   EXPECT_EQ(start.solid.program, "solid");
-  EXPECT_EQ(start.reach, 0.25);
+  EXPECT_EQ(start.traits.reach, 0.25);
   EXPECT_EQ(start.interface.id, three_particles().id);
   EXPECT_EQ(start.interface.area_vector, three_particles().area_vector);
   EXPECT_EQ(start.motion.position, still().position);
@@ -195,7 +193,7 @@ TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
 TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
   fluid_.say_hello(wire::protocol + 1, "CGS", 3);
   EXPECT_THAT([&] { coupler_.gather(); },
-              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 2, the coupler's is 1\n"
+              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 3, the coupler's is 2\n"
                                       "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
                                       "raw_fluid: error: dimension is 3, the coupler's is 2"));
 }

@@ -1,0 +1,73 @@
+/// How an implicit scheme gets from one guess of the interface's motion to the next. With x_k the k-th guess
+/// of a window and x~_k the solid's answer to the load that it led to, the residual is r_k = x~_k - x_k:
+///
+///     fixed         x_k+1 = x_k + omega r_k
+///     Aitken        omega_k = -omega_k-1 r_k-1 . (r_k - r_k-1)/|r_k - r_k-1|^2       Kuettler & Wall 2008
+///     quasi-Newton  x_k+1 = x~_k + W c, c the least-squares solution of V c = -r_k, the columns of V and W
+///                   being differences of r and x~ between iterations              Degroote et al. 2009
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <memory>
+#include <optional>
+
+namespace toryu {
+
+/// Positions of all interface particles [m].
+using Values = Eigen::VectorXd;
+
+class Relaxation {
+ public:
+  virtual ~Relaxation() = default;
+  virtual void begin_window() {}
+  /// The guess after `x`, whose residual is `r`.
+  virtual Values next(const Values& x, const Values& r) = 0;
+};
+
+class FixedRelaxation final : public Relaxation {
+ public:
+  explicit FixedRelaxation(double factor) : omega_(factor) {}
+  Values next(const Values& x, const Values& r) override { return x + omega_ * r; }
+
+ private:
+  double omega_;
+};
+
+/// A window starts with the last omega of the one before, the first with `factor`.
+class AitkenRelaxation final : public Relaxation {
+ public:
+  explicit AitkenRelaxation(double factor) : omega_(factor) {}
+  void begin_window() override { past_r_.reset(); }
+  Values next(const Values& x, const Values& r) override;
+  double factor() const { return omega_; }
+
+ private:
+  double omega_;
+  std::optional<Values> past_r_;
+};
+
+/// IQN-ILS. Columns that are nearly a combination of others are filtered out by the rank that a QR
+/// decomposition with column pivoting reveals. The first step of a run, which has no differences yet, is a
+/// fixed one.
+class QuasiNewton final : public Relaxation {
+ public:
+  /// `remembered_windows`: how many earlier windows' differences are used too.
+  QuasiNewton(double factor, int remembered_windows) : omega_(factor), remembered_(remembered_windows) {}
+  void begin_window() override;
+  Values next(const Values& x, const Values& r) override;
+  /// Columns that the last step used.
+  Eigen::Index rank() const { return rank_; }
+
+ private:
+  struct Difference {
+    Values r, answer;
+  };
+  double omega_;
+  int remembered_;
+  std::deque<std::deque<Difference>> windows_;  // newest first, in each the newest first
+  std::optional<Difference> past_;              // r and x~ of the iteration before
+  Eigen::Index rank_ = 0;
+};
+
+}  // namespace toryu

@@ -1,0 +1,164 @@
+#include "coupler/schemes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/forecast.hpp"
+#include "coupler/relaxation.hpp"
+
+namespace toryu {
+
+namespace {
+
+/// A residual is judged against the interface's displacement in the window, but at least against this share
+/// of its spacing: at rest there is nothing to converge to.
+constexpr double least_displacement = 1e-6;
+
+double root_mean_square(const Values& values) {
+  return values.size() > 0 ? values.norm() / std::sqrt(static_cast<double>(values.size())) : 0.0;
+}
+
+/// The load that the case lets the solid feel.
+InterfaceLoad felt_of(const InterfaceLoad& given, const CouplingParameters& parameters) {
+  InterfaceLoad load = given;
+  if (!parameters.feels("pressure_and_viscous")) std::fill(load.force.begin(), load.force.end(), 0.0);
+  if (!parameters.feels("friction")) load.friction_force.clear();
+  return load;
+}
+
+class SerialExplicit final : public Scheme {
+ public:
+  SerialExplicit(const CouplingParameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
+      : parameters_(parameters), link_(link), forecast_(parameters.extrapolation_order, start.motion) {}
+
+  Exchange compute(Window& window) override {
+    Exchange done;
+    done.fluid = link_.ask_fluid(window, forecast_.over(window.dt));
+    done.felt = felt_of(done.fluid.load, parameters_);
+    done.solid = link_.ask_solid(window, done.felt);
+    forecast_.note(done.solid.motion, window.dt);
+    done.fluid_compute = done.fluid.health.compute_time;
+    done.solid_compute = done.solid.health.compute_time;
+    done.compute = done.fluid_compute + done.solid_compute;
+    return done;
+  }
+
+ private:
+  const CouplingParameters& parameters_;
+  CouplerLink& link_;
+  Forecast forecast_;
+};
+
+class ParallelExplicit final : public Scheme {
+ public:
+  ParallelExplicit(const CouplingParameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
+      : parameters_(parameters), link_(link), forecast_(parameters.extrapolation_order, start.motion) {
+    past_.pressure.assign(start.interface.size(), 0.0);
+    past_.force.assign(dim * start.interface.size(), 0.0);
+  }
+
+  Exchange compute(Window& window) override {
+    Exchange done;
+    done.felt = past_over(window.dt);
+    link_.grant_solid(window, done.felt);
+    link_.grant_fluid(window, forecast_.over(window.dt));
+    done.fluid = link_.await_fluid(window);
+    done.solid = link_.await_solid(window);
+    forecast_.note(done.solid.motion, window.dt);
+    past_ = felt_of(done.fluid.load, parameters_);
+    past_dt_ = window.dt;
+    done.fluid_compute = done.fluid.health.compute_time;
+    done.solid_compute = done.solid.health.compute_time;
+    done.compute = std::max(done.fluid_compute, done.solid_compute);
+    return done;
+  }
+
+ private:
+  /// The last window's load, such that its impulse over `dt` is what the fluid gave.
+  InterfaceLoad past_over(double dt) const {
+    InterfaceLoad load = past_;
+    for (auto* forces : {&load.force, &load.friction_force})
+      for (double& component : *forces) component *= past_dt_ / dt;
+    return load;
+  }
+
+  const CouplingParameters& parameters_;
+  CouplerLink& link_;
+  Forecast forecast_;
+  InterfaceLoad past_;  // of the last window
+  double past_dt_ = 0;  // [s]
+};
+
+std::unique_ptr<Relaxation> make_relaxation(const ImplicitParameters& p) {
+  switch (p.relaxation) {
+    case RelaxationKind::fixed:
+      return std::make_unique<FixedRelaxation>(p.relaxation_factor);
+    case RelaxationKind::aitken:
+      return std::make_unique<AitkenRelaxation>(p.relaxation_factor);
+    default:
+      return std::make_unique<QuasiNewton>(p.relaxation_factor, p.remembered_windows);
+  }
+}
+
+class SerialImplicit final : public Scheme {
+ public:
+  SerialImplicit(const CouplingParameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
+      : parameters_(parameters),
+        link_(link),
+        forecast_(std::max(parameters.extrapolation_order, 1), start.motion),
+        relaxation_(make_relaxation(*parameters.implicit)),
+        spacing_(start.interface.spacing) {}
+
+  Exchange compute(Window& window) override {
+    Exchange done;
+    const Values start = values(forecast_.now().position);
+    InterfaceMotion guess = forecast_.over(window.dt);
+    relaxation_->begin_window();
+    for (;; ++window.iteration, ++done.iterations) {
+      done.fluid = link_.ask_fluid(window, guess);
+      done.felt = felt_of(done.fluid.load, parameters_);
+      done.solid = link_.ask_solid(window, done.felt);
+      done.fluid_compute += done.fluid.health.compute_time;
+      done.solid_compute += done.solid.health.compute_time;
+
+      const Values x = values(guess.position), answer = values(done.solid.motion.position);
+      const double displacement = std::max(root_mean_square(answer - start), least_displacement * spacing_);
+      done.residual = root_mean_square(answer - x) / displacement;
+      done.converged = done.residual <= parameters_.implicit->tolerance;
+      if (done.converged || done.iterations == parameters_.implicit->largest_iteration_count) break;
+      const Values next = relaxation_->next(x, answer - x);
+      Eigen::Map<Values>(guess.position.data(), next.size()) = next;
+      Eigen::Map<Values>(guess.velocity.data(), next.size()) = (next - start) / window.dt;
+    }
+    forecast_.note(done.solid.motion, window.dt);
+    done.compute = done.fluid_compute + done.solid_compute;
+    return done;
+  }
+
+ private:
+  static Values values(const std::vector<double>& components) {
+    return Eigen::Map<const Values>(components.data(), static_cast<Eigen::Index>(components.size()));
+  }
+
+  const CouplingParameters& parameters_;
+  CouplerLink& link_;
+  Forecast forecast_;
+  std::unique_ptr<Relaxation> relaxation_;
+  double spacing_;  // of the interface's particles [m]
+};
+
+}  // namespace
+
+std::unique_ptr<Scheme> make_scheme(const CouplingParameters& parameters, CouplerLink& link,
+                                    const CouplerLink::Start& start) {
+  switch (parameters.scheme) {
+    case CouplingScheme::serial_explicit:
+      return std::make_unique<SerialExplicit>(parameters, link, start);
+    case CouplingScheme::parallel_explicit:
+      return std::make_unique<ParallelExplicit>(parameters, link, start);
+    default:
+      return std::make_unique<SerialImplicit>(parameters, link, start);
+  }
+}
+
+}  // namespace toryu

@@ -1,0 +1,118 @@
+/// What the coupling schemes are made of: the forecast of the motion, the steps of the iteration.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "coupler/forecast.hpp"
+#include "coupler/relaxation.hpp"
+
+namespace toryu {
+namespace {
+
+/// One particle that moves along x: position, velocity.
+InterfaceMotion one(double x, double v) {
+  return {{x, 0}, {v, 0}, {0, 0}};
+}
+
+TEST(Forecast, FollowsOneWindowLateAtOrderZero) {
+  Forecast forecast(0, one(1, 4));
+  EXPECT_EQ(forecast.over(0.5).position[0], 1);
+  EXPECT_EQ(forecast.over(0.5).velocity[0], 4);
+  forecast.note(one(3, 4), 0.5);
+  EXPECT_EQ(forecast.over(0.5).position[0], 3);
+  // The first window was 0.5 s: in one of 0.25 s the copy goes on at the same speed, to where the solid was
+  // 0.5 s before the end of that one.
+  EXPECT_EQ(forecast.over(0.25).position[0], 2);
+  EXPECT_EQ(forecast.over(0.75).position[0], 4);
+}
+
+TEST(Forecast, GoesOnWithTheVelocityAtOrderOne) {
+  Forecast forecast(1, one(1, 4));
+  EXPECT_EQ(forecast.over(0.5).position[0], 3);
+  EXPECT_EQ(forecast.over(0.5).velocity[0], 4);
+}
+
+TEST(Forecast, GoesOnWithTheAccelerationAtOrderTwo) {
+  Forecast forecast(2, one(0, 0));
+  EXPECT_EQ(forecast.over(0.5).position[0], 0);  // nothing is known of an acceleration yet
+  forecast.note(one(0.25, 1), 0.5);              // x = t^2
+  EXPECT_EQ(forecast.over(1.0).position[0], 2.25);
+  EXPECT_EQ(forecast.over(1.0).velocity[0], 2);  // the mean of the way
+}
+
+/// A linear answer x~ = J x + b to a guess x.
+struct Answer {
+  Eigen::MatrixXd J;
+  Values b;
+  Values residual(const Values& x) const { return J * x + b - x; }
+};
+
+/// Iterates from 0; returns how many steps bring the residual below 1e-9.
+int steps(Relaxation& relaxation, const Answer& answer, int most = 50) {
+  relaxation.begin_window();
+  Values x = Values::Zero(answer.b.size());
+  for (int k = 0; k < most; ++k) {
+    const Values r = answer.residual(x);
+    if (r.norm() < 1e-9) return k;
+    x = relaxation.next(x, r);
+  }
+  return most;
+}
+
+/// An added mass of g times the solid's own: the answer turns a guess round, g times as far.
+Answer added_mass(double g) {
+  return {Eigen::MatrixXd::Constant(1, 1, -g), Values::Constant(1, 3.0)};
+}
+
+TEST(FixedRelaxation, ConvergesOnlyWithASmallFactor) {
+  FixedRelaxation whole(1.0), tenth(0.1);
+  EXPECT_EQ(steps(whole, added_mass(1.5)), 50);
+  EXPECT_LT(steps(tenth, added_mass(9)), 3);  // 1 - 0.1 (1 + 9) = 0
+  EXPECT_EQ(steps(tenth, added_mass(30)), 50);
+}
+
+TEST(Aitken, FindsTheFactorOfASingleModeInTwoSteps) {
+  AitkenRelaxation aitken(0.5);
+  EXPECT_EQ(steps(aitken, added_mass(9)), 2);
+  EXPECT_NEAR(aitken.factor(), 0.1, 1e-12);    // 1/(1 + 9)
+  EXPECT_EQ(steps(aitken, added_mass(9)), 1);  // which the next window starts with
+}
+
+/// Three modes of different added mass, mixed.
+Answer three_modes() {
+  Eigen::Matrix3d mix;
+  mix << 1, 2, 0, 0, 1, 3, 1, 0, 1;
+  const Eigen::Matrix3d gains = Eigen::Vector3d(-20, -5, -0.5).asDiagonal();
+  return {mix * gains * mix.inverse(), Values(Eigen::Vector3d(1, 2, 3))};
+}
+
+TEST(QuasiNewton, SolvesAsManyModesAsItHasDifferences) {
+  QuasiNewton quasi_newton(0.5, 0);
+  EXPECT_EQ(steps(quasi_newton, three_modes()), 4);  // one fixed step, three differences
+  AitkenRelaxation aitken(0.5);
+  EXPECT_GT(steps(aitken, three_modes()), 8);
+}
+
+TEST(QuasiNewton, RemembersEarlierWindows) {
+  QuasiNewton quasi_newton(0.5, 1);
+  EXPECT_EQ(steps(quasi_newton, three_modes()), 4);
+  Answer next = three_modes();
+  next.b = Values(Eigen::Vector3d(-1, 5, 2));
+  EXPECT_EQ(steps(quasi_newton, next), 1);
+  EXPECT_EQ(quasi_newton.rank(), 3);
+}
+
+TEST(QuasiNewton, FiltersColumnsThatSayTheSame) {
+  QuasiNewton quasi_newton(0.5, 0);
+  quasi_newton.begin_window();
+  const Values x = Values::Zero(3), r = Eigen::Vector3d(4, 4, 4);
+  quasi_newton.next(x, r);
+  quasi_newton.next(x, 0.5 * r);
+  const Values next = quasi_newton.next(x, 0.25 * r);  // a second difference along the first
+  EXPECT_EQ(quasi_newton.rank(), 1);
+  EXPECT_TRUE(next.allFinite());
+}
+
+}  // namespace
+}  // namespace toryu
