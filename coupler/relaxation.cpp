@@ -1,13 +1,15 @@
 #include "coupler/relaxation.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <vector>
 
 namespace toryu {
 
 namespace {
 
-/// A column of which less than this share is new counts as a combination of the others.
-constexpr double least_new_share = 1e-6;
+/// A column of which less than this share is new beside the newer ones is left out.
+constexpr double least_new_share = 0.01;
 
 }  // namespace
 
@@ -28,32 +30,35 @@ void QuasiNewton::begin_window() {
 }
 
 Values QuasiNewton::next(const Values& x, const Values& r) {
-  const Values answer = x + r;
-  if (past_) windows_.front().push_front({r - past_->r, answer - past_->answer});
-  past_ = Difference{r, answer};
+  if (past_) windows_.front().push_front({r - past_->r, x - past_->x});
+  past_ = Difference{r, x};
 
-  Eigen::Index count = 0;
-  for (const auto& window : windows_) count += static_cast<Eigen::Index>(window.size());
-  count = std::min(count, r.size());
-  rank_ = 0;
-  if (count == 0) return x + omega_ * r;
   // Each column is scaled to length 1: the differences shrink from one iteration to the next, but what they
   // say about the Jacobian does not.
-  Eigen::MatrixXd V(r.size(), count), W(r.size(), count);
-  Eigen::Index column = 0;
+  std::vector<Values> basis;
+  Eigen::MatrixXd R(r.size(), 0), X(r.size(), 0);
+  double omega = omega_;
   for (const auto& window : windows_)
     for (const auto& difference : window) {
       const double length = difference.r.norm();
-      if (column == count || !(length > 0)) continue;
-      V.col(column) = difference.r / length;
-      W.col(column++) = difference.answer / length;
+      if (!(length > 0) || R.cols() == r.size()) continue;
+      Values fresh = difference.r / length;
+      for (int pass = 0; pass < 2; ++pass)  // the second one takes out what rounding left
+        for (const Values& q : basis) fresh -= q.dot(fresh) * q;
+      if (fresh.norm() < least_new_share) continue;
+      basis.push_back(fresh.normalized());
+      const Eigen::Index column = R.cols();
+      R.conservativeResize(Eigen::NoChange, column + 1);
+      X.conservativeResize(Eigen::NoChange, column + 1);
+      R.col(column) = difference.r / length;
+      X.col(column) = difference.x / length;
+      const double of_column = -R.col(column).dot(X.col(column));
+      if (of_column > 0) omega = std::min(omega, of_column);
     }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(least_new_share);
-  decomposition.compute(V.leftCols(column));
-  rank_ = decomposition.rank();
-  const Values c = decomposition.solve(-r);
-  return answer + W.leftCols(column) * c;
+  rank_ = R.cols();
+  if (rank_ == 0) return x + omega * r;
+  const Values c = R.householderQr().solve(-r);
+  return x + omega * r + (X + omega * R) * c;
 }
 
 }  // namespace toryu

@@ -3,8 +3,12 @@
 ///
 ///     fixed         x_k+1 = x_k + omega r_k
 ///     Aitken        omega_k = -omega_k-1 r_k-1 . (r_k - r_k-1)/|r_k - r_k-1|^2       Kuettler & Wall 2008
-///     quasi-Newton  x_k+1 = x~_k + W c, c the least-squares solution of V c = -r_k, the columns of V and W
-///                   being differences of r and x~ between iterations              Degroote et al. 2009
+///     quasi-Newton  x_k+1 = x_k + omega r_k + (X + omega R) c, c the least-squares solution of R c = -r_k
+///
+/// The columns of R and X are differences of r and x between iterations (interface quasi-Newton with least
+/// squares, Degroote et al. 2009). What no column has shown yet goes by omega, as in Anderson's (1965)
+/// mixing: 1, as usual, lets every mode grow that is not among the columns, and where the fluid is
+/// compressible all modes of the interface feel nearly the same added mass. Aitken's omega fits all of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -47,9 +51,8 @@ class AitkenRelaxation final : public Relaxation {
   std::optional<Values> past_r_;
 };
 
-/// IQN-ILS. Columns that are nearly a combination of others are filtered out by the rank that a QR
-/// decomposition with column pivoting reveals. The first step of a run, which has no differences yet, is a
-/// fixed one.
+/// Columns that are nearly a combination of newer ones are filtered out, newest first: an older one that says
+/// nearly the same in another way would spoil what the newer ones have learned.
 class QuasiNewton final : public Relaxation {
  public:
   /// `remembered_windows`: how many earlier windows' differences are used too.
@@ -61,12 +64,12 @@ class QuasiNewton final : public Relaxation {
 
  private:
   struct Difference {
-    Values r, answer;
+    Values r, x;
   };
   double omega_;
   int remembered_;
   std::deque<std::deque<Difference>> windows_;  // newest first, in each the newest first
-  std::optional<Difference> past_;              // r and x~ of the iteration before
+  std::optional<Difference> past_;              // r and x of the iteration before
   Eigen::Index rank_ = 0;
 };
 
