@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/run/failure.hpp"
+#include "coupler/added_mass.hpp"
 
 namespace toryu {
 
@@ -32,6 +33,7 @@ CoupledRun::CoupledRun(Settings settings, CouplerLink& link)
 void CoupledRun::run(const CouplerLink::Start& start) {
   scheme_ = make_scheme(settings_.coupling, link_, start);
   time_step_limit_ = start.traits.time_step_limit;
+  check_added_mass(start);
   particles_ = start.interface.size();
   series_.emplace(settings_.out, "coupler");
   if (settings_.frame_interval > 0) {
@@ -67,6 +69,21 @@ void CoupledRun::advance() {
   audit(done);
   if (series_due_.at(time_)) write_series(done);
   if (record_ && frame_due_.at(time_)) record_->write(time_, done.solid.motion, done.felt);
+}
+
+void CoupledRun::check_added_mass(const CouplerLink::Start& start) const {
+  const auto& coupling = settings_.coupling;
+  const double ratio = layer_mass_ratio(start.interface, start.traits);
+  const double least = least_mass_ratio(coupling.scheme, start.traits,
+                                        coupling.fluid_steps_per_window * start.traits.time_step_limit);
+  spdlog::info("the solid's surface layer weighs {:.3g} of a row of fluid", ratio);
+  if (ratio >= least) return;
+  spdlog::warn(
+      "the solid's surface layer weighs {:.3g} of a row of fluid, the scheme bears {:.3g}: beyond the edge "
+      "of "
+      "stability; take scheme = 'serial_implicit' or shorter windows, see "
+      "cases/pushed_column/added_mass_map.toml",
+      ratio, least);
 }
 
 void CoupledRun::audit(const Exchange& done) {

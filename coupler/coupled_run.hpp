@@ -46,6 +46,7 @@ class CoupledRun {
 
  private:
   void advance();
+  void check_added_mass(const CouplerLink::Start& start) const;
   void audit(const Exchange& done);
   void note_times(const Exchange& done, double elapsed);
   void note_convergence(const Exchange& done);

@@ -14,12 +14,12 @@ constexpr double least_new_share = 0.01;
 }  // namespace
 
 Values AitkenRelaxation::next(const Values& x, const Values& r) {
-  if (past_r_) {
-    const Values change = r - *past_r_;
+  if (past_) {
+    const Values change = r - past_->r;
     const double square = change.squaredNorm();
-    if (square > 0) omega_ *= -past_r_->dot(change) / square;
+    if (square > 0) omega_ = -(x - past_->x).dot(change) / square;
   }
-  past_r_ = r;
+  past_ = Iterate{r, x};
   return x + omega_ * r;
 }
 
@@ -30,8 +30,8 @@ void QuasiNewton::begin_window() {
 }
 
 Values QuasiNewton::next(const Values& x, const Values& r) {
-  if (past_) windows_.front().push_front({r - past_->r, x - past_->x});
-  past_ = Difference{r, x};
+  if (past_) windows_.front().push_front(Iterate{r - past_->r, x - past_->x});
+  past_ = Iterate{r, x};
 
   // Each column is scaled to length 1: the differences shrink from one iteration to the next, but what they
   // say about the Jacobian does not.

@@ -2,7 +2,7 @@
 /// of a window and x~_k the solid's answer to the load that it led to, the residual is r_k = x~_k - x_k:
 ///
 ///     fixed         x_k+1 = x_k + omega r_k
-///     Aitken        omega_k = -omega_k-1 r_k-1 . (r_k - r_k-1)/|r_k - r_k-1|^2       Kuettler & Wall 2008
+///     Aitken        omega_k = -(x_k - x_k-1) . (r_k - r_k-1)/|r_k - r_k-1|^2         Kuettler & Wall 2008
 ///     quasi-Newton  x_k+1 = x_k + omega r_k + (X + omega R) c, c the least-squares solution of R c = -r_k
 ///
 /// The columns of R and X are differences of r and x between iterations (interface quasi-Newton with least
@@ -20,6 +20,11 @@ namespace toryu {
 
 /// Positions of all interface particles [m].
 using Values = Eigen::VectorXd;
+
+/// A residual and the guess that it belongs to, or the differences of both.
+struct Iterate {
+  Values r, x;
+};
 
 class Relaxation {
  public:
@@ -42,13 +47,13 @@ class FixedRelaxation final : public Relaxation {
 class AitkenRelaxation final : public Relaxation {
  public:
   explicit AitkenRelaxation(double factor) : omega_(factor) {}
-  void begin_window() override { past_r_.reset(); }
+  void begin_window() override { past_.reset(); }
   Values next(const Values& x, const Values& r) override;
   double factor() const { return omega_; }
 
  private:
   double omega_;
-  std::optional<Values> past_r_;
+  std::optional<Iterate> past_;
 };
 
 /// Columns that are nearly a combination of newer ones are filtered out, newest first: an older one that says
@@ -63,13 +68,10 @@ class QuasiNewton final : public Relaxation {
   Eigen::Index rank() const { return rank_; }
 
  private:
-  struct Difference {
-    Values r, x;
-  };
   double omega_;
   int remembered_;
-  std::deque<std::deque<Difference>> windows_;  // newest first, in each the newest first
-  std::optional<Difference> past_;              // r and x of the iteration before
+  std::deque<std::deque<Iterate>> windows_;  // differences, newest window first, in each the newest first
+  std::optional<Iterate> past_;              // r and x of the iteration before
   Eigen::Index rank_ = 0;
 };
 

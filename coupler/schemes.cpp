@@ -14,6 +14,10 @@ namespace {
 /// of its spacing: at rest there is nothing to converge to.
 constexpr double least_displacement = 1e-6;
 
+/// No iteration moves a particle by more than this share of the spacing: the load that answers a wilder
+/// guess, which no window would keep, may be one that a solver cannot bear.
+constexpr double longest_step = 0.05;
+
 double root_mean_square(const Values& values) {
   return values.size() > 0 ? values.norm() / std::sqrt(static_cast<double>(values.size())) : 0.0;
 }
@@ -126,7 +130,7 @@ class SerialImplicit final : public Scheme {
       done.residual = root_mean_square(answer - x) / displacement;
       done.converged = done.residual <= parameters_.implicit->tolerance;
       if (done.converged || done.iterations == parameters_.implicit->largest_iteration_count) break;
-      const Values next = relaxation_->next(x, answer - x);
+      const Values next = x + bounded(relaxation_->next(x, answer - x) - x);
       Eigen::Map<Values>(guess.position.data(), next.size()) = next;
       Eigen::Map<Values>(guess.velocity.data(), next.size()) = (next - start) / window.dt;
     }
@@ -138,6 +142,11 @@ class SerialImplicit final : public Scheme {
  private:
   static Values values(const std::vector<double>& components) {
     return Eigen::Map<const Values>(components.data(), static_cast<Eigen::Index>(components.size()));
+  }
+
+  Values bounded(const Values& step) const {
+    const double longest = step.size() > 0 ? step.lpNorm<Eigen::Infinity>() : 0.0;
+    return step * std::min(1.0, longest_step * spacing_ / longest);
   }
 
   const CouplingParameters& parameters_;

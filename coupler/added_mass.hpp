@@ -1,0 +1,24 @@
+/// Whether an explicit coupling scheme can bear a case: the fluid that a window's motion carries along acts
+/// as an added mass, and where that outweighs the solid's surface layer the exchange grows from window to
+/// window.
+///
+///     serial     m_s > (C/2)^2 rho_f dx, but at least 0.1 rho_f dx      C = c_f T/dx, T the window's length
+///     parallel   m_s > rho_f dx
+///
+/// The law is that of a mass on a spring of stiffness rho_f c_f^2/dx, integrated explicitly (van Brummelen
+/// 2009: in a compressible fluid the added mass is in proportion to the window). The lower bounds are
+/// measured: see cases/pushed_column/added_mass_map.toml.
+#pragma once
+
+#include "common/link/participant.hpp"
+#include "coupler/parameters.hpp"
+
+namespace toryu {
+
+/// Mass per area of the layer of solid that the fluid can touch, over rho_f dx.
+double layer_mass_ratio(const Interface& interface, const FluidTraits& fluid);
+
+/// The least such ratio that `scheme` bears with windows of `dt` [s]; 0 for the implicit scheme.
+double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt);
+
+}  // namespace toryu
