@@ -1,0 +1,86 @@
+"""Coupled cases at their smallest resolution, whole runs of three processes, and small versions of their maps.
+
+    coupled_cases_test.py SOURCE BUILD/bin
+"""
+import csv
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+PATHS = {}
+
+
+def launch(what, out, *settings):
+    return subprocess.run(["/usr/bin/python3", PATHS["source"] / "tools/launch.py", "--bin", PATHS["bin"], PATHS["source"] / "cases" / what,
+                           "--out", out, *settings], capture_output=True, text=True, timeout=600)
+
+
+def run(case, **overrides):
+    """Rows of solid.csv, figures of the coupler, and what was said."""
+    with tempfile.TemporaryDirectory() as folder:
+        overrides = {"case.frame_interval": 0} | overrides
+        done = launch(case, folder, *(f"--set={key}={value}" for key, value in overrides.items()))
+        if done.returncode != 0:
+            return None, None, done.stderr
+        with open(pathlib.Path(folder) / "solid.csv", encoding="utf-8") as file:
+            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        figures = tomllib.loads((pathlib.Path(folder) / "coupler_summary.toml").read_text())["figures"]
+        return rows, figures, (pathlib.Path(folder) / "log.txt").read_text()
+
+
+class HydrostaticPlate(unittest.TestCase):
+    def test_three_rows_bend_as_far_as_they_are_known_to(self):
+        rows, figures, _ = run("hydrostatic_plate", **{"case.end_time": 0.085, "solid.spacing": 0.05 / 3})
+        bent = [row["middle_displacement_y[m]"] for row in rows if row["time[s]"] > 0.03]
+        self.assertLess(abs(sum(bent) / len(bent) / -7.063e-5 - 0.965), 0.01)  # 3.5 % short with 3 rows
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+class PushedColumn(unittest.TestCase):
+    IMPLICIT = {"coupling.scheme": "serial_implicit"}
+
+    def way_error(self, density, **settings):
+        rows, figures, said = run("pushed_column", **{"solid.density": density} | settings)
+        lag = density * 0.02 / 2e4  # m_s/(rho_f c)
+        return rows[-1]["layer_displacement_y[m]"] / (0.2 * (0.04 - lag * (1 - math.exp(-0.04 / lag)))) - 1, figures, said
+
+    def test_a_heavy_layer_goes_as_far_as_theory_says(self):
+        for settings in ({}, {"coupling.scheme": "parallel_explicit"}, {"coupling.extrapolation_order": 1}, self.IMPLICIT):
+            with self.subTest(settings):
+                error, figures, said = self.way_error(1000, **settings)
+                self.assertLess(abs(error), 0.02)
+                self.assertLess(figures["largest_impulse_error"], 1e-12)
+                self.assertNotIn("beyond the edge of stability", said)
+
+    def test_a_light_layer_needs_iterations(self):
+        _, _, said = run("pushed_column", **{"solid.density": 30})
+        self.assertIn("beyond the edge of stability", said)
+        self.assertIn("density", said)
+        iterations = {}
+        for relaxation in ("aitken", "quasi_newton"):
+            error, figures, said = self.way_error(10, **self.IMPLICIT | {"coupling.implicit.relaxation": relaxation})
+            self.assertLess(abs(error), 0.02)
+            self.assertLess(figures["largest_impulse_error"], 1e-12)
+            self.assertEqual(figures["unconverged_windows"], 0)
+            self.assertNotIn("beyond the edge of stability", said)
+            iterations[relaxation] = figures["iterations"]
+        self.assertLess(iterations["quasi_newton"], 0.7 * iterations["aitken"])
+
+    def test_small_maps_find_their_edges(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = launch("pushed_column/added_mass_map.toml", folder, "--small")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(pathlib.Path(folder) / "edges.csv", encoding="utf-8") as file:
+                edge = {row["scheme"]: float(row["density_edge[kg/m3]"]) for row in csv.DictReader(file)}
+        self.assertTrue(20 < edge["serial explicit"] < 100, edge)
+        self.assertTrue(100 < edge["parallel explicit"] < 500, edge)
+        self.assertLess(edge["serial implicit"], 2)
+
+
+if __name__ == "__main__":
+    PATHS["source"], PATHS["bin"] = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main(verbosity=2)
