@@ -18,9 +18,9 @@ double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double 
   const double courant = fluid.spacing > 0 ? fluid.sound_speed * dt / fluid.spacing : 0.0;
   switch (scheme) {
     case CouplingScheme::serial_explicit:
-      return std::max(0.24, 0.25 * courant * courant);
+      return std::max(0.37, 0.25 * courant * courant);
     case CouplingScheme::parallel_explicit:
-      return std::max(0.84, 0.25 * courant * courant);
+      return std::max(0.9, 0.25 * courant * courant);
     default:
       return 0.0;
   }

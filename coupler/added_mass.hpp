@@ -2,12 +2,12 @@
 /// as an added mass, and where that outweighs the solid's surface layer the exchange grows from window to
 /// window.
 ///
-///     serial     m_s > (C/2)^2 rho_f dx, but at least 0.24 rho_f dx      C = c_f T/dx, T the window's length
-///     parallel   m_s > (C/2)^2 rho_f dx, but at least 0.84 rho_f dx
+///     serial     m_s > (C/2)^2 rho_f dx, but at least 0.37 rho_f dx      C = c_f T/dx, T the window's length
+///     parallel   m_s > (C/2)^2 rho_f dx, but at least 0.9 rho_f dx
 ///
-/// The law is that of a mass on a spring of stiffness rho_f c_f^2/dx, integrated explicitly (van Brummelen 2009:
-/// in a compressible fluid the added mass is in proportion to the window). The lower bounds are measured: see
-/// cases/pushed_column/added_mass_map.toml.
+/// The law is that of a mass on a spring of stiffness rho_f c_f^2/dx, integrated explicitly (van Brummelen
+/// 2009: in a compressible fluid the added mass is in proportion to the window). The lower bounds are
+/// measured: see cases/pushed_column/added_mass_map.toml.
 #pragma once
 
 #include "common/link/participant.hpp"
@@ -15,8 +15,8 @@
 
 namespace toryu {
 
-/// Mass per area of the layer of solid that the fluid can touch, over rho_f dx. All faces count, wet or not: for
-/// a plate that is wet on one side this is half of what that side has behind it.
+/// Mass per area of the layer of solid that the fluid can touch, over rho_f dx. All faces count, wet or not:
+/// for a plate that is wet on one side this is half of what that side has behind it.
 double layer_mass_ratio(const Interface& interface, const FluidTraits& fluid);
 
 /// The least such ratio that `scheme` bears with windows of `dt` [s]; 0 for the implicit scheme.
