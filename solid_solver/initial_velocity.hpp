@@ -8,7 +8,7 @@
 
 namespace toryu {
 
-enum class VelocityProfile { uniform, cantilever_mode_1, linear };
+enum class VelocityProfile { uniform, cantilever_mode_1, linear, bar_mode_1, alternating };
 
 /// `uniform`: all particles move with `velocity`. `linear`: v(x) = velocity + gradient (x - origin), a
 /// stretch, a shear or a turn. `cantilever_mode_1`: the first bending mode of a beam that is held at `origin`
@@ -17,7 +17,9 @@ enum class VelocityProfile { uniform, cantilever_mode_1, linear };
 ///     v(x) = velocity F(x)/F(length),   k length = 1.8751041
 ///     F(x) = (cos kL + cosh kL)(cosh kx - cos kx) + (sin kL - sinh kL)(sinh kx - sin kx)
 ///
-/// with x from `origin`, and zero behind it.
+/// with x from `origin`, and zero behind it. `bar_mode_1`: the first longitudinal mode of a bar that is held
+/// there, v(x) = velocity sin(pi x/(2 length)). `alternating`: plus and minus `velocity` on a chessboard with
+/// squares of side `length` and a corner at `origin`: with squares of a spacing, what gradients do not see.
 struct InitialVelocity {
   VelocityProfile profile = VelocityProfile::uniform;
   Vec velocity = Vec::Zero();                      ///< of all particles, or of the tip [m/s]

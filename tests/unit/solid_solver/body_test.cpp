@@ -118,5 +118,20 @@ TEST(InitialVelocity, FollowsTheFirstModeOfABeam) {
   EXPECT_EQ(v.at(Vec(0.5, 0)), Vec(0, 0));
 }
 
+TEST(InitialVelocity, FollowsTheFirstModeOfABar) {
+  const InitialVelocity v{VelocityProfile::bar_mode_1, Vec(3, 0), Vec(1, 0), 2.0};
+  EXPECT_NEAR(v.at(Vec(3, 0.7))[0], 3.0, 1e-12);
+  EXPECT_NEAR(v.at(Vec(1 + 2.0 / 3, 0))[0], 1.5, 1e-12);
+  EXPECT_EQ(v.at(Vec(0.5, 0)), Vec(0, 0));
+}
+
+TEST(InitialVelocity, AlternatesFromSquareToSquare) {
+  const InitialVelocity v{VelocityProfile::alternating, Vec(1, -2), Vec(0, 0), 0.5};
+  EXPECT_EQ(v.at(Vec(0.25, 0.25)), Vec(1, -2));
+  EXPECT_EQ(v.at(Vec(0.75, 0.25)), Vec(-1, 2));
+  EXPECT_EQ(v.at(Vec(0.75, -0.25)), Vec(1, -2));
+  EXPECT_EQ(v.at(Vec(-0.25, 0.25)), Vec(-1, 2));
+}
+
 }  // namespace
 }  // namespace toryu
