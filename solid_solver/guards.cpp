@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace toryu {
 
@@ -27,6 +29,34 @@ void guard_artificial_stress(const SolidParameters& p, std::vector<std::string>&
                     epsilon, most_epsilon));
 }
 
+/// Rows of the thinnest region that no clamp holds as a whole; round ones have none.
+double fewest_rows(const SolidParameters& p) {
+  double fewest = std::numeric_limits<double>::infinity();
+  for (const auto& region : p.regions) {
+    const bool held = std::any_of(p.clamps.begin(), p.clamps.end(), [&](const NamedBox& clamp) {
+      return (clamp.box.min.array() <= region.box.min.array()).all() &&
+             (clamp.box.max.array() >= region.box.max.array()).all();
+    });
+    if (!held && !region.box.round)
+      fewest = std::min(fewest, (region.box.max - region.box.min).minCoeff() / p.spacing);
+  }
+  return std::round(fewest);
+}
+
+void guard_thin_plates(const SolidParameters& p, std::vector<std::string>& said) {
+  const double rows = fewest_rows(p), nu = p.material.poissons_ratio;
+  if (rows < (p.hourglass ? 4 : 12))
+    said.push_back(
+        fmt::format("a plate of {:g} rows{} bends by more than 6 % too little or too much; see "
+                    "cases/oscillating_plate/thin_map.toml",
+                    rows, p.hourglass ? "" : " without [solid.hourglass]"));
+  if (rows < 5 && nu > 0.48)
+    said.push_back(
+        fmt::format("a plate of {:g} rows with Poisson's ratio {:g} is too stiff, as its volume can hardly "
+                    "change; see cases/oscillating_plate/poisson_map.toml",
+                    rows, nu));
+}
+
 }  // namespace
 
 double courant_edge(const SolidParameters& p) {
@@ -36,7 +66,10 @@ double courant_edge(const SolidParameters& p) {
 
 std::vector<std::string> beyond_edges(const SolidParameters& p) {
   std::vector<std::string> said;
-  if (p.formulation != Formulation::updated_lagrangian) return said;
+  if (p.formulation == Formulation::total_lagrangian) {
+    guard_thin_plates(p, said);
+    return said;
+  }
   guard_artificial_stress(p, said);
   const double edge = courant_edge(p), courant = p.time_step_share * p.courant_number;
   if (edge == 0 && !p.damping)

@@ -72,6 +72,41 @@ TEST(Bar, VibratesAsTheFormulaSays) {
   EXPECT_NEAR(observed(*model, "tip_displacement_x") / amplitude, 1.0, 0.01);
 }
 
+/// The beam of Turek & Hron (2006) behind a cylinder, 5 rows, under gravity of 2 m/s2.
+std::unique_ptr<SolidModel> csm_beam(double damping) {
+  SolidParameters p;
+  p.material = {.density = 1000, .youngs_modulus = 1.4e6, .poissons_ratio = 0.4};
+  p.spacing = 0.004;
+  p.regions = {{"beam", {Vec(0.25, 0.19), Vec(0.6, 0.21)}}, {"root", {Vec(0.2, 0.19), Vec(0.25, 0.21)}}};
+  p.clamps = {{"cylinder", {Vec(0.15, 0.15), Vec(0.25, 0.25), true}}};
+  p.observers = {{"tip", Vec(0.6, 0.2)}};
+  p.hourglass = HourglassPenalty{};
+  if (damping > 0) p.damping = Damping{damping};
+  Scene scene = empty_scene();
+  scene.gravity = Vec(0, -2);
+  return model_of(p, scene);
+}
+
+TEST(TurekHronBeam, ComesToRestWhereCsm1Says) {
+  const auto model = csm_beam(14.0);
+  run_to(*model, 2.0);
+  EXPECT_NEAR(observed(*model, "tip_displacement_x") / -7.187e-3, 1.0, 0.02);
+  EXPECT_NEAR(observed(*model, "tip_displacement_y") / -66.10e-3, 1.0, 0.01);
+}
+
+TEST(TurekHronBeam, SwingsAsCsm3Says) {
+  const auto model = csm_beam(0.0);
+  double lowest = 0, highest = -1, returned = 0;  // from rest down and back: one period
+  for (int n = 1; n <= 220; ++n) {
+    run_to(*model, 0.005);
+    const double y = observed(*model, "tip_displacement_y");
+    lowest = std::min(lowest, y);
+    if (n > 120 && y > highest) highest = y, returned = 0.005 * n;
+  }
+  EXPECT_NEAR((highest - lowest) / 2 / 65.16e-3, 1.0, 0.02);
+  EXPECT_NEAR(returned * 1.0995, 1.0, 0.02);  // a flat top: the time of its highest sample
+}
+
 TEST(OscillatingPlate, UpdatedLagrangianOfFiveRowsIsTooSoft) {
   SolidParameters p = plate(5);
   p.formulation = Formulation::updated_lagrangian;

@@ -43,6 +43,21 @@ TEST(Guards, NameTheMapBeyondWhoseEdgeACaseLies) {
   EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("midpoint steps amplify")));
 }
 
+TEST(Guards, ThinPlatesWantHourglassControlAndNotTooHighAPoissonsRatio) {
+  SolidParameters p = free_plate(4);
+  p.hourglass.reset();
+  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("4 rows without [solid.hourglass] bends")));
+  p.clamps = {{"all", {Vec(-1, -1), Vec(1, 1)}}};
+  EXPECT_THAT(beyond_edges(p), ElementsAre()) << "what is held does not bend";
+  p = free_plate(12);
+  p.hourglass.reset();
+  EXPECT_THAT(beyond_edges(p), ElementsAre());
+  EXPECT_THAT(beyond_edges(free_plate(3)), ElementsAre(HasSubstr("cases/oscillating_plate/thin_map.toml")));
+  p = free_plate(4);
+  p.material.poissons_ratio = 0.49;
+  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("cases/oscillating_plate/poisson_map.toml")));
+}
+
 TEST(ArtificialStress, MustOutweighWhatTensionDrivesInALattice) {
   // From sums over the lattice by another program.
   EXPECT_NEAR(least_epsilon(1.3, 4, 0.0), 0.150, 1e-3);
