@@ -14,9 +14,9 @@ class MovingInterface {
   void attach(const Interface& interface, Boundary& boundary, double rest_density, double strip_width,
               double response_time);
 
-  /// Begins a window of `dt` [s] at `time` [s] with the solid's motion at that time. Over the window each
-  /// particle goes in a straight line from where the last window left it to where the solid has it now: the
-  /// fluid's copy is one window late, but displacement and velocity agree exactly and no position ever jumps.
+  /// Begins a window of `dt` [s] at `time` [s], in which the interface is brought to where `motion` says.
+  /// Each particle goes there in a straight line from where the last window left it: displacement and
+  /// velocity agree exactly, and no position ever jumps.
   ///
   /// The acceleration that (29) uses is the change of that velocity, averaged over the response time. Taken
   /// as it is, it would be an added mass that lags by a window: a layer of the solid with mass m_s per area
