@@ -46,22 +46,25 @@ namespace {
 // A sum of kernel values below this share of W(0) means that no fluid is in reach.
 constexpr double smallest_share = 1e-9;
 
-void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel,
-                            const Vec& gravity, std::size_t cluster) {
+template <class W>
+void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel, const Vec& gravity,
+                            std::size_t cluster) {
   const double smallest_sum = smallest_share * kernel.value(0.0);
   const std::size_t first = cluster * lane_count;
-  const VecLanes x_w = load(boundary.x, first);
   Lanes sum_W = 0.0, sum_p = 0.0;
   VecLanes sum_v = zero_vector(), sum_rho_x = zero_vector();
-  for (const std::uint32_t i : boundary.fluid_near.sources(cluster)) {
-    const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
-    const Lanes r2 = max(dot(x_wi, x_wi), 1e-300);
-    const Lanes W = kernel.value(r2 * inverse_sqrt(r2));
-    sum_W += W;
-    sum_p += fluid.p[i] * W;
-    for (int a = 0; a < dim; ++a) {
-      sum_v[a] += fluid.v[a][i] * W;
-      sum_rho_x[a] += (fluid.rho[i] * W) * x_wi[a];
+  for (const Near& near : boundary.fluid_near.near(cluster)) {
+    const VecLanes x_w = shifted(load(boundary.x, first), near.shift);
+    for (const std::uint32_t i : near.sources) {
+      const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
+      const Lanes r2 = max(dot(x_wi, x_wi), 1e-300);
+      const Lanes W_wi = kernel.value(r2 * inverse_sqrt(r2));
+      sum_W += W_wi;
+      sum_p += fluid.p[i] * W_wi;
+      for (int a = 0; a < dim; ++a) {
+        sum_v[a] += fluid.v[a][i] * W_wi;
+        sum_rho_x[a] += (fluid.rho[i] * W_wi) * x_wi[a];
+      }
     }
   }
   const Lanes share = inverse(max(sum_W, smallest_sum));
@@ -77,38 +80,49 @@ void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const Cu
   store(p_w * inverse_rho * inverse_rho, boundary.p_rho2, first);
 }
 
-}  // namespace
-
-void extrapolate(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel, const Vec& gravity) {
-  const auto& active = boundary.fluid_near.active();
-#pragma omp for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < active.size(); ++k)
-    extrapolate_to_cluster(boundary, fluid, kernel, gravity, active[k]);
+template <class W>
+void extrapolate_viscosity_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel,
+                                      std::size_t cluster) {
+  const double smallest_sum = smallest_share * kernel.value(0.0);
+  const std::size_t first = cluster * lane_count;
+  Lanes sum_W = 0.0, sum_eta = 0.0;
+  TensorLanes mean = zero_tensor();
+  for (const Near& near : boundary.fluid_near.near(cluster)) {
+    const VecLanes x_w = shifted(load(boundary.x, first), near.shift);
+    for (const std::uint32_t i : near.sources) {
+      const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
+      const Lanes W_wi = kernel.value(square_root(dot(x_wi, x_wi)));
+      sum_W += W_wi;
+      sum_eta += fluid.eta[i] * W_wi;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b) mean[a][b] += fluid.eta_grad_v[a][b][i] * W_wi;
+    }
+  }
+  const Lanes share = inverse(max(sum_W, smallest_sum));
+  for (auto& row : mean)
+    for (auto& component : row) component *= share;
+  store(sum_eta * share, boundary.eta, first);
+  store(mean, boundary.eta_grad_v, first);
 }
 
-void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel) {
-  const double smallest_sum = smallest_share * kernel.value(0.0);
+}  // namespace
+
+void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity) {
   const auto& active = boundary.fluid_near.active();
+  kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    const std::size_t first = active[k] * lane_count;
-    const VecLanes x_w = load(boundary.x, first);
-    Lanes sum_W = 0.0, sum_eta = 0.0;
-    TensorLanes mean = zero_tensor();
-    for (const std::uint32_t i : boundary.fluid_near.sources(active[k])) {
-      const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
-      const Lanes W = kernel.value(square_root(dot(x_wi, x_wi)));
-      sum_W += W;
-      sum_eta += fluid.eta[i] * W;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b) mean[a][b] += fluid.eta_grad_v[a][b][i] * W;
-    }
-    const Lanes share = inverse(max(sum_W, smallest_sum));
-    for (auto& row : mean)
-      for (auto& component : row) component *= share;
-    store(sum_eta * share, boundary.eta, first);
-    store(mean, boundary.eta_grad_v, first);
-  }
+    for (std::size_t k = 0; k < active.size(); ++k)
+      extrapolate_to_cluster(boundary, fluid, W, gravity, active[k]);
+  });
+}
+
+void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel) {
+  const auto& active = boundary.fluid_near.active();
+  kernel.visit([&](const auto& W) {
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < active.size(); ++k)
+      extrapolate_viscosity_to_cluster(boundary, fluid, W, active[k]);
+  });
 }
 
 }  // namespace toryu::fluid

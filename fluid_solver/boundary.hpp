@@ -68,9 +68,9 @@ inline Sources sources(const Boundary& b) {
 }
 
 /// Extrapolates pressure (29) and velocity (27) from the fluid to the particles of `boundary` near it.
-void extrapolate(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel, const Vec& gravity);
+void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity);
 
 /// Extrapolates viscosity and eta grad v of a medium that is not Newtonian likewise, as kernel means.
-void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const CubicSpline& kernel);
+void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel);
 
 }  // namespace toryu::fluid

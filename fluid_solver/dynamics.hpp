@@ -8,40 +8,22 @@
 
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
-#include "fluid_solver/boundary.hpp"
 #include "fluid_solver/friction.hpp"
+#include "fluid_solver/pair_sweeps.hpp"
 #include "fluid_solver/parameters.hpp"
-#include "fluid_solver/terms/artificial_viscosity.hpp"
-#include "fluid_solver/terms/continuity.hpp"
-#include "fluid_solver/terms/density_diffusion.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
-#include "fluid_solver/terms/laminar_viscosity.hpp"
-#include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/terms/rheology.hpp"
-#include "fluid_solver/terms/variable_viscosity.hpp"
-#include "fluid_solver/terms/wall_repulsion.hpp"
 
 namespace toryu::fluid {
-
-/// A term that a case does without.
-struct Absent {};
-
-/// What a boundary gave the fluid in one evaluation.
-struct Given {
-  std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
-  std::vector<Vec> friction_by_cluster;  ///< the same of the friction alone; empty where there is none
-  Vec force() const;                     ///< the sum of both
-  Vec friction() const;
-};
 
 class Dynamics {
  public:
   Dynamics(const Parameters& parameters, const Vec& gravity);
 
-  /// Fills p, V, the boundaries' extrapolated values and the rates a, drho of `fluid` from its state.
-  /// `given[b]` becomes the force that boundary b exerted on the fluid.
-  void evaluate(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries,
-                std::vector<Given>& given, Timers& timers) const;
+  /// Fills p, V, the boundaries' extrapolated values and the wanted rates a, drho of `fluid` from its state.
+  /// `given[b]` becomes the force that boundary b exerted on the fluid, where the velocity's rate is wanted.
+  void evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
+                std::vector<Boundary>& boundaries, std::vector<Given>& given, Timers& timers) const;
 
   /// Fills `boundary.force`, the exact reaction to what the boundary did to the fluid in the last evaluation,
   /// gathered pair by pair on the boundary's side, and its `friction_force` where there is friction.
@@ -49,7 +31,7 @@ class Dynamics {
   /// The latter alone.
   void react_by_friction(const Particles& fluid, Boundary& work_piece) const;
 
-  const CubicSpline& kernel() const { return kernel_; }
+  const Kernel& kernel() const { return kernel_; }
   const EquationOfState& equation_of_state() const { return state_; }
   /// Empty if the case has none.
   const std::optional<WorkPieceFriction>& friction() const { return friction_; }
@@ -62,17 +44,23 @@ class Dynamics {
  private:
   void pressures(Particles& fluid) const;
   void wall_densities(Boundary& boundary) const;
+  void density_gradients(Particles& fluid, const ClusterList& neighbours) const;
   void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
+  void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries,
+                         std::vector<Given>& given) const;
   bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
+  bool renormalised_diffusion() const {
+    return std::holds_alternative<DensityDiffusionTerm<true>>(terms_.diffusion);
+  }
+  PairSweeps sweeps() const {
+    return {terms_, body_force_, viscous_walls(), parameters_.tensile_control.has_value()};
+  }
 
   Parameters parameters_;
-  Vec gravity_;
-  CubicSpline kernel_;
+  BodyForce body_force_;
+  Kernel kernel_;
   EquationOfState state_;
-  std::variant<Absent, DensityDiffusionTerm<false>, DensityDiffusionTerm<true>> diffusion_;
-  std::variant<Absent, ArtificialViscosityTerm> artificial_;
-  std::variant<Absent, LaminarViscosityTerm, VariableViscosityTerm> viscous_;
-  std::variant<Absent, WallRepulsionTerm> repulsion_;
+  ChosenTerms terms_;
   std::variant<Absent, PowerLaw, Carreau> rheology_;
   std::optional<WorkPieceFriction> friction_;
 };

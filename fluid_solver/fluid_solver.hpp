@@ -1,4 +1,4 @@
-/// The weakly compressible delta-SPH fluid: state, boundaries and the midpoint step.
+/// The weakly compressible delta-SPH fluid: state, boundaries and the time step.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,8 @@
 #include "fluid_solver/dynamics.hpp"
 #include "fluid_solver/interface.hpp"
 #include "fluid_solver/neighbours.hpp"
+#include "fluid_solver/period.hpp"
+#include "fluid_solver/shifting.hpp"
 #include "fluid_solver/surface_record.hpp"
 
 namespace toryu::fluid {
@@ -27,7 +29,7 @@ class FluidSolver : public Solver {
 
   double time_step_limit() const override;
   std::string_view time_step_rule() const override;
-  /// Midpoint step (31)-(32): two evaluations.
+  /// A step by the integrator of the case.
   void advance(double dt) override;
   void save() override;
   void restore() override { restore_(); }
@@ -65,12 +67,21 @@ class FluidSolver : public Solver {
  private:
   struct Step;
   void fill_regions();
+  void start_flow(std::size_t particle);
   void fill_walls();
   void check_overlaps() const;
   void move_boundaries(double time);
+  void move_back_into_domain();
+  void update_neighbours(double dt);
+  void step_midpoint(double dt);
+  void step_symplectic(double dt);
   void advance_from(const Step& start, double dt);
+  void bear_load(double dt);
+  void shift(double dt);
   void note_surface(double dt);
   void count_impulses(double dt);
+  /// What no force gave the fluid: shifting, tensile control, consistent gradients [N.s per metre].
+  Vec numerical_impulse() const;
   void note_extremes();
   [[noreturn]] void fail(std::size_t particle, double time, const std::string& quantity, double value,
                          const std::string& limit) const;
@@ -78,6 +89,7 @@ class FluidSolver : public Solver {
   Parameters parameters_;
   Scene scene_;
   Dynamics dynamics_;
+  Period period_;
   Neighbours neighbours_;
   Particles fluid_;
   std::vector<Boundary> boundaries_;
@@ -89,7 +101,9 @@ class FluidSolver : public Solver {
     Vec total = Vec::Zero(), friction = Vec::Zero();
   };
   std::vector<Impulse> impulses_;
-  Vec gravity_impulse_ = Vec::Zero();
+  Vec gravity_impulse_ = Vec::Zero(), start_momentum_ = Vec::Zero();
+  std::optional<Shifting> shifting_;
+  bool density_rate_known_ = false;  ///< of the symplectic step, from the last one
   std::optional<SurfaceRecord> surface_record_;
   std::optional<std::size_t> interface_boundary_;
   MovingInterface interface_;

@@ -5,10 +5,9 @@
 namespace toryu::fluid {
 
 WorkPieceFriction::WorkPieceFriction(const Friction& parameters, double spacing, double sound_speed,
-                                     const CubicSpline& kernel)
+                                     const Kernel& kernel)
     : form_(parameters.form),
       spacing_(spacing),
-      smoothing_ratio_(kernel.h() / spacing),
       term_{parameters.coefficient,
             parameters.regularisation_speed > 0 ? parameters.regularisation_speed : 1e-3 * sound_speed},
       kernel_(kernel) {}
@@ -18,71 +17,97 @@ void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& f
   d.assign(padded(work_piece.count), spacing_);
   if (form_ == FrictionForm::as_printed) return;
   const auto& active = work_piece.fluid_near.active();
+  kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    const std::size_t first = active[k] * lane_count;
-    const VecLanes x_s = load(work_piece.x, first), A_s = load(work_piece.area_vector, first);
-    Lanes sum = 0.0;
-    for (const std::uint32_t f : work_piece.fluid_near.sources(active[k])) {
-      const VecLanes x_sf{x_s[0] - fluid.x[0][f], x_s[1] - fluid.x[1][f]};
-      sum += fluid.V[f] * kernel_.value(square_root(dot(x_sf, x_sf)));
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      const std::size_t first = active[k] * lane_count;
+      const VecLanes A_s = load(work_piece.area_vector, first);
+      Lanes sum = 0.0;
+      for (const Near& near : work_piece.fluid_near.near(active[k])) {
+        const VecLanes x_s = shifted(load(work_piece.x, first), near.shift);
+        for (const std::uint32_t f : near.sources) {
+          const VecLanes x_sf{x_s[0] - fluid.x[0][f], x_s[1] - fluid.x[1][f]};
+          sum += fluid.V[f] * W.value(square_root(dot(x_sf, x_sf)));
+        }
+      }
+      store(square_root(dot(A_s, A_s)) * inverse(max(sum, least_contact)), d, first);
     }
-    store(square_root(dot(A_s, A_s)) * inverse(max(sum, least_contact)), d, first);
-  }
+  });
 }
 
 void WorkPieceFriction::brake_fluid(Particles& fluid, const Boundary& work_piece,
                                     std::vector<Vec>& by_cluster) const {
   by_cluster.assign(fluid.clusters(), Vec::Zero());
   const auto& active = work_piece.near_fluid.active();
+  kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    const std::size_t first = active[k] * lane_count;
-    const VecLanes x_f = load(fluid.x, first), v_f = load(fluid.v, first);
-    const Lanes p_f = load(fluid.p, first), V_f = load(fluid.V, first);
-    VecLanes sum = zero_vector();
-    for (const std::uint32_t s : work_piece.near_fluid.sources(active[k])) {
+    for (std::size_t k = 0; k < active.size(); ++k)
+      by_cluster[active[k]] = brake_cluster(W, fluid, work_piece, active[k]);
+  });
+}
+
+template <class W>
+Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, const Boundary& work_piece,
+                                     std::size_t cluster) const {
+  const std::size_t first = cluster * lane_count;
+  const VecLanes v_f = load(fluid.v, first);
+  const Lanes p_f = load(fluid.p, first), V_f = load(fluid.V, first);
+  VecLanes sum = zero_vector();
+  for (const Near& near : work_piece.near_fluid.near(cluster)) {
+    const VecLanes x_f = shifted(load(fluid.x, first), near.shift);
+    for (const std::uint32_t s : near.sources) {
       VecLanes x_fs, v_fs;
       for (int a = 0; a < dim; ++a) {
         x_fs[a] = x_f[a] - work_piece.x[a][s];
         v_fs[a] = v_f[a] - work_piece.v[a][s];
       }
       const VecLanes on_s =
-          term_.per_volume(kernel_, work_piece.friction_length[s], p_f, dot(x_fs, x_fs), v_fs);
+          term_.per_volume(kernel, work_piece.friction_length[s], p_f, dot(x_fs, x_fs), v_fs);
       for (int a = 0; a < dim; ++a) sum[a] -= on_s[a];
     }
-    const Lanes inverse_rho = inverse(load(fluid.rho, first));
-    for (int a = 0; a < dim; ++a) {
-      store(load(fluid.a[a], first) + sum[a] * inverse_rho, fluid.a[a], first);
-      by_cluster[active[k]][a] = sum_of(V_f * sum[a]);  // V_f = 0 in idle lanes
-    }
   }
+  const Lanes inverse_rho = inverse(load(fluid.rho, first));
+  Vec force;
+  for (int a = 0; a < dim; ++a) {
+    store(load(fluid.a[a], first) + sum[a] * inverse_rho, fluid.a[a], first);
+    force[a] = sum_of(V_f * sum[a]);  // V_f = 0 in idle lanes
+  }
+  return force;
 }
 
 void WorkPieceFriction::drag_work_piece(Boundary& work_piece, const Particles& fluid) const {
   for (auto& component : work_piece.friction_force) component.assign(padded(work_piece.count), 0.0);
   const auto& active = work_piece.fluid_near.active();
+  kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    const std::size_t first = active[k] * lane_count;
-    const VecLanes x_s = load(work_piece.x, first), v_s = load(work_piece.v, first);
-    const Lanes d_s = load(work_piece.friction_length, first);
-    VecLanes sum = zero_vector();
-    for (const std::uint32_t f : work_piece.fluid_near.sources(active[k])) {
+    for (std::size_t k = 0; k < active.size(); ++k) drag_cluster(W, work_piece, fluid, active[k]);
+  });
+}
+
+template <class W>
+void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid,
+                                     std::size_t cluster) const {
+  const std::size_t first = cluster * lane_count;
+  const VecLanes v_s = load(work_piece.v, first);
+  const Lanes d_s = load(work_piece.friction_length, first);
+  VecLanes sum = zero_vector();
+  for (const Near& near : work_piece.fluid_near.near(cluster)) {
+    const VecLanes x_s = shifted(load(work_piece.x, first), near.shift);
+    for (const std::uint32_t f : near.sources) {
       VecLanes x_fs, v_fs;
       for (int a = 0; a < dim; ++a) {
         x_fs[a] = fluid.x[a][f] - x_s[a];
         v_fs[a] = fluid.v[a][f] - v_s[a];
       }
-      const VecLanes on_s = term_.per_volume(kernel_, d_s, fluid.p[f], dot(x_fs, x_fs), v_fs);
+      const VecLanes on_s = term_.per_volume(kernel, d_s, fluid.p[f], dot(x_fs, x_fs), v_fs);
       for (int a = 0; a < dim; ++a) sum[a] += fluid.V[f] * on_s[a];
     }
-    store(sum, work_piece.friction_force, first);
   }
+  store(sum, work_piece.friction_force, first);
 }
 
 double WorkPieceFriction::rate(double p, double rho) const {
-  const double share = form_ == FrictionForm::as_printed ? printed_share(smoothing_ratio_) : 1.0;
+  const double share = form_ == FrictionForm::as_printed ? printed_share(kernel_, spacing_) : 1.0;
   return share * term_.mu_A * std::max(p, 0.0) / (rho * spacing_ * term_.eps);
 }
 
@@ -91,7 +116,7 @@ std::string WorkPieceFriction::parameters() const {
   if (form_ == FrictionForm::normalised) return text + "normalised: a plane interface transmits mu_A p";
   return text +
          fmt::format("as printed: a plane interface transmits only about {:.2f} mu_A p at h = {:.4g} d_0",
-                     printed_share(smoothing_ratio_), smoothing_ratio_);
+                     printed_share(kernel_, spacing_), kernel_.h() / spacing_);
 }
 
 }  // namespace toryu::fluid

@@ -10,8 +10,7 @@ namespace toryu::fluid {
 
 class WorkPieceFriction {
  public:
-  WorkPieceFriction(const Friction& parameters, double spacing, double sound_speed,
-                    const CubicSpline& kernel);
+  WorkPieceFriction(const Friction& parameters, double spacing, double sound_speed, const Kernel& kernel);
 
   /// Fills `work_piece.friction_length`, the d_s, for the fluid's places and volumes.
   void measure_contact(Boundary& work_piece, const Particles& fluid) const;
@@ -27,10 +26,15 @@ class WorkPieceFriction {
   std::string parameters() const;
 
  private:
+  template <class W>
+  Vec brake_cluster(const W& kernel, Particles& fluid, const Boundary& work_piece, std::size_t cluster) const;
+  template <class W>
+  void drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid, std::size_t cluster) const;
+
   FrictionForm form_;
-  double spacing_, smoothing_ratio_;
+  double spacing_;
   FrictionTerm term_;
-  CubicSpline kernel_;
+  Kernel kernel_;
 };
 
 }  // namespace toryu::fluid

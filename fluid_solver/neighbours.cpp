@@ -20,6 +20,9 @@ void sort(Particles& f, const StripOrder& strips) {
     reorder(f.v[a], order, scratch);
   }
   reorder(f.rho, order, scratch);
+  // kept from the last step: for the free surface, and for the symplectic step
+  reorder(f.V, order, scratch);
+  reorder(f.drho, order, scratch);
   reorder(f.m, order, scratch);
   std::fill(f.m.begin() + static_cast<std::ptrdiff_t>(f.count), f.m.end(), 0.0);  // idle lanes weigh nothing
   std::vector<std::uint32_t> id(f.count);
@@ -35,19 +38,16 @@ double largest_norm(const VecField& v, std::size_t count) {
   return std::sqrt(largest);
 }
 
-void Neighbours::update(Particles& fluid, std::vector<Boundary>& boundaries, double dt) {
-  bool exhausted = builds_ == 0;
-  if (!exhausted) {
-    double moved_fluid =
-        largest_distance(fluid.x, built_fluid_, fluid.count) + dt * largest_norm(fluid.v, fluid.count);
-    double moved = moved_fluid;
-    for (std::size_t b = 0; b < boundaries.size(); ++b)
-      if (boundaries[b].moves)
-        moved = std::max(moved, largest_distance(boundaries[b].x, built_boundaries_[b], boundaries[b].count) +
-                                    dt * largest_norm(boundaries[b].v, boundaries[b].count));
-    exhausted = moved_fluid + moved > skin_;
-  }
-  if (exhausted) build(fluid, boundaries);
+bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const {
+  if (builds_ == 0) return true;
+  const double moved_fluid =
+      largest_distance(fluid.x, built_fluid_, fluid.count) + dt * largest_norm(fluid.v, fluid.count);
+  double moved = moved_fluid;
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+    if (boundaries[b].moves)
+      moved = std::max(moved, largest_distance(boundaries[b].x, built_boundaries_[b], boundaries[b].count) +
+                                  dt * largest_norm(boundaries[b].v, boundaries[b].count));
+  return moved_fluid + moved > skin_;
 }
 
 void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries) {
@@ -55,7 +55,7 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries) {
   sort(fluid, strips_);
   strips_.index(fluid.x[0], fluid.count);
   const double reach = support_ + skin_;
-  of_fluid_.build(fluid.x, fluid.count, fluid.x, strips_, reach);
+  of_fluid_.build(fluid.x, fluid.count, fluid.x, strips_, reach, shifts_);
   built_fluid_ = fluid.x;
   built_boundaries_.resize(boundaries.size());
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
@@ -65,8 +65,8 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries) {
       boundary.sort();
       built_boundaries_[b] = boundary.x;
     }
-    boundary.near_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, reach);
-    boundary.fluid_near.build(boundary.x, boundary.count, fluid.x, strips_, reach);
+    boundary.near_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, reach, shifts_);
+    boundary.fluid_near.build(boundary.x, boundary.count, fluid.x, strips_, reach, shifts_);
   }
 }
 

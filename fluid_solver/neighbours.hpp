@@ -12,20 +12,22 @@ namespace toryu::fluid {
 
 class Neighbours {
  public:
-  /// `support` and `skin` [m]; `strip_width` [m] of the storage order.
-  Neighbours(double support, double skin, double strip_width)
-      : support_(support), skin_(skin), strips_(strip_width) {}
+  /// `support` and `skin` [m]; `strip_width` [m] of the storage order; `shifts` [m], zero first, by which
+  /// space repeats itself.
+  Neighbours(double support, double skin, double strip_width, std::vector<Vec> shifts)
+      : support_(support), skin_(skin), shifts_(std::move(shifts)), strips_(strip_width) {}
 
-  /// Builds the lists if the next `dt` [s] at the present speeds may exhaust the skin.
-  void update(Particles& fluid, std::vector<Boundary>& boundaries, double dt);
+  /// Whether the next `dt` [s] at the present speeds may exhaust the skin.
+  bool exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const;
+  /// Sorts the particles and builds the lists anew.
+  void build(Particles& fluid, std::vector<Boundary>& boundaries);
 
   const ClusterList& of_fluid() const { return of_fluid_; }
   long builds() const { return builds_; }
 
  private:
-  void build(Particles& fluid, std::vector<Boundary>& boundaries);
-
   double support_, skin_;
+  std::vector<Vec> shifts_;
   StripOrder strips_;
   ClusterList of_fluid_;
   VecField built_fluid_;

@@ -25,7 +25,7 @@ void FluidSolver::check(double time) const {
       fail(i, time, "density [kg/m3]", rho, fmt::format("{:.6g} to {:.6g}", least, most));
     if (!(v.squaredNorm() <= top_speed * top_speed))
       fail(i, time, "speed [m/s]", v.norm(), fmt::format("{:.6g}", top_speed));
-    if (!scene_.domain.contains(x))
+    if (!scene_.domain.contains(x + period_.back_into_domain(x)))
       fail(i, time, fmt::format("position ({:.6g}, {:.6g}) [m], outside by", x[0], x[1]),
            (scene_.domain.min - x).cwiseMax(x - scene_.domain.max).maxCoeff(), "the domain of the case");
   }
@@ -89,6 +89,12 @@ Vec FluidSolver::momentum() const {
   return sum;
 }
 
+Vec FluidSolver::numerical_impulse() const {
+  Vec impulse = momentum() - start_momentum_ - gravity_impulse_;
+  for (const auto& given : impulses_) impulse -= given.total;
+  return impulse;
+}
+
 std::vector<Observation> FluidSolver::observe() const {
   const Vec p = momentum();
   std::vector<Observation> row{{"kinetic_energy", "J/m", kinetic_energy()},
@@ -112,9 +118,10 @@ std::vector<Observation> FluidSolver::observe() const {
     push("friction_impulse_from_" + name, "N.s/m", impulse.friction);
   }
   if (scene_.gravity.norm() > 0) push("impulse_of_gravity", "N.s/m", gravity_impulse_);
+  if (parameters_.seeks_free_surface()) push("impulse_of_corrections", "N.s/m", numerical_impulse());
   for (const auto& observer : parameters_.observers)
-    row.push_back(toryu::fluid::observe(observer, fluid_, parameters_.spacing, dynamics_.kernel(),
-                                        dynamics_.equation_of_state()));
+    row.push_back(toryu::fluid::observe(
+        observer, {fluid_, parameters_, dynamics_.kernel(), dynamics_.equation_of_state(), period_, time_}));
   if (surface_record_)
     for (const auto& observation : surface_record_->observe()) row.push_back(observation);
   return row;

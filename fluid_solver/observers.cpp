@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_solver/initial_flow.hpp"
+
 namespace toryu::fluid {
 
 namespace {
@@ -25,11 +27,11 @@ double front_x(const Particles& fluid, double spacing) {
   return front + 0.5 * spacing;
 }
 
-double pressure_at(const Vec& point, const Particles& fluid, const CubicSpline& kernel,
-                   const EquationOfState& state) {
+double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kernel,
+                   const EquationOfState& state, const Period& period) {
   double sum_W = 0, sum_p = 0;
   for (std::size_t i = 0; i < fluid.count; ++i) {
-    const double W = kernel.value((at(fluid.x, i) - point).norm());
+    const double W = kernel.value(period.shortest(at(fluid.x, i) - point).norm());
     sum_W += W;
     sum_p += W * state.pressure(fluid.rho[i]);
   }
@@ -51,15 +53,39 @@ double flow_rate(const Particles& fluid, const Box& box, Axis axis) {
   return sum_V > 0 ? cross_section * sum_V_v / sum_V : 0.0;
 }
 
-Observation observe(const Observer& observer, const Particles& fluid, double spacing,
-                    const CubicSpline& kernel, const EquationOfState& state) {
+double flow_amplitude(const Particles& fluid, const InitialFlow& flow) {
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < fluid.count; ++i) {
+    const Vec v_0 = velocity(flow, at(fluid.x, i));
+    product += fluid.m[i] * v_0.dot(at(fluid.v, i));
+    square += fluid.m[i] * v_0.squaredNorm();
+  }
+  return square > 0 ? product / square : 0.0;
+}
+
+double flow_error(const Particles& fluid, const InitialFlow& flow, double share) {
+  double sum = 0;
+  for (std::size_t i = 0; i < fluid.count; ++i)
+    sum += (at(fluid.v, i) - share * velocity(flow, at(fluid.x, i))).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(fluid.count)) / std::abs(flow.speed);
+}
+
+Observation observe(const Observer& observer, const Observed& now) {
+  const Parameters& p = now.parameters;
   switch (observer.quantity) {
     case Quantity::front_x:
-      return {observer.name, "m", front_x(fluid, spacing)};
+      return {observer.name, "m", front_x(now.fluid, p.spacing)};
     case Quantity::pressure:
-      return {observer.name, "Pa", pressure_at(observer.point, fluid, kernel, state)};
+      return {observer.name, "Pa", pressure_at(observer.point, now.fluid, now.kernel, now.state, now.period)};
     case Quantity::flow_rate:
-      return {observer.name, "m2/s", flow_rate(fluid, *observer.box, observer.axis)};
+      return {observer.name, "m2/s", flow_rate(now.fluid, *observer.box, observer.axis)};
+    case Quantity::flow_amplitude:
+      return {observer.name, "1", flow_amplitude(now.fluid, *p.initial_flow)};
+    case Quantity::flow_error: {
+      const double nu = p.laminar_viscosity->dynamic_viscosity / p.density;
+      return {observer.name, "1",
+              flow_error(now.fluid, *p.initial_flow, decay(*p.initial_flow, nu, now.time))};
+    }
   }
   return {};
 }

@@ -5,6 +5,7 @@
 #include "common/sph/kernel.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/particles.hpp"
+#include "fluid_solver/period.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 
 namespace toryu::fluid {
@@ -13,8 +14,8 @@ namespace toryu::fluid {
 double front_x(const Particles& fluid, double spacing);
 
 /// Kernel mean of the pressure about `point` [Pa]; 0 where no fluid is in reach.
-double pressure_at(const Vec& point, const Particles& fluid, const CubicSpline& kernel,
-                   const EquationOfState& state);
+double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kernel,
+                   const EquationOfState& state, const Period& period);
 
 /// Flow along `axis` through `box`, which is to be full of fluid [m2/s, that is m3/s per metre depth]: the
 /// box's cross-section times the mean velocity in it. A particle counts as the square of its volume, with the
@@ -22,7 +23,21 @@ double pressure_at(const Vec& point, const Particles& fluid, const CubicSpline& 
 /// empty.
 double flow_rate(const Particles& fluid, const Box& box, Axis axis);
 
-Observation observe(const Observer& observer, const Particles& fluid, double spacing,
-                    const CubicSpline& kernel, const EquationOfState& state);
+/// sum m v . v_0(x)/sum m v_0(x)^2: the velocity's share of the flow v_0 that it started with.
+double flow_amplitude(const Particles& fluid, const InitialFlow& flow);
+
+/// Root mean square of v less `share` of the initial flow at the same place, over its speed.
+double flow_error(const Particles& fluid, const InitialFlow& flow, double share);
+
+/// What observers look at.
+struct Observed {
+  const Particles& fluid;
+  const Parameters& parameters;
+  const Kernel& kernel;
+  const EquationOfState& state;
+  const Period& period;
+  double time;  ///< [s]
+};
+Observation observe(const Observer& observer, const Observed& now);
 
 }  // namespace toryu::fluid

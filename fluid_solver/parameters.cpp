@@ -1,6 +1,9 @@
 #include "fluid_solver/parameters.hpp"
 
+#include <cmath>
 #include <set>
+
+#include "common/sph/lanes.hpp"
 
 namespace toryu::fluid {
 
@@ -12,16 +15,55 @@ bool names_differ(const std::vector<Observer>& observers) {
   return names.size() == observers.size();
 }
 
+bool flow_is_there(const Parameters& p) {
+  const bool known = p.initial_flow && p.initial_flow->profile == FlowProfile::taylor_green &&
+                     p.laminar_viscosity.has_value();
+  for (const auto& observer : p.observers)
+    if ((observer.quantity == Quantity::flow_amplitude && !p.initial_flow) ||
+        (observer.quantity == Quantity::flow_error && !known))
+      return false;
+  return true;
+}
+
 bool one_viscosity(const Parameters& p) {
   return p.laminar_viscosity.has_value() + p.power_law.has_value() + p.carreau.has_value() <= 1;
 }
 
 }  // namespace
 
+double Parameters::strip_width() const {
+  return std::sqrt(static_cast<double>(lane_count)) * spacing;
+}
+
 void describe(ParameterTable& table, Region& region) {
   table.text("name", region.name, {.required = true, .help = "name in the log"});
   table.group("box", region.box, "filled with fluid at the start");
   table.vector("velocity", region.velocity, {.unit = "m/s", .help = "velocity at the start"});
+}
+
+void describe(ParameterTable& table, InitialFlow& flow) {
+  table.choice("profile", flow.profile, {"taylor_green", "rotation", "strain", "standing_wave"},
+               {.required = true, .help = "added to the velocity of the regions, with its pressure"});
+  table.number("speed", flow.speed, {.unit = "m/s", .required = true, .help = "the largest of a period"});
+  table.number("length", flow.length,
+               {.unit = "m",
+                .minimum = 0,
+                .above_minimum = true,
+                .required = true,
+                .help = "of a period; of rotation and strain the distance at which `speed` is reached"});
+  table.number("depth", flow.depth,
+               {.unit = "m", .minimum = 0, .help = "of the water under a standing wave"});
+  table.vector("centre", flow.centre,
+               {.unit = "m", .help = "of the flow; of a standing wave on the surface, where it moves most"});
+  table.require(flow.profile != FlowProfile::standing_wave || flow.depth > 0, "depth",
+                "a standing wave needs a 'depth' above 0");
+}
+
+void describe(ParameterTable& table, CentralForce& force) {
+  table.number(
+      "rate", force.rate,
+      {.unit = "1/s", .minimum = 0, .required = true, .help = "acceleration is rate^2 times distance"});
+  table.vector("centre", force.centre, {.unit = "m", .help = "towards which it pulls"});
 }
 
 void describe(ParameterTable& table, HydrostaticStart& start) {
@@ -45,6 +87,16 @@ void describe(ParameterTable& table, DensityDiffusion& diffusion) {
       {.help =
            "linear part left alone: renormalised (Marrone et al. 2011) or none (Molteni & Colagrossi 2009)"});
 }
+
+void describe(ParameterTable& table, ParticleShifting& shifting) {
+  table.number(
+      "strength", shifting.strength,
+      {.minimum = 0, .maximum = 10, .help = "A of the shift -A h u_max dt grad C; Sun et al. 2017 take 2"});
+}
+
+void describe(ParameterTable&, TensileControl&) {}
+
+void describe(ParameterTable&, ConsistentGradients&) {}
 
 void describe(ParameterTable& table, ArtificialViscosity& viscosity) {
   table.number("alpha", viscosity.alpha,
@@ -176,11 +228,14 @@ void describe(ParameterTable& table, Observer& observer) {
   table.text("name", observer.name,
              {.required = true, .help = "name of the column in fluid.csv", .names_columns = true});
   table.choice(
-      "quantity", observer.quantity, {"front_x", "pressure", "flow_rate"},
+      "quantity", observer.quantity, {"front_x", "pressure", "flow_rate", "flow_amplitude", "flow_error"},
       {.required = true,
        .help =
            "front_x: largest x of the fluid; pressure: kernel mean about `point`; flow_rate: along `axis`, "
-           "cross-section of `box` times mean velocity in it"});
+           "cross-section of `box` times mean velocity in it; flow_amplitude: share of the initial flow that "
+           "the "
+           "velocity holds; flow_error: of a Taylor-Green flow, root mean square difference from the exact "
+           "velocity over the initial speed"});
   table.vector("point", observer.point, {.unit = "m", .help = "where the pressure is probed"});
   table.optional("box", observer.box, "where the flow rate is taken, to be full of fluid");
   table.choice("axis", observer.axis, {"x", "y"}, {.help = "direction in which the flow rate counts"});
@@ -203,21 +258,37 @@ void describe(ParameterTable& table, Parameters& p) {
   table.number(
       "spacing", p.spacing,
       {.unit = "m", .minimum = 0, .above_minimum = true, .required = true, .help = "particle spacing d_0"});
+  table.choice("kernel", p.kernel, {"cubic_spline", "wendland_c2"},
+               {.help = "cubic spline (Monaghan & Lattanzio 1985) or Wendland C2 (1995), support 2h"});
   table.number("smoothing_ratio", p.smoothing_ratio, {.minimum = 1.0, .maximum = 2.0, .help = "h/d_0"});
+  table.choice("integrator", p.integrator, {"midpoint", "symplectic"},
+               {.help = "midpoint (31)-(32), or a leapfrog that finds each rate once a step"});
   table.number("time_step_share", p.time_step_share,
                {.minimum = 0,
-                .maximum = 2,
+                .maximum = 10,
                 .above_minimum = true,
                 .help = "share of the stable time step that is taken"});
   table.number(
       "neighbour_skin", p.neighbour_skin,
       {.minimum = 0.01, .maximum = 1, .help = "margin of the neighbour lists over the kernel's support"});
+  table.number(
+      "start_disorder", p.start_disorder,
+      {.minimum = 0,
+       .maximum = 0.3,
+       .help = "largest random distance of a particle from the lattice at the start, over the spacing; "
+               "a lattice that is strained stays one, and shifting finds nothing to mend"});
   table.list("region", p.regions, "where there is fluid at the start");
   table.list("hole", p.holes, "cut out of the regions");
   table.optional("hydrostatic_start", p.hydrostatic_start, "start at rest under gravity");
+  table.optional("initial_flow", p.initial_flow, "a flow to start with");
+  table.optional("central_force", p.central_force, "pulls the fluid towards a point");
   table.optional("background_pressure", p.background_pressure,
                  "shifts (3); for a medium enclosed on all sides, a free surface would burst");
   table.optional("density_diffusion", p.density_diffusion, "delta-SPH, (18)-(21)");
+  table.optional("particle_shifting", p.particle_shifting, "spreads particles evenly (Sun et al. 2017)");
+  table.optional("tensile_control", p.tensile_control, "no pairing under suction (Sun et al. 2018)");
+  table.optional("consistent_gradients", p.consistent_gradients,
+                 "divergence and pressure gradient exact in linear fields (Randles & Libersky 1996)");
   table.optional("artificial_viscosity", p.artificial_viscosity, "(23)-(24)");
   table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of a Newtonian medium");
   table.optional("power_law", p.power_law, "viscosity of a medium that thins or thickens under shear");
@@ -229,8 +300,13 @@ void describe(ParameterTable& table, Parameters& p) {
   table.group("limits", p.limits, "bounds of physics");
   table.list("observer", p.observers, "numbers reported over time in fluid.csv");
   table.require(!p.regions.empty(), "region", "a fluid needs at least one [[fluid.region]]");
+  table.require(!p.consistent_gradients || p.particle_shifting, "consistent_gradients",
+                "consistent gradients do not drive particles apart: they need [fluid.particle_shifting]");
   table.require(one_viscosity(p), p.power_law ? "power_law" : "carreau",
                 "only one of 'laminar_viscosity', 'power_law' and 'carreau' may be given");
+  table.require(flow_is_there(p), "observer",
+                "a flow_amplitude needs [fluid.initial_flow]; a flow_error one of Taylor-Green with a "
+                "[fluid.laminar_viscosity]");
   table.require(names_differ(p.observers), "observer", "two [[fluid.observer]] have the same name");
 }
 

@@ -18,6 +18,24 @@ struct Region {
 };
 void describe(ParameterTable& table, Region& region);
 
+/// A flow that all of the fluid starts with, see initial_flow.hpp.
+enum class FlowProfile { taylor_green, rotation, strain, standing_wave };
+struct InitialFlow {
+  FlowProfile profile = FlowProfile::taylor_green;
+  double speed = 0;          ///< U [m/s]
+  double length = 0;         ///< of the period; of a rotation or strain where U is reached [m]
+  double depth = 0;          ///< of the water under a standing wave [m]
+  Vec centre = Vec::Zero();  ///< [m]
+};
+void describe(ParameterTable& table, InitialFlow& flow);
+
+/// Pulls all of the fluid towards a point, as strong as it is far: acceleration rate^2 times distance.
+struct CentralForce {
+  double rate = 0;  ///< Omega [1/s]
+  Vec centre = Vec::Zero();
+};
+void describe(ParameterTable& table, CentralForce& force);
+
 /// Start at rest under gravity: density from the equation of state for the weight of the fluid above.
 struct HydrostaticStart {
   double surface_level = 0;  ///< height of the free surface against gravity [m]
@@ -37,6 +55,20 @@ struct DensityDiffusion {
   DiffusionGradient gradient = DiffusionGradient::renormalised;
 };
 void describe(ParameterTable& table, DensityDiffusion& diffusion);
+
+/// Spreads the particles evenly, see shifting.hpp.
+struct ParticleShifting {
+  double strength = 2.0;  ///< A
+};
+void describe(ParameterTable& table, ParticleShifting& shifting);
+
+/// Keeps particles from pairing under suction, see terms/tensile_control.hpp.
+struct TensileControl {};
+void describe(ParameterTable& table, TensileControl& control);
+
+/// Rates that are exact in linear fields, see consistent_gradients.hpp.
+struct ConsistentGradients {};
+void describe(ParameterTable& table, ConsistentGradients& gradients);
 
 struct ArtificialViscosity {
   double alpha = 0.02;
@@ -120,7 +152,7 @@ struct Limits {
 };
 void describe(ParameterTable& table, Limits& limits);
 
-enum class Quantity { front_x, pressure, flow_rate };
+enum class Quantity { front_x, pressure, flow_rate, flow_amplitude, flow_error };
 enum class Axis { x, y };
 /// A number that the run reports over time.
 struct Observer {
@@ -132,19 +164,30 @@ struct Observer {
 };
 void describe(ParameterTable& table, Observer& observer);
 
+enum class KernelForm { cubic_spline, wendland_c2 };
+enum class Integrator { midpoint, symplectic };
+
 struct Parameters {
   double density = 1000.0;       ///< rho_0 [kg/m3]
   double sound_speed = 0;        ///< c_0 [m/s]
   int stiffness_exponent = 7;    ///< gamma of (3)
   double spacing = 0;            ///< d_0 [m]
   double smoothing_ratio = 1.3;  ///< h/d_0
+  KernelForm kernel = KernelForm::cubic_spline;
+  Integrator integrator = Integrator::midpoint;
   double time_step_share = 1.0;  ///< share of the stable step that is taken
   double neighbour_skin = 0.12;  ///< margin of the neighbour lists, as a share of the kernel's support
+  double start_disorder = 0;     ///< largest distance from the lattice at the start, share of the spacing
   std::vector<Region> regions;
   std::vector<Box> holes;
   std::optional<HydrostaticStart> hydrostatic_start;
+  std::optional<InitialFlow> initial_flow;
+  std::optional<CentralForce> central_force;
   std::optional<BackgroundPressure> background_pressure;
   std::optional<DensityDiffusion> density_diffusion;
+  std::optional<ParticleShifting> particle_shifting;
+  std::optional<TensileControl> tensile_control;
+  std::optional<ConsistentGradients> consistent_gradients;
   std::optional<ArtificialViscosity> artificial_viscosity;
   std::optional<LaminarViscosity> laminar_viscosity;
   std::optional<PowerLaw> power_law;
@@ -157,6 +200,9 @@ struct Parameters {
   std::vector<Observer> observers;
 
   double h() const { return smoothing_ratio * spacing; }
+  /// Whether a term asks who has a free surface in reach.
+  bool seeks_free_surface() const { return particle_shifting || tensile_control || consistent_gradients; }
+  double strip_width() const;  ///< of the order in which particles are stored [m]
 };
 void describe(ParameterTable& table, Parameters& parameters);
 

@@ -19,18 +19,20 @@ struct Contact {
   Vec velocity = Vec::Zero();  ///< of the medium against the surface [m/s]
 };
 
-Contact contact_of(const Boundary& surface, std::size_t k, const Particles& fluid,
-                   const CubicSpline& kernel) {
-  const Vec x_s = at(surface.x, k), v_s = at(surface.v, k);
+Contact contact_of(const Boundary& surface, std::size_t k, const Particles& fluid, const Kernel& kernel) {
+  const Vec v_s = at(surface.v, k);
   Contact mean;
   double sum = 0;
-  for (const std::uint32_t f : surface.fluid_near.sources(k / lane_count)) {
-    const double r = (at(fluid.x, f) - x_s).norm();
-    if (r >= kernel.support()) continue;
-    const double V_W = fluid.V[f] * kernel.value(r);
-    sum += V_W;
-    mean.pressure += V_W * std::max(fluid.p[f], 0.0);
-    mean.velocity += V_W * (at(fluid.v, f) - v_s);
+  for (const Near& near : surface.fluid_near.near(k / lane_count)) {
+    const Vec x_s = at(surface.x, k) + near.shift;
+    for (const std::uint32_t f : near.sources) {
+      const double r = (at(fluid.x, f) - x_s).norm();
+      if (r >= kernel.support()) continue;
+      const double V_W = fluid.V[f] * kernel.value(r);
+      sum += V_W;
+      mean.pressure += V_W * std::max(fluid.p[f], 0.0);
+      mean.velocity += V_W * (at(fluid.v, f) - v_s);
+    }
   }
   if (sum < least_contact_sum) return {};
   mean.pressure /= sum;
@@ -67,8 +69,8 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
   traction_.assign(dim * size(), 0.0);
 }
 
-void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid,
-                        const CubicSpline& kernel, double dt) {
+void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid, const Kernel& kernel,
+                        double dt) {
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const Boundary& body = boundaries[b];
     if (place_[b].empty()) continue;

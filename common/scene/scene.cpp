@@ -63,6 +63,8 @@ void describe(ParameterTable& table, Scene& scene) {
                             scene.end_time / scene.series_interval));
   table.group("domain", scene.domain, "a particle that leaves it stops the run");
   table.require(!scene.domain.round, "domain.round", "the domain is a box: it cannot be round");
+  table.choice("periodic", scene.periodic, {"none", "x", "y", "xy"},
+               {.help = "directions in which the domain repeats itself; of a fluid without a solid"});
 }
 
 void describe(ParameterTable& table, Box& box) {
@@ -112,6 +114,8 @@ Scene read_scene(CaseFile& file) {
   file.read_list("reference", scene.references, "measured or published curves, drawn in the report");
   check_walls(file, scene);
   check_references(file, scene);
+  if (scene.periodic != Periodic::none && file.has("solid"))
+    file.fault("case.periodic", "a scene with a solid cannot be periodic: solids know no periods");
   return scene;
 }
 

@@ -58,6 +58,9 @@ struct Reference {
 };
 void describe(ParameterTable& table, Reference& reference);
 
+/// The directions in which space repeats itself: what leaves the domain at one side comes in at the other.
+enum class Periodic { none, x, y, xy };
+
 struct Scene {
   std::string title;
   Vec gravity = Vec::Zero();
@@ -65,6 +68,7 @@ struct Scene {
   double frame_interval = 0;   ///< 0: no frames
   double series_interval = 0;  ///< 0: every step
   Box domain;                  ///< a particle outside it is a failure
+  Periodic periodic = Periodic::none;
   std::vector<Wall> walls;
   std::vector<Reference> references;
 };

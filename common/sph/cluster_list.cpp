@@ -8,14 +8,14 @@ namespace {
 
 constexpr std::size_t clusters_per_block = 64;
 
-/// Appends the sources within `reach` of any of the `lane_count` targets from `first`.
-void collect(const VecField& targets, std::size_t first, const VecField& sources, const StripOrder& strips,
-             double reach, std::vector<std::uint32_t>& found) {
-  const Lanes x_i = load(targets[0], first), y_i = load(targets[1], first);
-  strips.in_box(sources[1], smallest_of(x_i) - reach, largest_of(x_i) + reach, smallest_of(y_i) - reach,
-                largest_of(y_i) + reach, [&](std::size_t begin, std::size_t end) {
+/// Appends the sources within `reach` of any of the `lane_count` targets at `x_i`.
+void collect(const VecLanes& x_i, const VecField& sources, const StripOrder& strips, double reach,
+             std::vector<std::uint32_t>& found) {
+  strips.in_box(sources[1], smallest_of(x_i[0]) - reach, largest_of(x_i[0]) + reach,
+                smallest_of(x_i[1]) - reach, largest_of(x_i[1]) + reach,
+                [&](std::size_t begin, std::size_t end) {
                   for (std::size_t j = begin; j < end; ++j) {
-                    const Lanes x_ij = x_i - sources[0][j], y_ij = y_i - sources[1][j];
+                    const Lanes x_ij = x_i[0] - sources[0][j], y_ij = x_i[1] - sources[1][j];
                     if (any_of(x_ij * x_ij + y_ij * y_ij < reach * reach))
                       found.push_back(static_cast<std::uint32_t>(j));
                   }
@@ -24,37 +24,59 @@ void collect(const VecField& targets, std::size_t first, const VecField& sources
 
 }  // namespace
 
+void ClusterList::build_block(Block& block, std::size_t begin, std::size_t end, const VecField& targets,
+                              const VecField& sources, const StripOrder& strips, double reach,
+                              std::span<const Vec> shifts) {
+  block.found.clear();
+  block.ends.clear();
+  block.near.clear();
+  std::array<std::size_t, clusters_per_block + 1> first{};  // of each cluster in `near`
+  for (std::size_t c = begin; c < end; ++c) {
+    const VecLanes x_i = load(targets, c * lane_count);
+    for (std::size_t k = 0; k < shifts.size(); ++k) {
+      const std::size_t before = block.found.size();
+      collect(shifted(x_i, shifts[k]), sources, strips, reach, block.found);
+      if (k > 0 && block.found.size() == before) continue;
+      block.near.push_back({shifts[k], {}});
+      block.ends.push_back(block.found.size());
+    }
+    first[c - begin + 1] = block.near.size();
+  }
+  // where the vectors lie is known only now that they do not grow any more
+  std::size_t start = 0;
+  for (std::size_t k = 0; k < block.near.size(); start = block.ends[k++])
+    block.near[k].sources = std::span(block.found).subspan(start, block.ends[k] - start);
+  for (std::size_t c = begin; c < end; ++c)
+    lists_[c] = std::span(block.near).subspan(first[c - begin], first[c - begin + 1] - first[c - begin]);
+}
+
 void ClusterList::build(const VecField& targets, std::size_t target_count, const VecField& sources,
                         const StripOrder& source_strips, double reach) {
-  const std::size_t clusters = padded(target_count) / lane_count;
-  const std::size_t blocks = (clusters + clusters_per_block - 1) / clusters_per_block;
-  lists_.assign(clusters, {});
-  if (!storage_ || storage_.use_count() > 1) storage_ = std::make_shared<Storage>();
-  storage_->resize(blocks);
+  const Vec unshifted = Vec::Zero();
+  build(targets, target_count, sources, source_strips, reach, std::span(&unshifted, 1));
+}
 
+void ClusterList::build(const VecField& targets, std::size_t target_count, const VecField& sources,
+                        const StripOrder& source_strips, double reach, std::span<const Vec> shifts) {
+  const std::size_t clusters = padded(target_count) / lane_count;
+  lists_.assign(clusters, {});
+  if (!blocks_ || blocks_.use_count() > 1) blocks_ = std::make_shared<std::vector<Block>>();
+  blocks_->resize((clusters + clusters_per_block - 1) / clusters_per_block);
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t block = 0; block < blocks; ++block) {
-    auto& found = (*storage_)[block];
-    found.clear();
-    const std::size_t begin = block * clusters_per_block;
-    const std::size_t end = std::min(begin + clusters_per_block, clusters);
-    std::array<std::size_t, clusters_per_block + 1> starts{};
-    for (std::size_t c = begin; c < end; ++c) {
-      collect(targets, c * lane_count, sources, source_strips, reach, found);
-      starts[c - begin + 1] = found.size();
-    }
-    for (std::size_t c = begin; c < end; ++c)
-      lists_[c] = std::span(found).subspan(starts[c - begin], starts[c - begin + 1] - starts[c - begin]);
-  }
+  for (std::size_t b = 0; b < blocks_->size(); ++b)
+    build_block((*blocks_)[b], b * clusters_per_block, std::min((b + 1) * clusters_per_block, clusters),
+                targets, sources, source_strips, reach, shifts);
 
   active_.clear();
   for (std::size_t c = 0; c < clusters; ++c)
-    if (!lists_[c].empty()) active_.push_back(static_cast<std::uint32_t>(c));
+    if (lists_[c].size() > 1 || !lists_[c][0].sources.empty())
+      active_.push_back(static_cast<std::uint32_t>(c));
 }
 
 std::size_t ClusterList::pairs() const {
   std::size_t sum = 0;
-  for (const auto& list : lists_) sum += list.size();
+  for (const auto& list : lists_)
+    for (const Near& near : list) sum += near.sources.size();
   return sum;
 }
 

@@ -13,6 +13,12 @@
 
 namespace toryu {
 
+/// Sources near a cluster whose targets are moved by `shift` [m]: by a period of space, or not at all.
+struct Near {
+  Vec shift = Vec::Zero();
+  std::span<const std::uint32_t> sources;
+};
+
 /// A copy shares the lists until one of the two is built anew.
 class ClusterList {
  public:
@@ -20,17 +26,32 @@ class ClusterList {
   /// index of the sources' present order. A target that is itself a source is in its own list.
   void build(const VecField& targets, std::size_t target_count, const VecField& sources,
              const StripOrder& source_strips, double reach);
+  /// The same where space repeats: of each of `shifts`, the first of which is zero, what is near the targets
+  /// so moved.
+  void build(const VecField& targets, std::size_t target_count, const VecField& sources,
+             const StripOrder& source_strips, double reach, std::span<const Vec> shifts);
 
   std::size_t clusters() const { return lists_.size(); }
-  std::span<const std::uint32_t> sources(std::size_t cluster) const { return lists_[cluster]; }
+  /// The first is without a shift; of the others those that are not empty.
+  std::span<const Near> near(std::size_t cluster) const { return lists_[cluster]; }
+  /// Those without a shift.
+  std::span<const std::uint32_t> sources(std::size_t cluster) const { return lists_[cluster][0].sources; }
   /// Clusters whose list is not empty, in order.
   const std::vector<std::uint32_t>& active() const { return active_; }
   std::size_t pairs() const;
 
  private:
-  std::vector<std::span<const std::uint32_t>> lists_;
-  using Storage = std::vector<std::vector<std::uint32_t>>;  ///< one a block of clusters
-  std::shared_ptr<Storage> storage_;
+  struct Block {
+    std::vector<std::uint32_t> found;
+    std::vector<std::size_t> ends;  ///< of each of `near` in `found`
+    std::vector<Near> near;
+  };
+  void build_block(Block& block, std::size_t begin, std::size_t end, const VecField& targets,
+                   const VecField& sources, const StripOrder& strips, double reach,
+                   std::span<const Vec> shifts);
+
+  std::vector<std::span<const Near>> lists_;
+  std::shared_ptr<std::vector<Block>> blocks_;
   std::vector<std::uint32_t> active_;
 };
 

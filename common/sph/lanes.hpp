@@ -17,6 +17,8 @@
 #endif
 
 #define TORYU_INLINE [[gnu::always_inline]] inline
+/// The same behind the parameters of a lambda.
+#define TORYU_INLINE_LAMBDA __attribute__((always_inline))
 
 namespace toryu {
 

@@ -44,6 +44,12 @@ inline void set(VecField& field, std::size_t i, const Vec& value) {
   for (int a = 0; a < dim; ++a) field[a][i] = value[a];
 }
 
+TORYU_INLINE VecLanes shifted(const VecLanes& x, const Vec& shift) {
+  VecLanes moved;
+  for (int a = 0; a < dim; ++a) moved[a] = x[a] + shift[a];
+  return moved;
+}
+
 TORYU_INLINE VecLanes zero_vector() {
   VecLanes zero;
   for (auto& component : zero) component = 0.0;

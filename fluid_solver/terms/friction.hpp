@@ -26,7 +26,8 @@ struct FrictionTerm {
   double eps;  ///< [m/s]
 
   /// F_sf/V_f [N/m3] for W_sf at `r2` = r_sf^2; what belongs to s or f may be lanes or numbers.
-  TORYU_INLINE VecLanes per_volume(const CubicSpline& kernel, Lanes d_s, Lanes p_f, Lanes r2,
+  template <class W>
+  TORYU_INLINE VecLanes per_volume(const W& kernel, Lanes d_s, Lanes p_f, Lanes r2,
                                    const VecLanes& v_fs) const {
     const Lanes t = inverse_sqrt(dot(v_fs, v_fs) + eps * eps);
     const Lanes factor = mu_A * positive_part(p_f) * d_s * kernel.value(square_root(r2)) * t;
@@ -42,15 +43,15 @@ struct FrictionTerm {
 inline constexpr double least_contact = 0.02;
 
 /// The share of mu_A p that friction as printed transmits at a plane interface, by sums over a square lattice
-/// on both sides.
-inline double printed_share(double smoothing_ratio) {
-  const CubicSpline kernel(smoothing_ratio);  // d_0 = 1
-  const int reach = static_cast<int>(kernel.support()) + 1;
+/// on both sides, d_0 = `spacing`.
+inline double printed_share(const Kernel& kernel, double spacing) {
+  const int reach = static_cast<int>(kernel.support() / spacing) + 1;
   double sum = 0;
   for (int depth = 0; depth < reach; ++depth)  // row of the work piece
     for (int row = 1 + depth; row <= reach; ++row)
-      for (int column = -reach; column <= reach; ++column) sum += kernel.value(std::hypot(row, column));
-  return sum;
+      for (int column = -reach; column <= reach; ++column)
+        sum += kernel.value(spacing * std::hypot(row, column));
+  return spacing * spacing * sum;
 }
 
 }  // namespace toryu::fluid

@@ -1,5 +1,7 @@
-/// Laminar viscosity (Morris, Fox & Zhu 1997): sum_j m_j 2 mu/(rho_i rho_j) x_ij . gradW_ij/(r_ij^2 + 0.01
-/// h^2) v_ij.
+/// Laminar viscosity (Morris, Fox & Zhu 1997): sum_j m_j 2 mu/(rho_i rho_j) x_ij . gradW_ij/r_ij^2 v_ij.
+///
+/// The 0.01 h^2 that is usual beside r_ij^2 is left out: x_ij . gradW_ij/r_ij^2 is finite without it, and
+/// with it the viscosity comes out 1.1 % too small at any resolution.
 ///
 /// This stands for the divergence of the viscous stress in (4), mu (grad v + grad v^T - 2/3 div v I), which
 /// is mu (laplacian v + 1/3 grad div v): the second part vanishes with the compressibility, of the order of
@@ -19,8 +21,7 @@ struct LaminarViscosityTerm {
 
   TORYU_INLINE void viscous(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
                             Rates& rates) const {
-    const Lanes factor =
-        (2.0 * mu * source.m[j]) * pair.G * pair.r2 * inverse(i.rho * source.rho[j] * pair.soft_r2);
+    const Lanes factor = (2.0 * mu * source.m[j]) * pair.G * inverse(i.rho * source.rho[j]);
     for (int a = 0; a < dim; ++a) rates.a[a] += factor * (i.v_viscous[a] - source.v_viscous[a][j]);
   }
 };

@@ -28,8 +28,8 @@ struct Rates {
   Lanes diffusion = 0.0;       ///< [kg/m3/s]
 };
 
-TORYU_INLINE Pair make_pair(const CubicSpline& kernel, const Targets& i, const Sources& source,
-                            std::size_t j) {
+template <class W>
+TORYU_INLINE Pair make_pair(const W& kernel, const Targets& i, const Sources& source, std::size_t j) {
   Pair pair;
   for (int a = 0; a < dim; ++a) {
     pair.x_ij[a] = i.x[a] - source.x[a][j];

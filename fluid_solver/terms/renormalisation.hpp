@@ -21,6 +21,10 @@ class Moment {
     xy_ -= x_ij[0] * V_grad[1];
     yy_ -= x_ij[1] * V_grad[1];
   }
+  TORYU_INLINE Lanes smaller_eigenvalue() const {
+    const Lanes half_trace = 0.5 * (xx_ + yy_), half_difference = 0.5 * (xx_ - yy_);
+    return half_trace - square_root(half_difference * half_difference + xy_ * xy_);
+  }
   /// Prepares `renormalised` when all neighbours are in.
   TORYU_INLINE void invert() {
     const Lanes determinant = xx_ * yy_ - xy_ * xy_, trace = xx_ + yy_;

@@ -1,7 +1,7 @@
 /// Viscosity that differs from particle to particle: the divergence of the stress eta (grad v + grad v^T) in
 /// two parts, both equal and opposite pair by pair:
 ///
-///     sum_j m_j 2 eta_ij/(rho_i rho_j) x_ij . gradW_ij/(r_ij^2 + 0.01 h^2) v_ij,
+///     sum_j m_j 2 eta_ij/(rho_i rho_j) x_ij . gradW_ij/r_ij^2 v_ij,
 ///     eta_ij = 2 eta_i eta_j/(eta_i + eta_j)
 ///
 /// is div(eta grad v), laminar_viscosity.hpp with the harmonic mean of a pair (Cleary & Monaghan 1999 for
@@ -25,9 +25,9 @@ struct VariableViscosityTerm {
                             Rates& rates) const {
     const Lanes eta_i = i.eta, eta_j = source.eta[j];
     // one division for 1/(rho_i rho_j) and for the rest of the first part
-    const Lanes rho_rho = i.rho * source.rho[j], below = (eta_i + eta_j) * pair.soft_r2;
+    const Lanes rho_rho = i.rho * source.rho[j], below = eta_i + eta_j;
     const Lanes both = (source.m[j] * pair.G) * inverse(rho_rho * below);
-    const Lanes along_v = 4.0 * (eta_i * eta_j) * pair.r2 * both, along_x = both * below;
+    const Lanes along_v = 4.0 * (eta_i * eta_j) * both, along_x = both * below;
     for (int a = 0; a < dim; ++a) {
       Lanes T_x = 0.0;
       for (int b = 0; b < dim; ++b) T_x += (i.eta_grad_v[a][b] + source.eta_grad_v[a][b][j]) * pair.x_ij[b];

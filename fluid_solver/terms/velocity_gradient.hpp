@@ -15,20 +15,9 @@ class VelocityGradient {
  public:
   VelocityGradient(const VecLanes& x_i, const VecLanes& v_i) : x_i_(x_i), v_i_(v_i) {}
 
-  TORYU_INLINE void add(const Sources& source, std::span<const std::uint32_t> neighbours,
-                        const CubicSpline& kernel) {
-    for (const std::uint32_t j : neighbours) {
-      const VecLanes x_ij{x_i_[0] - source.x[0][j], x_i_[1] - source.x[1][j]};
-      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300);
-      const Lanes inverse_r = inverse_sqrt(r2);
-      const Lanes V_G = source.V[j] * kernel.gradient_over_r(r2 * inverse_r, inverse_r);
-      const VecLanes V_grad{V_G * x_ij[0], V_G * x_ij[1]};
-      moment_.add(x_ij, V_grad);
-      for (int b = 0; b < dim; ++b) {
-        const Lanes v_ji = source.v_viscous[b][j] - v_i_[b];
-        for (int a = 0; a < dim; ++a) sums_[b][a] += v_ji * V_grad[a];
-      }
-    }
+  template <class W>
+  TORYU_INLINE void add(const Sources& source, std::span<const Near> neighbours, const W& kernel) {
+    for (const Near& near : neighbours) add(source, near, kernel);
   }
 
   /// [a][b]: dv_b/dx_a [1/s].
@@ -43,6 +32,23 @@ class VelocityGradient {
   }
 
  private:
+  template <class W>
+  TORYU_INLINE void add(const Sources& source, const Near& near, const W& kernel) {
+    const VecLanes x_i = shifted(x_i_, near.shift);
+    for (const std::uint32_t j : near.sources) {
+      const VecLanes x_ij{x_i[0] - source.x[0][j], x_i[1] - source.x[1][j]};
+      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300);
+      const Lanes inverse_r = inverse_sqrt(r2);
+      const Lanes V_G = source.V[j] * kernel.gradient_over_r(r2 * inverse_r, inverse_r);
+      const VecLanes V_grad{V_G * x_ij[0], V_G * x_ij[1]};
+      moment_.add(x_ij, V_grad);
+      for (int b = 0; b < dim; ++b) {
+        const Lanes v_ji = source.v_viscous[b][j] - v_i_[b];
+        for (int a = 0; a < dim; ++a) sums_[b][a] += v_ji * V_grad[a];
+      }
+    }
+  }
+
   VecLanes x_i_, v_i_;
   Moment moment_;
   TensorLanes sums_ = zero_tensor();  ///< one row a component of the velocity

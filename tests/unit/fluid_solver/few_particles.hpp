@@ -60,8 +60,8 @@ inline Targets targets(const Point& i) {
 }
 
 /// What `add(targets, sources, j, pair, rates)` adds up for particle `i` over `others`.
-template <class Add>
-Rates sum_over(const Point& i, const std::vector<Point>& others, const CubicSpline& kernel, Add&& add) {
+template <class W, class Add>
+Rates sum_over(const Point& i, const std::vector<Point>& others, const W& kernel, Add&& add) {
   const FewSources sources(others);
   const Sources view = sources.view();
   const Targets target = targets(i);

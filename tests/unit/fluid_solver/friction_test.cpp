@@ -205,11 +205,11 @@ TEST(Friction, OfAPlaneInterfaceIsTheCoefficientTimesThePressure) {
 }
 
 TEST(Friction, AsPrintedTransmitsOnlyAShareOfIt) {
-  EXPECT_NEAR(transmitted(FrictionForm::as_printed, 0), printed_share(1.2), 1e-6);
-  EXPECT_NEAR(printed_share(1.0), 0.16, 0.005);
-  EXPECT_NEAR(printed_share(1.2), 0.22, 0.005);
-  EXPECT_NEAR(printed_share(1.3), 0.25, 0.005);
-  EXPECT_NEAR(printed_share(1.5), 0.30, 0.005);
+  EXPECT_NEAR(transmitted(FrictionForm::as_printed, 0), printed_share(CubicSpline(1.2), 1), 1e-6);
+  EXPECT_NEAR(printed_share(CubicSpline(1.0), 1), 0.16, 0.005);
+  EXPECT_NEAR(printed_share(CubicSpline(1.2), 1), 0.22, 0.005);
+  EXPECT_NEAR(printed_share(CubicSpline(1.3), 1), 0.25, 0.005);
+  EXPECT_NEAR(printed_share(CubicSpline(1.5), 1), 0.30, 0.005);
 }
 
 TEST(Friction, SaysWhatItTransmits) {
@@ -264,7 +264,8 @@ TEST(FrictionInTheSolver, LimitsTheStepAsALinearDragAtRest) {
   for (const double rho : solver.particles().rho) p = std::max(p, EquationOfState{1000, 20, 7}.pressure(rho));
   EXPECT_NEAR(solver.time_step_limit(), 0.5 * 1000 * 0.05 * 1e-4 / (mu_A * p), 1e-12);
   setting.parameters.friction->form = FrictionForm::as_printed;
-  EXPECT_NEAR(setting.solver().time_step_limit(), solver.time_step_limit() / printed_share(1.3), 1e-12);
+  EXPECT_NEAR(setting.solver().time_step_limit(),
+              solver.time_step_limit() / printed_share(CubicSpline(1.3), 1), 1e-12);
 }
 
 TEST(FrictionInTheSolver, StaysAtRestAtItsLimit) {

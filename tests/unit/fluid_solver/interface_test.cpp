@@ -48,6 +48,7 @@ struct Contact {
   WallSlip slip;
   std::optional<Friction> friction;
   std::optional<PowerLaw> power_law = {};
+  Integrator integrator = Integrator::midpoint;
 };
 class Exchange : public testing::TestWithParam<Contact> {};
 
@@ -56,6 +57,7 @@ TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
   Setting setting = tank_with_a_plate();
   setting.parameters.wall_model.slip = GetParam().slip;
   setting.parameters.friction = GetParam().friction;
+  setting.parameters.integrator = GetParam().integrator;
   if (GetParam().power_law) {
     setting.parameters.laminar_viscosity.reset();
     setting.parameters.power_law = GetParam().power_law;
@@ -92,12 +94,14 @@ TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
 
 INSTANTIATE_TEST_SUITE_P(
     Walls, Exchange,
-    testing::Values(Contact{"NoSlip", WallSlip::no_slip, {}}, Contact{"FreeSlip", WallSlip::free_slip, {}},
-                    Contact{"NoSlipThinning", WallSlip::no_slip, {}, PowerLaw{3.0, 0.5, 0.1, 30.0}},
-                    Contact{"FreeSlipThinning", WallSlip::free_slip, {}, PowerLaw{3.0, 0.5, 0.1, 30.0}},
-                    Contact{"Friction", WallSlip::free_slip, Friction{.coefficient = 0.3}},
-                    Contact{"FrictionAsPrinted", WallSlip::no_slip,
-                            Friction{.coefficient = 0.3, .form = FrictionForm::as_printed}}),
+    testing::Values(
+        Contact{"NoSlip", WallSlip::no_slip, {}}, Contact{"FreeSlip", WallSlip::free_slip, {}},
+        Contact{"NoSlipThinning", WallSlip::no_slip, {}, PowerLaw{3.0, 0.5, 0.1, 30.0}},
+        Contact{"FreeSlipThinning", WallSlip::free_slip, {}, PowerLaw{3.0, 0.5, 0.1, 30.0}},
+        Contact{"Friction", WallSlip::free_slip, Friction{.coefficient = 0.3}},
+        Contact{"FrictionAsPrinted", WallSlip::no_slip,
+                Friction{.coefficient = 0.3, .form = FrictionForm::as_printed}},
+        Contact{"Symplectic", WallSlip::no_slip, Friction{.coefficient = 0.3}, {}, Integrator::symplectic}),
     [](const auto& one) { return one.param.name; });
 
 /// Ten windows beside the plate, in which the lists are built anew; the loads of all of them.

@@ -48,8 +48,21 @@ TEST(PressureProbe, IsTheKernelMean) {
   const EquationOfState state{1000, 10, 1};
   auto f = particles({{{0, 0}, {0, 0}, 1}, {{0.5, 0}, {0, 0}, 1}});
   f.rho[1] = 1010;  // 1000 Pa by (3) with gamma = 1
-  EXPECT_NEAR(pressure_at(Vec(0, 0), f, kernel, state), 0.25 * 1000 / 1.25, 1e-9);
-  EXPECT_EQ(pressure_at(Vec(9, 9), f, kernel, state), 0);
+  Scene scene;
+  scene.domain = {Vec(-2, -2), Vec(8, 8)};
+  const Period nowhere(scene, 1, 1);
+  EXPECT_NEAR(pressure_at(Vec(0, 0), f, kernel, state, nowhere), 0.25 * 1000 / 1.25, 1e-9);
+  EXPECT_EQ(pressure_at(Vec(10, 0), f, kernel, state, nowhere), 0);
+  scene.periodic = Periodic::x;
+  EXPECT_NEAR(pressure_at(Vec(10, 0), f, kernel, state, Period(scene, 1, 1)), 0.25 * 1000 / 1.25, 1e-9);
+}
+
+TEST(FlowAmplitude, IsTheShareOfTheInitialFlow) {
+  const InitialFlow flow{FlowProfile::strain, 2, 1, 0, Vec(0, 0)};  // v_0 = (2 x, -2 y)
+  const auto f = particles({{{1, 0}, {1, 5}, 1}, {{0, 2}, {7, -1}, 3}});
+  EXPECT_DOUBLE_EQ(flow_amplitude(f, flow), (1 * 2 + 3 * 4) / (1 * 4.0 + 3 * 16.0));
+  // against half of v_0: differences (0, 5), (7, 1)
+  EXPECT_DOUBLE_EQ(flow_error(f, flow, 0.5), std::sqrt((25 + 50) / 2.0) / 2);
 }
 
 TEST(Front, IsHalfASpacingBeyondTheForemostParticle) {

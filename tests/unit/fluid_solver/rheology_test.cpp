@@ -76,7 +76,8 @@ TensorLanes gradient(const std::vector<Point>& points) {
   std::vector<std::uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0u);
   VelocityGradient grad_v({Lanes(0), Lanes(0)}, {Lanes(5), Lanes(-7)});
-  grad_v.add(sources.view(), all, kernel);
+  const Near near{Vec::Zero(), all};
+  grad_v.add(sources.view(), std::span(&near, 1), kernel);
   return grad_v.value();
 }
 

@@ -54,6 +54,33 @@ TEST(ClusterList, HoldsEverySourceWithinReachOfACluster) {
   }
 }
 
+TEST(ClusterList, HoldsWhatIsNearTheTargetsMovedByAPeriod) {
+  StripOrder strips(0.2);
+  const std::size_t count = 403;
+  const VecField x = cloud(count, 5, strips);
+  strips.index(x[0], count);
+  const double reach = 0.17;
+  const std::vector<Vec> shifts{{0, 0}, {-2, 0}, {2, 0}};  // the cloud is 2 wide
+  ClusterList list;
+  list.build(x, count, x, strips, reach, shifts);
+  std::size_t across = 0;
+  for (std::size_t c = 0; c < list.clusters(); ++c) {
+    EXPECT_EQ(list.near(c)[0].shift, Vec(0, 0));
+    std::set<std::pair<double, std::uint32_t>> expected, found;
+    for (std::size_t i = c * lane_count; i < std::min((c + 1) * lane_count, count); ++i)
+      for (std::uint32_t j = 0; j < count; ++j)
+        for (const Vec& shift : shifts)
+          if ((at(x, i) + shift - at(x, j)).norm() < reach) expected.insert({shift[0], j});
+    for (const Near& near : list.near(c))
+      for (const std::uint32_t j : near.sources) {
+        EXPECT_TRUE(found.insert({near.shift[0], j}).second) << "no source twice";
+        across += near.shift[0] != 0;
+      }
+    EXPECT_EQ(found, expected) << "cluster " << c;
+  }
+  EXPECT_GT(across, 50u);
+}
+
 TEST(ClusterList, IsEmptyWhereThereIsNothing) {
   StripOrder strips(0.2);
   const VecField x = cloud(10, 4, strips);

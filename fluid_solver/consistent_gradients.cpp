@@ -1,0 +1,88 @@
+#include "fluid_solver/consistent_gradients.hpp"
+
+#include "fluid_solver/terms/renormalisation.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+/// Sums over the neighbours of one cluster.
+struct Sums {
+  Moment moment;
+  TensorLanes v = zero_tensor();  ///< sum_j V_j (v_j - v_i) (x) gradW_ij, one row a component of the velocity
+  VecLanes p = zero_vector();     ///< sum_j V_j (p_j - p_i) gradW_ij
+  VecLanes a = zero_vector();     ///< (22)
+};
+
+template <class W>
+Sums sums_of(const Particles& f, const W& kernel, std::size_t first, std::span<const Near> nears) {
+  const VecLanes v_i = load(f.v, first);
+  const Lanes p_i = load(f.p, first), p_rho2_i = load(f.p_rho2, first);
+  Sums sums;
+  for (const Near& near : nears) {
+    const VecLanes x_i = shifted(load(f.x, first), near.shift);
+    for (const std::uint32_t j : near.sources) {
+      const VecLanes x_ij{x_i[0] - f.x[0][j], x_i[1] - f.x[1][j]};
+      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300), inverse_r = inverse_sqrt(r2);
+      const Lanes G = kernel.gradient_over_r(r2 * inverse_r, inverse_r), V_G = f.V[j] * G;
+      const VecLanes V_grad{V_G * x_ij[0], V_G * x_ij[1]};
+      sums.moment.add(x_ij, V_grad);
+      const Lanes p_ji = f.p[j] - p_i, push = f.m[j] * (f.p_rho2[j] + p_rho2_i) * G;
+      for (int a = 0; a < dim; ++a) {
+        sums.p[a] += p_ji * V_grad[a];
+        sums.a[a] -= push * x_ij[a];
+      }
+      for (int b = 0; b < dim; ++b) {
+        const Lanes v_ji = f.v[b][j] - v_i[b];
+        for (int a = 0; a < dim; ++a) sums.v[b][a] += v_ji * V_grad[a];
+      }
+    }
+  }
+  return sums;
+}
+
+bool wall_in_reach(const std::vector<Boundary>& boundaries, std::size_t cluster) {
+  for (const auto& wall : boundaries)
+    for (const Near& near : wall.near_fluid.near(cluster))
+      if (!near.sources.empty()) return true;
+  return false;
+}
+
+/// What the consistent rates have beyond the others.
+struct Difference {
+  Lanes divergence;
+  VecLanes a;
+};
+Difference difference(Sums& sums, const Lanes& rho) {
+  sums.moment.invert();
+  const VecLanes grad_p = sums.moment.renormalised(sums.p);
+  const Lanes inverse_rho = inverse(rho);
+  Difference found{-(sums.v[0][0] + sums.v[1][1]), {}};
+  for (int a = 0; a < dim; ++a) {
+    found.divergence += sums.moment.renormalised(sums.v[a])[a];
+    found.a[a] = -grad_p[a] * inverse_rho - sums.a[a];
+  }
+  return found;
+}
+
+}  // namespace
+
+void make_gradients_consistent(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
+                               const std::vector<Boundary>& boundaries, const Kernel& kernel) {
+  kernel.visit([&](const auto& W) {
+#pragma omp parallel for schedule(dynamic, 8)
+    for (std::size_t c = 0; c < fluid.clusters(); ++c) {
+      if (wall_in_reach(boundaries, c)) continue;
+      const std::size_t first = c * lane_count;
+      const Lanes rho = load(fluid.rho, first), inside = load(fluid.inside, first);
+      Sums sums = sums_of(fluid, W, first, neighbours.near(c));
+      const Difference more = difference(sums, rho);
+      if (wanted != RatesOf::velocity)
+        store(load(fluid.drho, first) - inside * rho * more.divergence, fluid.drho, first);
+      if (wanted != RatesOf::density)
+        for (int a = 0; a < dim; ++a) store(load(fluid.a[a], first) + inside * more.a[a], fluid.a[a], first);
+    }
+  });
+}
+
+}  // namespace toryu::fluid

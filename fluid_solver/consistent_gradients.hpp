@@ -1,0 +1,21 @@
+/// Divergence of the velocity and gradient of the pressure that are exact in linear fields however the
+/// particles lie (Randles & Libersky 1996),
+///
+///     <div v>_i = sum_j V_j (v_j - v_i) . L_i gradW_ij,   <grad p>_i = sum_j V_j (p_j - p_i) L_i gradW_ij,
+///
+/// in place of the sums of (18) and (22), which are off by as much as the moment of the neighbours differs
+/// from the unit matrix: a few per cent where a flow strains its particles, and always to the same side. They
+/// stand where there is neither a wall nor a free surface in reach. Differences of pressure do not drive
+/// particles apart, so they need particle shifting; and they keep momentum only as far as they converge.
+#pragma once
+
+#include "fluid_solver/boundary.hpp"
+#include "fluid_solver/pair_sweeps.hpp"
+
+namespace toryu::fluid {
+
+/// Puts them into the wanted rates a, drho of `fluid`, which hold (18) and (22). Needs `fluid.inside`.
+void make_gradients_consistent(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
+                               const std::vector<Boundary>& boundaries, const Kernel& kernel);
+
+}  // namespace toryu::fluid

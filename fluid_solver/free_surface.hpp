@@ -1,0 +1,17 @@
+/// Finds the particles that have no free surface in reach (Marrone, Colagrossi, Le Touze & Graziani 2010):
+/// the moment of the neighbours, sum_j V_j (x_j - x_i) (x) gradW_ij, walls among them, has the eigenvalues 1
+/// in a full lattice and about 1/2 across a straight surface. Where the smaller one is below `surface_moment`
+/// the particle is at a surface; who has such a neighbour within the kernel's support has a surface in reach.
+#pragma once
+
+#include "fluid_solver/boundary.hpp"
+
+namespace toryu::fluid {
+
+inline constexpr double surface_moment = 0.75;
+
+/// Fills `fluid.inside`.
+void find_inside(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
+                 const Kernel& kernel);
+
+}  // namespace toryu::fluid

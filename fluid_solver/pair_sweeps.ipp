@@ -1,0 +1,208 @@
+/// The definitions of pair_sweeps.hpp, for the file of each kernel.
+#pragma once
+
+#include "fluid_solver/pair_sweeps.hpp"
+#include "fluid_solver/terms/continuity.hpp"
+#include "fluid_solver/terms/pressure.hpp"
+#include "fluid_solver/terms/tensile_control.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+/// A field that not every case has.
+Lanes load_if_there(const Field& field, std::size_t first) {
+  return field.empty() ? Lanes(0.0) : load(field, first);
+}
+VecLanes load_if_there(const VecField& field, std::size_t first) {
+  return field[0].empty() ? zero_vector() : load(field, first);
+}
+TensorLanes load_if_there(const TensorField& field, std::size_t first) {
+  return field[0][0].empty() ? zero_tensor() : load(field, first);
+}
+
+Targets load_targets(const Particles& f, std::size_t first) {
+  const VecLanes v = load(f.v, first);
+  return {load(f.x, first),
+          v,
+          v,
+          load_if_there(f.grad_rho, first),
+          load(f.rho, first),
+          load(f.p_rho2, first),
+          load_if_there(f.eta, first),
+          load_if_there(f.eta_grad_v, first)};
+}
+
+Targets load_targets(const Boundary& b, std::size_t first) {
+  return {load(b.x, first),
+          load(b.v, first),
+          load(b.v_viscous, first),
+          zero_vector(),
+          load(b.rho, first),
+          load(b.p_rho2, first),
+          load_if_there(b.eta, first),
+          load_if_there(b.eta_grad_v, first)};
+}
+
+// Each term joins in where it has something to say.
+TORYU_INLINE void add_density(const auto& term, const Targets& i, const Sources& s, std::size_t j,
+                              const Pair& p, Rates& r) {
+  if constexpr (requires { term.density(i, s, j, p, r); }) term.density(i, s, j, p, r);
+}
+TORYU_INLINE void add_diffusion(const auto& term, const Targets& i, const Sources& s, std::size_t j,
+                                const Pair& p, Rates& r) {
+  if constexpr (requires { term.diffusion(i, s, j, p, r); }) term.diffusion(i, s, j, p, r);
+}
+TORYU_INLINE void add_momentum(const auto& term, const Targets& i, const Sources& s, std::size_t j,
+                               const Pair& p, Rates& r) {
+  if constexpr (requires { term.momentum(i, s, j, p, r); }) term.momentum(i, s, j, p, r);
+}
+TORYU_INLINE void add_viscous(const auto& term, const Targets& i, const Sources& s, std::size_t j,
+                              const Pair& p, Rates& r) {
+  if constexpr (requires { term.viscous(i, s, j, p, r); }) term.viscous(i, s, j, p, r);
+}
+
+TORYU_INLINE void add_at_wall(const auto& term, const Targets& i, const Sources& s, std::size_t j,
+                              const Pair& p, Rates& r) {
+  if constexpr (requires { term.at_wall(i, s, j, p, r); }) term.at_wall(i, s, j, p, r);
+}
+
+Vec lane_sums(const Lanes& m, const VecLanes& after, const VecLanes& before) {
+  Vec sum;
+  for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * (after[a] - before[a]));
+  return sum;
+}
+
+/// Adds the sums over `sources` near a cluster of targets `i`, which stand at `x_i`, pair by pair.
+template <class W, class Add>
+TORYU_INLINE void over_pairs(const W& kernel, std::span<const Near> nears, Targets& i, const VecLanes& x_i,
+                             const Sources& sources, Add&& add) {
+  for (const Near& near : nears) {
+    i.x = shifted(x_i, near.shift);
+    for (const std::uint32_t j : near.sources) add(j, make_pair(kernel, i, sources, j));
+  }
+}
+
+template <RatesOf wanted>
+inline constexpr bool of_velocity = wanted != RatesOf::density;
+template <RatesOf wanted>
+inline constexpr bool of_density = wanted != RatesOf::velocity;
+
+/// The rates of one cluster of `fluid` by `terms`.
+template <RatesOf wanted, class W, class... Terms>
+void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& fluid,
+                      const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
+                      std::vector<Given>& given, std::size_t cluster, const Terms... term) {
+  const std::size_t first = cluster * lane_count;
+  const Sources own = sources(fluid);
+  Targets i = load_targets(fluid, first);
+  const VecLanes x_i = i.x;
+  const Lanes p_rho2_i = i.p_rho2;
+  if (sweeps.tensile_control) i.p_rho2 = without_tension(p_rho2_i, load(fluid.inside, first));
+  Rates rates;
+  over_pairs(kernel, neighbours.near(cluster), i, x_i, own,
+             [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+               if constexpr (of_density<wanted>) {
+                 (add_density(term, i, own, j, pair, rates), ...);
+                 (add_diffusion(term, i, own, j, pair, rates), ...);
+               }
+               if constexpr (of_velocity<wanted>) {
+                 (add_momentum(term, i, own, j, pair, rates), ...);
+                 (add_viscous(term, i, own, j, pair, rates), ...);
+               }
+             });
+  i.p_rho2 = p_rho2_i;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    if constexpr (of_velocity<wanted>) given[b].by_cluster[cluster].setZero();
+    const auto near = boundaries[b].near_fluid.near(cluster);
+    if (near.size() == 1 && near[0].sources.empty()) continue;
+    const Sources wall = sources(boundaries[b]);
+    const VecLanes before = rates.a;
+    over_pairs(kernel, near, i, x_i, wall, [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+      if constexpr (of_density<wanted>) (add_density(term, i, wall, j, pair, rates), ...);
+      if constexpr (of_velocity<wanted>) {
+        (add_momentum(term, i, wall, j, pair, rates), ...);
+        (add_at_wall(term, i, wall, j, pair, rates), ...);
+        if (sweeps.viscous_walls) (add_viscous(term, i, wall, j, pair, rates), ...);
+      }
+    });
+    if constexpr (of_velocity<wanted>)
+      given[b].by_cluster[cluster] = lane_sums(load(fluid.m, first), rates.a, before);
+  }
+  if constexpr (of_density<wanted>) store(i.rho * rates.compression + rates.diffusion, fluid.drho, first);
+  if constexpr (of_velocity<wanted>) {
+    const BodyForce& f = sweeps.body_force;
+    for (int a = 0; a < dim; ++a)
+      store(rates.a[a] + f.gravity[a] - f.central_rate_squared * (x_i[a] - f.centre[a]), fluid.a[a], first);
+  }
+}
+
+/// The momentum terms of the same pairs, gathered by one cluster of the boundary.
+template <class W, class... Terms>
+void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Particles& fluid,
+                         Boundary& boundary, std::size_t cluster, const Terms... term) {
+  const std::size_t first = cluster * lane_count;
+  const Sources own = sources(fluid);
+  Targets w = load_targets(boundary, first);
+  const VecLanes x_w = w.x;
+  Rates rates;
+  over_pairs(kernel, boundary.fluid_near.near(cluster), w, x_w, own,
+             [&](std::size_t i, const Pair& pair) TORYU_INLINE_LAMBDA {
+               (add_momentum(term, w, own, i, pair, rates), ...);
+               (add_at_wall(term, w, own, i, pair, rates), ...);
+               if (sweeps.viscous_walls) (add_viscous(term, w, own, i, pair, rates), ...);
+             });
+  for (int a = 0; a < dim; ++a) store(load(boundary.m, first) * rates.a[a], boundary.force[a], first);
+}
+
+template <RatesOf wanted, class W, class... Terms>
+void rates_of_all(const PairSweeps& sweeps, const W& kernel, Particles& fluid, const ClusterList& neighbours,
+                  const std::vector<Boundary>& boundaries, std::vector<Given>& given, const Terms... term) {
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::size_t c = 0; c < fluid.clusters(); ++c)
+    rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, given, c, term...);
+}
+
+}  // namespace
+
+template <class W>
+void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
+                       const std::vector<Boundary>& boundaries, std::vector<Given>& given) const {
+  // Terms that a sweep does not ask for are not told apart: each combination is compiled once.
+  if (wanted == RatesOf::both)
+    std::visit(
+        [&](const auto&... term) {
+          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, given, Continuity{},
+                                      Pressure{}, term...);
+        },
+        terms.diffusion, terms.artificial, terms.viscous, terms.repulsion);
+  else if (wanted == RatesOf::velocity)
+    std::visit(
+        [&](const auto&... term) {
+          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries, given, Pressure{},
+                                          term...);
+        },
+        terms.artificial, terms.viscous, terms.repulsion);
+  else
+    std::visit(
+        [&](const auto& diffusion) {
+          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, given, Continuity{},
+                                         diffusion);
+        },
+        terms.diffusion);
+}
+
+template <class W>
+void PairSweeps::reaction(const W& kernel, const Particles& fluid, Boundary& boundary) const {
+  for (auto& component : boundary.force) std::fill(component.begin(), component.end(), 0.0);
+  const auto& active = boundary.fluid_near.active();
+  std::visit(
+      [&](const auto&... term) {
+#pragma omp parallel for schedule(dynamic, 4)
+        for (std::size_t k = 0; k < active.size(); ++k)
+          reaction_on_cluster(*this, kernel, fluid, boundary, active[k], Pressure{}, term...);
+      },
+      terms.artificial, terms.viscous, terms.repulsion);
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,88 @@
+#include "fluid_solver/shifting.hpp"
+
+#include "fluid_solver/terms/renormalisation.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+constexpr double R = 0.2;
+
+/// Sums over the neighbours of one cluster.
+struct Sums {
+  VecLanes crowding = zero_vector();  ///< sum_j V_j [1 + R (W_ij/W(d_0))^4] gradW_ij
+  Moment moment;                      ///< of fluid neighbours
+  TensorLanes v = zero_tensor();      ///< one row a component of the velocity
+  VecLanes rho = zero_vector();
+};
+
+/// `inverse_W_d0` is 1/W(d_0).
+template <bool fluid_sources, class W>
+void add(Sums& sums, const VecLanes& x_i, const VecLanes& v_i, const Lanes& rho_i, const Sources& source,
+         std::span<const Near> nears, const W& kernel, double inverse_W_d0) {
+  for (const Near& near : nears) {
+    const VecLanes x = shifted(x_i, near.shift);
+    for (const std::uint32_t j : near.sources) {
+      const VecLanes x_ij{x[0] - source.x[0][j], x[1] - source.x[1][j]};
+      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300), inverse_r = inverse_sqrt(r2), r = r2 * inverse_r;
+      const Lanes V_G = source.V[j] * kernel.gradient_over_r(r, inverse_r);
+      const Lanes share = kernel.value(r) * inverse_W_d0, share_2 = share * share;
+      const VecLanes V_grad{V_G * x_ij[0], V_G * x_ij[1]};
+      const Lanes weight = 1.0 + R * (share_2 * share_2);
+      for (int a = 0; a < dim; ++a) sums.crowding[a] += weight * V_grad[a];
+      if constexpr (fluid_sources) {
+        sums.moment.add(x_ij, V_grad);
+        const Lanes rho_ji = source.rho[j] - rho_i;
+        for (int a = 0; a < dim; ++a) sums.rho[a] += rho_ji * V_grad[a];
+        for (int b = 0; b < dim; ++b) {
+          const Lanes v_ji = source.v[b][j] - v_i[b];
+          for (int a = 0; a < dim; ++a) sums.v[b][a] += v_ji * V_grad[a];
+        }
+      }
+    }
+  }
+}
+
+/// What the particles of one cluster become.
+struct Moved {
+  VecLanes x, v;
+  Lanes rho;
+};
+
+}  // namespace
+
+void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
+                     double largest_speed, double dt) const {
+  const double factor = -strength_ * kernel_.h() * largest_speed * dt, longest = 0.5 * largest_speed * dt;
+  std::vector<Moved> moved(fluid.clusters());
+  kernel_.visit([&](const auto& W) {
+    const double inverse_W_d0 = 1.0 / W.value(spacing_);
+#pragma omp parallel for schedule(dynamic, 8)
+    for (std::size_t c = 0; c < fluid.clusters(); ++c) {
+      const std::size_t first = c * lane_count;
+      const VecLanes x_i = load(fluid.x, first), v_i = load(fluid.v, first);
+      const Lanes rho_i = load(fluid.rho, first);
+      Sums sums;
+      add<true>(sums, x_i, v_i, rho_i, sources(fluid), neighbours.near(c), W, inverse_W_d0);
+      for (const auto& wall : boundaries)
+        add<false>(sums, x_i, v_i, rho_i, sources(wall), wall.near_fluid.near(c), W, inverse_W_d0);
+      VecLanes dx{factor * sums.crowding[0], factor * sums.crowding[1]};
+      const Lanes length = square_root(dot(dx, dx));
+      const Lanes share = load(fluid.inside, first) * min(1.0, longest * inverse(max(length, 1e-300)));
+      for (auto& component : dx) component *= share;
+      sums.moment.invert();
+      moved[c] = {{x_i[0] + dx[0], x_i[1] + dx[1]},
+                  {v_i[0] + dot(dx, sums.moment.renormalised(sums.v[0])),
+                   v_i[1] + dot(dx, sums.moment.renormalised(sums.v[1]))},
+                  rho_i + dot(dx, sums.moment.renormalised(sums.rho))};
+    }
+  });
+  for (std::size_t c = 0; c < fluid.clusters(); ++c) {
+    const std::size_t first = c * lane_count;
+    store(moved[c].x, fluid.x, first);
+    store(moved[c].v, fluid.v, first);
+    store(moved[c].rho, fluid.rho, first);
+  }
+}
+
+}  // namespace toryu::fluid

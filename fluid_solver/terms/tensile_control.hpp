@@ -1,0 +1,24 @@
+/// Tensile-instability control (Sun, Colagrossi, Marrone, Antuono & Zhang 2018): under suction, and away from
+/// free surfaces, the pressure force on i is that of the differences,
+///
+///     - sum_j m_j (p_j/rho_j^2 + s_i p_i/rho_i^2) gradW_ij,   s_i = -1 where p_i < 0 inside the fluid, else
+///     1
+///
+/// for fluid neighbours j. Both signs are the same gradient where particles lie evenly; but with s_i = 1 a
+/// negative p_i draws neighbours together until they pair, with s_i = -1 it does not. Momentum between fluid
+/// particles is kept only as far as they lie evenly; walls, whose loads are counted, keep s_i = 1.
+///
+/// Artificial pressure (Monaghan 2000) keeps momentum, but its repulsion is a pressure of its own, a tenth of
+/// the suction; it is not offered.
+#pragma once
+
+#include "common/sph/lanes.hpp"
+
+namespace toryu::fluid {
+
+/// s_i p_i/rho_i^2 from p_i/rho_i^2.
+TORYU_INLINE Lanes without_tension(Lanes p_rho2, Lanes inside) {
+  return select((p_rho2 < 0.0) & (inside > 0.0), -p_rho2, p_rho2);
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,129 @@
+// Particle shifting, who is inside, and tensile control.
+#include "fluid_solver/shifting.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "fluid_solver/free_surface.hpp"
+#include "fluid_solver/terms/tensile_control.hpp"
+#include "tests/unit/fluid_solver/scenes.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
+
+constexpr double d_0 = 0.05;
+
+/// A disordered block.
+Setting block() {
+  Setting s = empty_space();
+  s.parameters.kernel = KernelForm::wendland_c2;
+  s.parameters.start_disorder = 0.2;
+  s.parameters.regions = {{"block", {Vec(0, 0), Vec(0.8, 0.7)}, Vec(0, 0)}};
+  return s;
+}
+
+/// Its particles in the order of their neighbour lists, volumes included.
+struct Sorted {
+  Particles fluid;
+  Neighbours lists;
+};
+Sorted sorted(const WendlandC2& kernel) {
+  const FluidSolver solver = block().solver();
+  Sorted s{solver.particles(), {kernel.support(), 0.1 * kernel.support(), 0.1, {Vec::Zero()}}};
+  std::vector<Boundary> none;
+  s.lists.build(s.fluid, none);
+  for (std::size_t i = 0; i < s.fluid.count; ++i) s.fluid.V[i] = d_0 * d_0;
+  return s;
+}
+
+TEST(FreeSurface, IsInReachOfTheOuterRowsAlone) {
+  const WendlandC2 kernel(1.5 * d_0);
+  Sorted s = sorted(kernel);
+  find_inside(s.fluid, s.lists.of_fluid(), {}, kernel);
+  int inside = 0;
+  for (std::size_t i = 0; i < s.fluid.count; ++i) {
+    const Vec x = at(s.fluid.x, i);
+    const double depth = std::min(std::min(x[0], 0.8 - x[0]), std::min(x[1], 0.7 - x[1]));
+    const bool near = depth<kernel.support() - 0.5 * d_0, far = depth> kernel.support() + 2 * d_0;
+    if (near || far) {
+      EXPECT_EQ(s.fluid.inside[i], far ? 1 : 0) << x.transpose();
+    }
+    inside += s.fluid.inside[i] == 1;
+  }
+  EXPECT_GT(inside, 10);
+}
+
+TEST(Shifting, IsTheSumOfItsFormulaAndLeavesLinearFieldsInPlace) {
+  const WendlandC2 kernel(1.5 * d_0);
+  Sorted s = sorted(kernel);
+  const auto v = [](const Vec& x) { return Vec(2 * x[0] - x[1] + 1, 3 * x[1] + 0.5 * x[0]); };
+  const auto rho = [](const Vec& x) { return 1000 + 30 * x[0] - 20 * x[1]; };
+  for (std::size_t i = 0; i < s.fluid.count; ++i) {
+    set(s.fluid.v, i, v(at(s.fluid.x, i)));
+    s.fluid.rho[i] = rho(at(s.fluid.x, i));
+  }
+  s.fluid.inside.assign(padded(s.fluid.count), 1.0);
+  s.fluid.inside[7] = 0;
+  const Particles before = s.fluid;
+  const double speed = 0.3, dt = 1e-3, A = 1.7;
+  Shifting(ParticleShifting{A}, d_0, kernel).shift(s.fluid, s.lists.of_fluid(), {}, speed, dt);
+  EXPECT_EQ(at(s.fluid.x, 7), at(before.x, 7));
+  int limited = 0;
+  for (std::size_t i = 0; i < s.fluid.count; ++i) {
+    if (i == 7) continue;
+    const Vec x_i = at(before.x, i);
+    Vec sum = Vec::Zero();
+    for (std::size_t j = 0; j < s.fluid.count; ++j) {
+      const Vec x_ij = x_i - at(before.x, j);
+      const double r = x_ij.norm();
+      if (j == i || r >= kernel.support()) continue;
+      const double share = kernel.value(r) / kernel.value(d_0);
+      sum += d_0 * d_0 * (1 + 0.2 * std::pow(share, 4)) * kernel.gradient_over_r(r, 1 / r) * x_ij;
+    }
+    Vec dx = -A * kernel.h() * speed * dt * sum;
+    if (dx.norm() > 0.5 * speed * dt) {
+      dx *= 0.5 * speed * dt / dx.norm();
+      ++limited;
+    }
+    const Vec x = at(s.fluid.x, i);
+    EXPECT_LT((x - x_i - dx).norm(), 1e-14);
+    EXPECT_LT((at(s.fluid.v, i) - v(x)).norm(), 1e-13);
+    EXPECT_NEAR(s.fluid.rho[i], rho(x), 1e-10);
+  }
+  EXPECT_GT(limited, 0);
+  EXPECT_LT(limited, static_cast<int>(s.fluid.count) / 2);
+}
+
+TEST(TensileControl, TurnsTheSignOfASuctionInsideTheFluidAlone) {
+  EXPECT_EQ(without_tension(-3.0, 1.0)[0], 3.0);
+  EXPECT_EQ(without_tension(-3.0, 0.0)[0], -3.0);
+  EXPECT_EQ(without_tension(2.0, 1.0)[0], 2.0);
+}
+
+/// Acceleration of the fluid of a block under one pressure, disordered, by the number at the start.
+std::vector<Vec> acceleration(double p, bool controlled) {
+  Setting s = block();
+  s.parameters.density_diffusion.reset();
+  s.parameters.artificial_viscosity.reset();
+  s.parameters.regions.front().box.max = Vec(1.2, 1.2);
+  if (controlled) s.parameters.tensile_control = TensileControl{};
+  s.parameters.background_pressure = BackgroundPressure{p};  // a suction, for once
+  FluidSolver solver = s.solver();
+  solver.advance(1e-9);
+  return by_id(solver, solver.particles().a);
+}
+
+TEST(TensileControl, TakesTheForceOffAUniformSuction) {
+  // symmetric, disordered particles under one pressure p feel 2 p sum V gradW/rho; as a difference nothing
+  const auto pulled = acceleration(-500, false), calm = acceleration(-500, true);
+  const auto pushed = acceleration(500, true), pushed_plain = acceleration(500, false);
+  EXPECT_EQ(largest_difference(pushed, pushed_plain), 0);
+  const std::size_t middle = 12 * 24 + 12;
+  EXPECT_GT(pulled[middle].norm(), 0.1);
+  EXPECT_LT(calm[middle].norm(), 1e-6 * pulled[middle].norm());
+}
+
+}  // namespace
+}  // namespace toryu::fluid
