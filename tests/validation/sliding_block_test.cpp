@@ -33,9 +33,10 @@ TEST(SlidingBlock, TransmitsTheCoefficientTimesThePressure) {
 
 TEST(SlidingBlock, TransmitsAShareOfItAsPrinted) {
   // The shares are sums over lattices; the medium has left its own.
-  EXPECT_NEAR(transmitted({"fluid.friction.form=as_printed"}), printed_share(1.2), 0.02 * 0.22);
+  EXPECT_NEAR(transmitted({"fluid.friction.form=as_printed"}), printed_share(CubicSpline(1.2), 1),
+              0.02 * 0.22);
   EXPECT_NEAR(transmitted({"fluid.friction.form=as_printed", "fluid.smoothing_ratio=1.5"}),
-              printed_share(1.5), 0.02 * 0.30);
+              printed_share(CubicSpline(1.5), 1), 0.02 * 0.30);
 }
 
 }  // namespace

@@ -1,0 +1,72 @@
+// A free surface that swings: cases/oscillating_drop.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fluid_solver/initial_flow.hpp"
+#include "fluid_solver/observers.hpp"
+#include "tests/validation/fluid_case.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+/// Amplitude of the initial flow over time, at every step.
+struct History {
+  std::vector<double> time, amplitude;
+};
+History history(const FluidCase& the_case, double end) {
+  FluidSolver solver = the_case.solver();
+  History seen;
+  while (solver.time() < end) {
+    solver.advance(solver.time_step_limit());
+    seen.time.push_back(solver.time());
+    seen.amplitude.push_back(flow_amplitude(solver.particles(), *the_case.parameters.initial_flow));
+  }
+  return seen;
+}
+
+/// Times at which the amplitude passes zero.
+std::vector<double> zeros(const History& seen) {
+  std::vector<double> found;
+  for (std::size_t k = 1; k < seen.time.size(); ++k) {
+    const double before = seen.amplitude[k - 1], after = seen.amplitude[k];
+    if (before * after < 0)
+      found.push_back(seen.time[k - 1] + (seen.time[k] - seen.time[k - 1]) * before / (before - after));
+  }
+  return found;
+}
+
+/// Period of the drop by the equations of Monaghan & Rafiee (2013), (33)-(35): dA/dt = (Omega^2 + A^2)(b^2 -
+/// a^2)/(a^2 + b^2), da/dt = A a, db/dt = -A b; by the midpoint rule.
+double exact_period(double A, double Omega) {
+  double a = 1, b = 1, t = 0, previous = A, last = 0;
+  const double dt = 1e-4;
+  const auto rate = [&](double A_, double a_, double b_) {
+    return (Omega * Omega + A_ * A_) * (b_ * b_ - a_ * a_) / (a_ * a_ + b_ * b_);
+  };
+  std::vector<double> falls;
+  while (falls.size() < 2) {
+    const double A_h = A + 0.5 * dt * rate(A, a, b), a_h = a + 0.5 * dt * A * a, b_h = b - 0.5 * dt * A * b;
+    last = A;
+    A += dt * rate(A_h, a_h, b_h);
+    a += dt * A_h * a_h;
+    b -= dt * A_h * b_h;
+    t += dt;
+    if (previous > 0 && A <= 0) falls.push_back(t - dt * A / (A - last));
+    previous = A;
+  }
+  return falls[1] - falls[0];
+}
+
+TEST(OscillatingDrop, HasItsPeriod) {
+  const double period = exact_period(1, 1);
+  EXPECT_NEAR(period, 4.8273, 2e-4);
+  const auto passes = zeros(history(FluidCase("oscillating_drop", {"fluid.spacing=0.1"}), 7.5));
+  ASSERT_GE(passes.size(), 3u);
+  const double found = passes[2] - passes[0];
+  RecordProperty("period_over_exact", std::to_string(found / period));
+  EXPECT_NEAR(found / period, 1.0, 0.02);
+}
+
+}  // namespace
+}  // namespace toryu::fluid
