@@ -32,7 +32,7 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
 
 void TotalLagrangian::save() {
   SolidModel::save();
-  restore_ = remember(H_, T_);
+  restore_ = remember(H_, T_, inverted_);
 }
 
 void TotalLagrangian::restore() {
