@@ -188,8 +188,9 @@ TEST(CaseFile, DescribesSectionsWithDefaultsWhateverTheCaseSays) {
   name  required  text
 
 [medium.region.box]  filled
-  min  required  2 numbers [m]  smallest corner
-  max  required  2 numbers [m]  largest corner
+  min    required  2 numbers [m]  smallest corner
+  max    required  2 numbers [m]  largest corner
+  round  false     true or false  the disc or ellipse that touches the sides, in place of the whole box
 )");
 }
 
