@@ -3,10 +3,16 @@
 ///
 ///     <div v>_i = sum_j V_j (v_j - v_i) . L_i gradW_ij,   <grad p>_i = sum_j V_j (p_j - p_i) L_i gradW_ij,
 ///
-/// in place of the sums of (18) and (22), which are off by as much as the moment of the neighbours differs
-/// from the unit matrix: a few per cent where a flow strains its particles, and always to the same side. They
-/// stand where there is neither a wall nor a free surface in reach. Differences of pressure do not drive
-/// particles apart, so they need particle shifting; and they keep momentum only as far as they converge.
+/// and, in a Newtonian medium, the viscous force of a velocity of the second order (Schwaiger 2008), k_ij =
+/// 2 mu m_j/(rho_i rho_j) x_ij . gradW_ij/r_ij^2 as in terms/laminar_viscosity.hpp, M_i the moment L_i^-1:
+///
+///     2/tr M_i [sum_j k_ij v_ij - <grad v>_i . sum_j k_ij x_ij]
+///
+/// in place of the sums of (18) and (22) and of k_ij v_ij, which are off by as much as the moment of the
+/// neighbours differs from the unit matrix: a few per cent where a flow strains its particles, and always to
+/// the same side. They stand where there is neither a wall nor a free surface in reach. Differences of
+/// pressure do not drive particles apart, so they need particle shifting; and they keep momentum only as far
+/// as they converge.
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
@@ -14,8 +20,9 @@
 
 namespace toryu::fluid {
 
-/// Puts them into the wanted rates a, drho of `fluid`, which hold (18) and (22). Needs `fluid.inside`.
-void make_gradients_consistent(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
+/// Puts them into the wanted rates a, drho of `fluid`, which hold (18) and (22). Needs `fluid.inside`. `mu`
+/// [Pa s] is the viscosity of a Newtonian medium, else 0.
+void make_gradients_consistent(RatesOf wanted, double mu, Particles& fluid, const ClusterList& neighbours,
                                const std::vector<Boundary>& boundaries, const Kernel& kernel);
 
 }  // namespace toryu::fluid

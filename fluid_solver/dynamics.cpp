@@ -161,7 +161,8 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
   const auto timer = timers.measure("rates");
   kernel_.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries, given); });
   if (parameters_.consistent_gradients)
-    make_gradients_consistent(wanted, fluid, neighbours, boundaries, kernel_);
+    make_gradients_consistent(wanted, viscosity_varies() ? 0.0 : viscosity_at_rest(), fluid, neighbours,
+                              boundaries, kernel_);
   if (velocity && friction_) brake_by_friction(fluid, boundaries, given);
 }
 

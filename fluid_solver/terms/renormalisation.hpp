@@ -21,6 +21,7 @@ class Moment {
     xy_ -= x_ij[0] * V_grad[1];
     yy_ -= x_ij[1] * V_grad[1];
   }
+  TORYU_INLINE Lanes trace() const { return xx_ + yy_; }
   TORYU_INLINE Lanes smaller_eigenvalue() const {
     const Lanes half_trace = 0.5 * (xx_ + yy_), half_difference = 0.5 * (xx_ - yy_);
     return half_trace - square_root(half_difference * half_difference + xy_ * xy_);
