@@ -7,7 +7,7 @@ namespace {
 
 const std::vector<std::string> total_lagrangian = {
     "solid.formulation=total_lagrangian", "solid.integrator=midpoint", "solid.artificial_stress=false",
-    "solid.hourglass.coefficient=1.5"};
+    "solid.hourglass.coefficient=1.4"};
 
 std::vector<std::string> with(std::vector<std::string> overrides, const std::vector<std::string>& more) {
   overrides.insert(overrides.end(), more.begin(), more.end());
@@ -50,8 +50,11 @@ double stretch(const std::vector<std::string>& overrides, double time) {
   return observed(*bar, "middle_displacement_x") / (0.02 * 0.05);
 }
 
-TEST(StretchedBar, IsAsLongAsHookesLawSays) {
-  EXPECT_NEAR(stretch(with(total_lagrangian, {"solid.spacing=0.004"}), 0.04), 1.0, 0.04);
+TEST(StretchedBar, IsAsLongAsItsLimitInTotalLagrangianForm) {
+  // The clamp hinders the contraction, so that the middle moves less than Hooke's law in plane strain has it:
+  // 0.933, 0.942 and 0.946 of that with 5, 10 and 20 rows; with held particles as soft as the others 0.990,
+  // 0.973 and 0.961.
+  EXPECT_NEAR(stretch(with(total_lagrangian, {"solid.spacing=0.004"}), 0.04), 0.946, 0.02);
 }
 
 TEST(StretchedBar, StaysWholeWithArtificialStressAndTearsWithout) {
