@@ -9,6 +9,7 @@
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
 #include "fluid_solver/fluid_solver.hpp"
+#include "fluid_solver/guards.hpp"
 
 namespace {
 
@@ -94,6 +95,9 @@ ExitCode solve(const Options& options) {
   FluidSolver solver(parameters, scene);
   omp_set_num_threads(thread_count(options, solver.particle_count(), particles_per_thread));
   check_start(solver, "[fluid]");
+  const auto& start = solver.particles();
+  for (const auto& beyond : fluid::beyond_edges(parameters, fluid::largest_norm(start.v, start.count)))
+    spdlog::warn("{}", beyond);
   if (options.check) return ExitCode::done;
   if (file.has("solid"))
     compute_coupled(options, file, scene, solver);
