@@ -141,7 +141,7 @@ class Stopped(Study):
 
     def test_the_same_study_is_not_run_twice_at_once(self):
         self.write(self.SLOW)
-        first = self.start()
+        first = self.start("--set", "fluid.seconds=60")  # however long the second takes to start
         self.wait_for(self.starts)
         second = self.study()
         self.assertEqual((second.returncode, second.stderr), (
