@@ -76,8 +76,8 @@ struct SolidParameters {
   std::optional<ArtificialViscosity> artificial_viscosity;
   std::optional<ArtificialStress> artificial_stress;
   std::optional<Damping> damping;
-  std::optional<WallContact> wall_contact;
-  std::optional<BodyContact> body_contact;
+  std::optional<Contact> wall_contact;
+  std::optional<Contact> body_contact;
   std::optional<Detachment> detachment;
   std::optional<BondLimits> bonds;
   SolidLimits limits;

@@ -4,13 +4,11 @@
 #include <limits>
 
 #include "solid_solver/sorted_points.hpp"
-#include "solid_solver/terms/overlap.hpp"
 
 namespace toryu {
 
-TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size_t count,
-                               const BodyContact& term, const ElasticMaterial& material, double spacing,
-                               double h)
+TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
+                               const ElasticMaterial& material, double spacing, double h)
     : V_(volume),
       count_(count),
       W_(h),

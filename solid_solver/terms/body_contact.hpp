@@ -13,29 +13,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
 #include "common/sph/points.hpp"
 #include "solid_solver/material.hpp"
+#include "solid_solver/terms/overlap.hpp"
 
 namespace toryu {
-
-struct BodyContact {
-  double stiffness = 1.0;  ///< contact pressure where the overlap has doubled, over the bulk modulus
-};
-inline void describe(ParameterTable& table, BodyContact& p) {
-  table.number("stiffness", p.stiffness,
-               {.minimum = 0,
-                .maximum = 10,
-                .above_minimum = true,
-                .help = "contact pressure where the overlap has doubled, over the bulk modulus"});
-}
 
 class TouchingBodies {
  public:
   /// `X` [m] and `volume` [m2] of the first `count` particles in storage order, which must not change.
   /// `spacing` and `h` [m] are the solid's.
-  TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const BodyContact& term,
+  TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
                  const ElasticMaterial& material, double spacing, double h);
 
   /// Adds the push at positions x [m] to the accelerations a [m/s2].

@@ -1,11 +1,24 @@
-/// How much of a kernel a half plane of particles fills: what contact forces measure depth by.
+/// What contact at walls and between bodies share: how much of a kernel a half plane of particles fills, by
+/// which they measure depth, and how hard they push.
 #pragma once
 
 #include <cmath>
 
+#include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
 
 namespace toryu {
+
+struct Contact {
+  double stiffness = 1.0;  ///< contact pressure where the overlap has doubled, over the bulk modulus
+};
+inline void describe(ParameterTable& table, Contact& p) {
+  table.number("stiffness", p.stiffness,
+               {.minimum = 0,
+                .maximum = 10,
+                .above_minimum = true,
+                .help = "contact pressure where the overlap has doubled, over the bulk modulus"});
+}
 
 /// Sum of V W over a half plane of particles whose uppermost row is `distance` [m] below, and the largest
 /// slope of it [1/m].

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "solid_solver/terms/overlap.hpp"
-
 namespace toryu {
 
 namespace {
@@ -18,7 +16,7 @@ double largest_move_squared(const VecField& a, const VecField& b, std::size_t co
 
 }  // namespace
 
-ContactWalls::ContactWalls(const std::vector<Wall>& walls, const WallContact& term,
+ContactWalls::ContactWalls(const std::vector<Wall>& walls, const Contact& term,
                            const ElasticMaterial& material, double spacing, double h)
     : walls_(walls),
       W_(h),

@@ -17,24 +17,14 @@
 #include "common/sph/points.hpp"
 #include "common/sph/strip_order.hpp"
 #include "solid_solver/material.hpp"
+#include "solid_solver/terms/overlap.hpp"
 
 namespace toryu {
-
-struct WallContact {
-  double stiffness = 1.0;  ///< contact pressure where the overlap has doubled, over the bulk modulus
-};
-inline void describe(ParameterTable& table, WallContact& p) {
-  table.number("stiffness", p.stiffness,
-               {.minimum = 0,
-                .maximum = 10,
-                .above_minimum = true,
-                .help = "contact pressure where the overlap has doubled, over the bulk modulus"});
-}
 
 class ContactWalls {
  public:
   /// `spacing` and `h` [m] are the solid's.
-  ContactWalls(const std::vector<Wall>& walls, const WallContact& term, const ElasticMaterial& material,
+  ContactWalls(const std::vector<Wall>& walls, const Contact& term, const ElasticMaterial& material,
                double spacing, double h);
 
   /// Puts the walls where they are at `time` [s] and finds what they may touch among the first `count`

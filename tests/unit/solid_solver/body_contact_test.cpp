@@ -19,7 +19,7 @@ SolidParameters two_blocks(double gap, double speed) {
                 .box = {Vec(gap, 0.003), Vec(gap + 0.02, 0.023)},
                 .initial_velocity = moving(-speed),
                 .observed = true}};
-  p.body_contact = BodyContact{.stiffness = 0.5};
+  p.body_contact = Contact{.stiffness = 0.5};
   return p;
 }
 

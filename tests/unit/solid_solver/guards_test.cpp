@@ -37,7 +37,7 @@ TEST(Guards, NameTheMapBeyondWhoseEdgeACaseLies) {
   p.integrator = Integrator::symplectic;
   EXPECT_THAT(beyond_edges(p), ElementsAre());
   p.courant_number = 2.4;
-  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("is 1.92, beyond the edge of stability at 1.87")));
+  EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("is 1.92, beyond the edge of stability at 1.84")));
   p = updated(0.3, 1.0);
   p.artificial_viscosity.reset();
   EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("midpoint steps amplify")));
@@ -52,7 +52,8 @@ TEST(Guards, ThinPlatesWantHourglassControlAndNotTooHighAPoissonsRatio) {
   p = free_plate(12);
   p.hourglass.reset();
   EXPECT_THAT(beyond_edges(p), ElementsAre());
-  EXPECT_THAT(beyond_edges(free_plate(3)), ElementsAre(HasSubstr("cases/oscillating_plate/thin_map.toml")));
+  EXPECT_THAT(beyond_edges(free_plate(3)), ElementsAre());
+  EXPECT_THAT(beyond_edges(free_plate(2)), ElementsAre(HasSubstr("cases/oscillating_plate/thin_map.toml")));
   p = free_plate(4);
   p.material.poissons_ratio = 0.49;
   EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("cases/oscillating_plate/poisson_map.toml")));

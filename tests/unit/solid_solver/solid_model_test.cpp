@@ -48,7 +48,7 @@ TEST_P(BothForms, KeepsMomentumOfAFreeBody) {
 TEST_P(BothForms, RepeatsAWindowBitByBit) {
   omp_set_num_threads(1);
   SolidParameters p = in_form(moving_cantilever(4, 20.0), GetParam());
-  p.wall_contact = WallContact{};
+  p.wall_contact = Contact{};
   p.detachment = Detachment{.interval = 1e-4};
   Scene scene = empty_scene();
   scene.gravity = Vec(0, -9.81);
@@ -109,7 +109,7 @@ TEST_P(BothForms, HoldsTheClampedAndTakesTheirLoad) {
 TEST_P(BothForms, ImpulsesOfLoadsWallsAndClampsSumToTheChangeOfMomentum) {
   SolidParameters p = in_form(moving_cantilever(4, 2.0), GetParam());
   p.loads = {{"tip", {Vec(0.06, -1), Vec(1, 1)}, Vec(-30.0, -50.0)}};
-  p.wall_contact = WallContact{};
+  p.wall_contact = Contact{};
   Scene scene = empty_scene();
   scene.gravity = Vec(1, -10);
   scene.walls = {{.name = "floor", .box = {Vec(-0.05, -0.04), Vec(0.13, -0.002)}, .motion = {}}};
@@ -175,7 +175,7 @@ TEST_P(BothForms, StopsWhereAValueLeavesPhysics) {
 TEST_P(BothForms, BouncesOffAWallAndDoesNotStick) {
   SolidParameters p = in_form(free_plate(4), GetParam());
   p.initial_velocity = InitialVelocity{.velocity = Vec(0, -1)};
-  p.wall_contact = WallContact{};
+  p.wall_contact = Contact{};
   p.time_step_share =
       0.2;  // the impact's energy is in the fastest modes, of which the leapfrog keeps a neighbour
   Scene scene = empty_scene();
