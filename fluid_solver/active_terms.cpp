@@ -51,7 +51,8 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
                      "eq. 33, mended", friction_->parameters()});
   terms.push_back({"walls", "pressure and velocity extrapolated from the fluid",
                    "Adami, Hu & Adams 2012, eq. 27-29",
-                   parameters_.wall_model.slip == WallSlip::no_slip ? "no slip" : "free slip"});
+                   fmt::format("{}{}", viscous_walls() ? "no slip" : "free slip",
+                               parameters_.wall_model.suction ? "" : ", no suction")});
   if (parameters_.particle_shifting)
     terms.push_back({"particle shifting", "-A h u_max dt sum_j V_j [1 + R (W_ij/W(d_0))^4] gradW_ij",
                      "Lind et al. 2012, Sun et al. 2017",

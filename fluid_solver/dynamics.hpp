@@ -53,7 +53,8 @@ class Dynamics {
     return std::holds_alternative<DensityDiffusionTerm<true>>(terms_.diffusion);
   }
   PairSweeps sweeps() const {
-    return {terms_, body_force_, viscous_walls(), parameters_.tensile_control.has_value()};
+    return {terms_, body_force_, viscous_walls(), parameters_.wall_model.suction,
+            parameters_.tensile_control.has_value()};
   }
 
   Parameters parameters_;

@@ -62,9 +62,13 @@ TORYU_INLINE void add_viscous(const auto& term, const Targets& i, const Sources&
   if constexpr (requires { term.viscous(i, s, j, p, r); }) term.viscous(i, s, j, p, r);
 }
 
+/// A term that is another one between the fluid and a wall has `at_wall`.
 TORYU_INLINE void add_at_wall(const auto& term, const Targets& i, const Sources& s, std::size_t j,
                               const Pair& p, Rates& r) {
-  if constexpr (requires { term.at_wall(i, s, j, p, r); }) term.at_wall(i, s, j, p, r);
+  if constexpr (requires { term.at_wall(i, s, j, p, r); })
+    term.at_wall(i, s, j, p, r);
+  else
+    add_momentum(term, i, s, j, p, r);
 }
 
 Vec lane_sums(const Lanes& m, const VecLanes& after, const VecLanes& before) {
@@ -121,7 +125,6 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
     over_pairs(kernel, near, i, x_i, wall, [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
       if constexpr (of_density<wanted>) (add_density(term, i, wall, j, pair, rates), ...);
       if constexpr (of_velocity<wanted>) {
-        (add_momentum(term, i, wall, j, pair, rates), ...);
         (add_at_wall(term, i, wall, j, pair, rates), ...);
         if (sweeps.viscous_walls) (add_viscous(term, i, wall, j, pair, rates), ...);
       }
@@ -148,7 +151,6 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
   Rates rates;
   over_pairs(kernel, boundary.fluid_near.near(cluster), w, x_w, own,
              [&](std::size_t i, const Pair& pair) TORYU_INLINE_LAMBDA {
-               (add_momentum(term, w, own, i, pair, rates), ...);
                (add_at_wall(term, w, own, i, pair, rates), ...);
                if (sweeps.viscous_walls) (add_viscous(term, w, own, i, pair, rates), ...);
              });
@@ -173,14 +175,14 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
     std::visit(
         [&](const auto&... term) {
           rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, given, Continuity{},
-                                      Pressure{}, term...);
+                                      Pressure{wall_suction}, term...);
         },
         terms.diffusion, terms.artificial, terms.viscous, terms.repulsion);
   else if (wanted == RatesOf::velocity)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries, given, Pressure{},
-                                          term...);
+          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries, given,
+                                          Pressure{wall_suction}, term...);
         },
         terms.artificial, terms.viscous, terms.repulsion);
   else
@@ -200,7 +202,7 @@ void PairSweeps::reaction(const W& kernel, const Particles& fluid, Boundary& bou
       [&](const auto&... term) {
 #pragma omp parallel for schedule(dynamic, 4)
         for (std::size_t k = 0; k < active.size(); ++k)
-          reaction_on_cluster(*this, kernel, fluid, boundary, active[k], Pressure{}, term...);
+          reaction_on_cluster(*this, kernel, fluid, boundary, active[k], Pressure{wall_suction}, term...);
       },
       terms.artificial, terms.viscous, terms.repulsion);
 }

@@ -211,6 +211,8 @@ void describe(ParameterTable& table, WallModel& model) {
   table.choice(
       "density", model.density, {"rest", "from_pressure"},
       {.help = "density of wall particles: the rest density (thesis), or (3) inverted (Adami et al. 2012)"});
+  table.flag("suction", model.suction,
+             "whether walls hold a fluid whose pressure is negative; false where air can come between them");
 }
 
 void describe(ParameterTable& table, Limits& limits) {

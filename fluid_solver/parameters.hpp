@@ -142,6 +142,7 @@ enum class WallDensity { rest, from_pressure };
 struct WallModel {
   WallSlip slip = WallSlip::no_slip;
   WallDensity density = WallDensity::rest;
+  bool suction = true;  ///< false: walls push and never pull
 };
 void describe(ParameterTable& table, WallModel& model);
 

@@ -64,13 +64,30 @@ TEST(Pressure, IsTheSumOfEquation22) {
   for (const auto& j : others)
     sum -=
         j.m * (i_point.p / (i_point.rho * i_point.rho) + j.p / (j.rho * j.rho)) * grad_W(i_point.x, j.x, h);
-  expect_near(first_lane(sum_over(i_point, others, kernel, momentum({})).a), sum);
+  expect_near(first_lane(sum_over(i_point, others, kernel, momentum(Pressure{})).a), sum);
 }
 
 TEST(Pressure, DrivesApartAndKeepsMomentum) {
   const Point i{{0, 0}, {0, 0}, 1000, 0.1, 500}, j{{h, 0.2 * h}, {0, 0}, 1010, 0.2, 900};
-  EXPECT_LT(sum_over(i, {j}, kernel, momentum({})).a[0][0], 0);
-  EXPECT_LT(unbalance(i, j, momentum({})), 1e-14);
+  EXPECT_LT(sum_over(i, {j}, kernel, momentum(Pressure{})).a[0][0], 0);
+  EXPECT_LT(unbalance(i, j, momentum(Pressure{})), 1e-14);
+}
+
+TEST(Pressure, PushesAndPullsAtWallsAsAnywhere) {
+  const auto at_wall = [](auto&&... a) { Pressure{}.at_wall(a...); };
+  const Point i{{0, 0}, {0, 0}, 1000, 0.1, -500}, w{{h, 0.2 * h}, {0, 0}, 1010, 0.2, -900};
+  const double p_rho2 = -500e-6 - 900 / (1010.0 * 1010.0);
+  expect_near(first_lane(sum_over(i, {w}, kernel, at_wall).a), -w.m * p_rho2 * grad_W(i.x, w.x, h));
+}
+
+TEST(Pressure, NeverPullsAtWallsWithoutSuction) {
+  const auto at_wall = [](auto&&... a) { Pressure{false}.at_wall(a...); };
+  const Point i{{0, 0}, {0, 0}, 1000, 0.1, -500}, w{{h, 0.2 * h}, {0, 0}, 1000, 0.2, 300};
+  Point pushing = w;
+  pushing.p = 800;
+  EXPECT_EQ(first_lane(sum_over(i, {w}, kernel, at_wall).a), Vec(0, 0));
+  expect_near(first_lane(sum_over(i, {pushing}, kernel, at_wall).a), -w.m * 300e-6 * grad_W(i.x, w.x, h));
+  EXPECT_LT(unbalance(i, pushing, at_wall), 1e-14);
 }
 
 /// Pi_ij as printed in (23)-(24), mended.
