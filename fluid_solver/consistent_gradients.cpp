@@ -46,13 +46,6 @@ Sums sums_of(const Particles& f, double mu, const W& kernel, std::size_t first, 
   return sums;
 }
 
-bool wall_in_reach(const std::vector<Boundary>& boundaries, std::size_t cluster) {
-  for (const auto& wall : boundaries)
-    for (const Near& near : wall.near_fluid.near(cluster))
-      if (!near.sources.empty()) return true;
-  return false;
-}
-
 /// What the consistent rates have beyond the others.
 struct Difference {
   Lanes divergence;

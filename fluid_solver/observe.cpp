@@ -120,8 +120,8 @@ std::vector<Observation> FluidSolver::observe() const {
   if (scene_.gravity.norm() > 0) push("impulse_of_gravity", "N.s/m", gravity_impulse_);
   if (parameters_.seeks_free_surface()) push("impulse_of_corrections", "N.s/m", numerical_impulse());
   for (const auto& observer : parameters_.observers)
-    row.push_back(toryu::fluid::observe(
-        observer, {fluid_, parameters_, dynamics_.kernel(), dynamics_.equation_of_state(), period_, time_}));
+    row.push_back(toryu::fluid::observe(observer, {fluid_, boundaries_, parameters_, dynamics_.kernel(),
+                                                   dynamics_.equation_of_state(), period_, time_}));
   if (surface_record_)
     for (const auto& observation : surface_record_->observe()) row.push_back(observation);
   return row;

@@ -1,6 +1,7 @@
 #include "fluid_solver/observers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fluid_solver/initial_flow.hpp"
@@ -18,6 +19,35 @@ double share_in(const Box& box, const Vec& x, double side) {
   }
   return share;
 }
+
+/// Squares of the distances of points from the particle nearest to each. The points fill a box,
+/// `step` apart.
+class Nearest {
+ public:
+  Nearest(const Box& box, double step, double reach) : box_(box), step_(step), reach_(reach) {
+    for (int a = 0; a < dim; ++a) count_[a] = std::lround((box.max[a] - box.min[a]) / step) + 1;
+    r2_.assign(static_cast<std::size_t>(count_[0] * count_[1]), reach * reach);
+  }
+  void add(const Vec& x) {
+    std::array<long, dim> first{}, last{};
+    for (int a = 0; a < dim; ++a) {
+      first[a] = std::max(static_cast<long>(std::floor((x[a] - reach_ - box_.min[a]) / step_)), 0L);
+      last[a] = std::min(static_cast<long>(std::ceil((x[a] + reach_ - box_.min[a]) / step_)) + 1, count_[a]);
+    }
+    for (long i = first[0]; i < last[0]; ++i)
+      for (long j = first[1]; j < last[1]; ++j) {
+        double& r2 = r2_[static_cast<std::size_t>(i * count_[1] + j)];
+        r2 = std::min(r2, (box_.min + step_ * Vec(i, j) - x).squaredNorm());
+      }
+  }
+  double farthest() const { return std::sqrt(*std::max_element(r2_.begin(), r2_.end())); }
+
+ private:
+  Box box_;
+  double step_, reach_;
+  std::array<long, dim> count_{};
+  std::vector<double> r2_;
+};
 
 }  // namespace
 
@@ -70,6 +100,18 @@ double flow_error(const Particles& fluid, const InitialFlow& flow, double share)
   return std::sqrt(sum / static_cast<double>(fluid.count)) / std::abs(flow.speed);
 }
 
+double largest_void(const Particles& fluid, const std::vector<Boundary>& walls, const Box& box,
+                    double spacing, const Period& period) {
+  Nearest nearest(box, 0.1 * spacing, 2 * spacing);
+  const auto add = [&](const VecField& x, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      for (const Vec& shift : period.shifts()) nearest.add(at(x, i) + shift);
+  };
+  add(fluid.x, fluid.count);
+  for (const auto& wall : walls) add(wall.x, wall.count);
+  return nearest.farthest() / spacing;
+}
+
 Observation observe(const Observer& observer, const Observed& now) {
   const Parameters& p = now.parameters;
   switch (observer.quantity) {
@@ -86,6 +128,8 @@ Observation observe(const Observer& observer, const Observed& now) {
       return {observer.name, "1",
               flow_error(now.fluid, *p.initial_flow, decay(*p.initial_flow, nu, now.time))};
     }
+    case Quantity::largest_void:
+      return {observer.name, "1", largest_void(now.fluid, now.walls, *observer.box, p.spacing, now.period)};
   }
   return {};
 }

@@ -3,6 +3,7 @@
 
 #include "common/run/solver.hpp"
 #include "common/sph/kernel.hpp"
+#include "fluid_solver/boundary.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/particles.hpp"
 #include "fluid_solver/period.hpp"
@@ -29,9 +30,16 @@ double flow_amplitude(const Particles& fluid, const InitialFlow& flow);
 /// Root mean square of v less `share` of the initial flow at the same place, over its speed.
 double flow_error(const Particles& fluid, const InitialFlow& flow, double share);
 
+/// Farthest that a point of `box` lies from any particle, of fluid or walls, in spacings: 0.71 in a square
+/// lattice, more than 1 where the medium has torn. Points are looked at in steps of a tenth of a spacing, and
+/// no farther than 2 spacings.
+double largest_void(const Particles& fluid, const std::vector<Boundary>& walls, const Box& box,
+                    double spacing, const Period& period);
+
 /// What observers look at.
 struct Observed {
   const Particles& fluid;
+  const std::vector<Boundary>& walls;
   const Parameters& parameters;
   const Kernel& kernel;
   const EquationOfState& state;

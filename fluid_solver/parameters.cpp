@@ -230,19 +230,23 @@ void describe(ParameterTable& table, Observer& observer) {
   table.text("name", observer.name,
              {.required = true, .help = "name of the column in fluid.csv", .names_columns = true});
   table.choice(
-      "quantity", observer.quantity, {"front_x", "pressure", "flow_rate", "flow_amplitude", "flow_error"},
+      "quantity", observer.quantity,
+      {"front_x", "pressure", "flow_rate", "flow_amplitude", "flow_error", "largest_void"},
       {.required = true,
        .help =
            "front_x: largest x of the fluid; pressure: kernel mean about `point`; flow_rate: along `axis`, "
            "cross-section of `box` times mean velocity in it; flow_amplitude: share of the initial flow that "
-           "the "
-           "velocity holds; flow_error: of a Taylor-Green flow, root mean square difference from the exact "
-           "velocity over the initial speed"});
+           "the velocity holds; flow_error: of a Taylor-Green flow, root mean square difference from the "
+           "exact "
+           "velocity over the initial speed; largest_void: farthest that a point of `box` lies from any "
+           "particle, walls' too, in spacings, at most 2 (0.71 in a lattice)"});
   table.vector("point", observer.point, {.unit = "m", .help = "where the pressure is probed"});
-  table.optional("box", observer.box, "where the flow rate is taken, to be full of fluid");
+  table.optional("box", observer.box, "where flow rate or void is taken, to be full of fluid");
   table.choice("axis", observer.axis, {"x", "y"}, {.help = "direction in which the flow rate counts"});
   table.require(observer.quantity != Quantity::flow_rate || observer.box, "quantity",
                 "a flow rate needs a 'box'");
+  table.require(observer.quantity != Quantity::largest_void || observer.box, "quantity",
+                "a largest void needs a 'box'");
 }
 
 void describe(ParameterTable& table, Parameters& p) {

@@ -75,6 +75,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "FlowRateWithoutBox", "fluid.observer=[{name=\"q\", quantity=\"flow_rate\"}]",
             "--set fluid.observer=[{name=\"q\", quantity=\"flow_rate\"}]: error: a flow rate needs a 'box'"},
+        Fault{"LargestVoidWithoutBox", "fluid.observer=[{name=\"q\", quantity=\"largest_void\"}]",
+              "--set fluid.observer=[{name=\"q\", quantity=\"largest_void\"}]: error: a largest void needs a "
+              "'box'"},
         Fault{"FluidInAWall", "fluid.region.water.box.min=[-0.1,0]",
               "[fluid.region]: error: overlaps a wall near (-0.075, 0.975) m: fluid and wall particles must "
               "be at "

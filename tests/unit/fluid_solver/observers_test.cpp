@@ -65,6 +65,26 @@ TEST(FlowAmplitude, IsTheShareOfTheInitialFlow) {
   EXPECT_DOUBLE_EQ(flow_error(f, flow, 0.5), std::sqrt((25 + 50) / 2.0) / 2);
 }
 
+TEST(LargestVoid, IsFarthestFromAnyParticle) {
+  // corners of a square of side 1, spacing 1: 0.5 sqrt 2 from its middle; a wall particle there leaves 0.5
+  const Vec rest(0, 0);
+  const auto f = particles({{{0, 0}, rest, 1}, {{1, 0}, rest, 1}, {{0, 1}, rest, 1}, {{1, 1}, rest, 1}});
+  const Box square{Vec(0, 0), Vec(1, 1)};
+  Scene scene;
+  scene.domain = {Vec(-1, -1), Vec(7, 7)};
+  const Period nowhere(scene, 1, 1);
+  EXPECT_NEAR(largest_void(f, {}, square, 1, nowhere), std::sqrt(0.5), 1e-12);
+  std::vector<Boundary> walls(1);
+  walls[0].place({Vec(0.5, 0.5)}, {1}, 1000, 1);
+  EXPECT_NEAR(largest_void(f, walls, square, 1, nowhere), 0.5, 1e-12);
+  // 2.2 is 1.2 away; no farther than 2 is looked
+  EXPECT_NEAR(largest_void(f, {}, {Vec(0, 0), Vec(2.2, 0)}, 1, nowhere), 1.2, 1e-12);
+  EXPECT_NEAR(largest_void(f, {}, {Vec(0, 0), Vec(6, 0)}, 1, nowhere), 2, 1e-12);
+  // across the seam: the square's image at x = 8
+  scene.periodic = Periodic::x;
+  EXPECT_NEAR(largest_void(f, {}, {Vec(6.5, 0), Vec(7, 0)}, 1, Period(scene, 1, 1)), 1.5, 1e-12);
+}
+
 TEST(Front, IsHalfASpacingBeyondTheForemostParticle) {
   EXPECT_DOUBLE_EQ(front_x(particles({{{3, 0}, {0, 0}, 1}, {{1, 5}, {0, 0}, 1}}), 0.5), 3.25);
 }
