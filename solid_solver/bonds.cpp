@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
 #include "common/run/failure.hpp"
 #include "solid_solver/sorted_points.hpp"
 
@@ -20,14 +22,18 @@ Bonds::Bonds(const SolidBody& body, const BondLimits& limits) : limits_(limits) 
   const SortedPoints points(body.X, reach);
   for (std::uint32_t i = 0; i < body.size(); ++i)
     points.near(body.X[i], reach, [&](std::uint32_t j) {
-      if (i < j) bonds_.push_back({i, j, (body.X[i] - body.X[j]).norm()});
+      const Vec first = body.X[j] - body.X[i];
+      if (i < j) bonds_.push_back({i, j, first, first.norm()});
     });
 }
 
 Stretches Bonds::stretches(const std::vector<Vec>& x) const {
   Stretches found;
+  double least_cosine = 1.0;
   for (const auto& bond : bonds_) {
-    const double stretch = (x[bond.i] - x[bond.j]).norm() / bond.length;
+    const Vec now = x[bond.j] - x[bond.i];
+    const double length = now.norm(), stretch = length / bond.length;
+    if (length > 0) least_cosine = std::min(least_cosine, now.dot(bond.first) / (length * bond.length));
     if (stretch > found.largest) {
       found.largest = stretch;
       found.longest = bond.i;
@@ -39,13 +45,14 @@ Stretches Bonds::stretches(const std::vector<Vec>& x) const {
     found.torn += stretch > limits_.torn_at;
     found.clumped += stretch < limits_.clumped_at;
   }
+  found.turn = std::acos(std::max(least_cosine, -1.0));
   return found;
 }
 
 void BondWatch::look(const std::vector<Vec>& x, double time) {
   const Stretches found = bonds_.stretches(x);
-  most_torn_ = std::max(most_torn_, found.torn);
-  most_clumped_ = std::max(most_clumped_, found.clumped);
+  worst_.torn = std::max(worst_.torn, found.torn);
+  worst_.clumped = std::max(worst_.clumped, found.clumped);
   if (limits_.stop && found.torn > 0)
     throw PhysicsFailure("solid", found.longest, time, "stretch of a bond",
                          fmt::format("{:.4g}", found.largest), fmt::format("{:g}", limits_.torn_at));
@@ -61,8 +68,28 @@ void BondWatch::look(const std::vector<Vec>& x, double time) {
         "that of particle {} at ({:.4g}, {:.4g}) m",
         what, time, count, than, limit, particle, x[particle][0], x[particle][1]);
   };
+  tell_of_stress(found, time);
+  worst_.turn = std::max(worst_.turn, found.turn);
+  worst_.largest = std::max(worst_.largest, found.largest);
+  worst_.smallest = std::min(worst_.smallest, found.smallest);
   tell(found.torn, told_torn_, "torn", "longer", limits_.torn_at, found.longest);
   tell(found.clumped, told_clumped_, "clumped", "shorter", limits_.clumped_at, found.shortest);
+}
+
+void BondWatch::tell_of_stress(const Stretches& found, double time) {
+  if (found.turn > edges_.turn && worst_.turn <= edges_.turn)
+    spdlog::warn(
+        "bonds of the solid have turned by {:.3g} rad at t = {:.6g} s: plain gradients take a turn near a "
+        "surface for a strain, beyond the edge at {:g} rad; take gradients = \"renormalised\" or formulation "
+        "= "
+        "\"total_lagrangian\", see cases/rigid_rotation/turn_map.toml",
+        found.turn, time, edges_.turn);
+  if (found.strain() > edges_.strain && worst_.strain() <= edges_.strain)
+    spdlog::warn(
+        "bonds of the solid are strained by {:.3g} at t = {:.6g} s: stress under the Jaumann rate is then 5 "
+        "% "
+        "short in shear, or more, beyond the edge at {:g}; see cases/patch_test/jaumann_map.toml",
+        found.strain(), time, edges_.strain);
 }
 
 }  // namespace toryu

@@ -64,6 +64,13 @@ double courant_edge(const SolidParameters& p) {
   return p.artificial_viscosity ? 1.1 * std::cbrt(p.artificial_viscosity->alpha) : 0.0;
 }
 
+StressEdges stress_edges(const SolidParameters& p) {
+  if (p.formulation == Formulation::total_lagrangian) return {};
+  StressEdges edges{.strain = 0.30};
+  if (p.gradients == Gradients::plain) edges.turn = 0.2;
+  return edges;
+}
+
 std::vector<std::string> beyond_edges(const SolidParameters& p) {
   std::vector<std::string> said;
   if (p.formulation == Formulation::total_lagrangian) {

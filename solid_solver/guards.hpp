@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solid_solver/bonds.hpp"
 #include "solid_solver/parameters.hpp"
 
 namespace toryu {
@@ -16,6 +17,14 @@ namespace toryu {
 ///   midpoint    1.1 alpha^(1/3): what artificial viscosity damps, omega alpha a share of a step,
 ///               outweighs the growth (omega dt)^4/8; nothing without viscosity
 double courant_edge(const SolidParameters& parameters);
+
+/// Beyond which motions the stress of an updated Lagrangian solid is wrong while the body looks whole:
+///
+///     turn    0.2 rad with plain gradients: bonds at a surface are then strained by a tenth, whatever the
+///             rows (cases/rigid_rotation/turn_map.toml); renormalised ones bear any turn
+///     strain  0.30, of a diagonal bond in a shear of gamma = 0.55, where G sin(gamma) of the Jaumann rate is
+///             5 % short of G gamma (cases/patch_test/jaumann_map.toml)
+StressEdges stress_edges(const SolidParameters& parameters);
 
 /// A sentence for each edge that `parameters` lie beyond.
 std::vector<std::string> beyond_edges(const SolidParameters& parameters);

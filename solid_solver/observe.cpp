@@ -10,8 +10,11 @@ namespace toryu {
 
 std::vector<std::pair<std::string, double>> SolidModel::figures() const {
   if (!bonds_) return {};
-  const auto [torn, clumped] = bonds_->worst();
-  return {{"torn_bonds", static_cast<double>(torn)}, {"clumped_bonds", static_cast<double>(clumped)}};
+  const Stretches& worst = bonds_->worst();
+  return {{"torn_bonds", static_cast<double>(worst.torn)},
+          {"clumped_bonds", static_cast<double>(worst.clumped)},
+          {"largest_bond_strain", worst.strain()},
+          {"largest_bond_turn", worst.turn}};
 }
 
 void SolidModel::observe_regions(std::vector<Observation>& row) const {
@@ -64,10 +67,18 @@ Health SolidModel::health() const {
 
 std::vector<Observation> SolidModel::observe() const {
   std::vector<Observation> row;
-  for (const auto& [name, point] : observers_) {
+  for (const auto& [asked, point] : observers_) {
     const Vec u = point.value([&](std::size_t i) { return displacement(i); });
-    row.push_back({name + "_displacement_x", "m", u[0]});
-    row.push_back({name + "_displacement_y", "m", u[1]});
+    row.push_back({asked.name + "_displacement_x", "m", u[0]});
+    row.push_back({asked.name + "_displacement_y", "m", u[1]});
+    if (!asked.stress) continue;
+    const auto append = [&](const char* component, double Stress::*part) {
+      row.push_back({asked.name + "_stress_" + component, "Pa",
+                     point.value([&](std::size_t i) { return stress(i).*part; })});
+    };
+    append("xx", &Stress::xx);
+    append("yy", &Stress::yy);
+    append("xy", &Stress::xy);
   }
   observe_regions(row);
   const double kinetic = kinetic_energy(), potential = potential_energy(), work = interface_work();

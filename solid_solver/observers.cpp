@@ -13,6 +13,7 @@ void describe(ParameterTable& table, PointObserver& observer) {
   table.text("name", observer.name,
              {.required = true, .help = "prefix of the columns", .names_columns = true});
   table.vector("point", observer.point, {.unit = "m", .required = true, .help = "in the unloaded body"});
+  table.flag("stress", observer.stress, "whether the stress there is reported too");
 }
 
 void describe(ParameterTable& table, Detachment& p) {

@@ -1,7 +1,8 @@
-/// Points of the material whose displacement a run reports.
+/// Points of the material whose displacement, and stress if asked for, a run reports.
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "common/case/parameter_table.hpp"
@@ -9,10 +10,12 @@
 
 namespace toryu {
 
-/// `name` becomes the columns NAME_displacement_x[m] and NAME_displacement_y[m].
+/// `name` becomes the columns NAME_displacement_x[m] and NAME_displacement_y[m], with `stress` also
+/// NAME_stress_xx[Pa], NAME_stress_yy[Pa] and NAME_stress_xy[Pa] of Cauchy's.
 struct PointObserver {
   std::string name;
   Vec point = Vec::Zero();  ///< in the unloaded body [m]
+  bool stress = false;      ///< whether the stress is reported too
 };
 void describe(ParameterTable& table, PointObserver& observer);
 
@@ -44,9 +47,9 @@ class MaterialPoint {
 
   /// Value at the point of a field given per particle number.
   template <class FieldOfParticle>
-  Vec value(const FieldOfParticle& field) const {
-    Vec sum = Vec::Zero();
-    for (std::size_t k = 0; k < particles_.size(); ++k) sum += weights_[k] * field(particles_[k]);
+  auto value(const FieldOfParticle& field) const {
+    std::decay_t<decltype(field(0u))> sum = weights_[0] * field(particles_[0]);
+    for (std::size_t k = 1; k < particles_.size(); ++k) sum += weights_[k] * field(particles_[k]);
     return sum;
   }
 

@@ -9,6 +9,7 @@
 #include "common/run/failure.hpp"
 #include "common/run/remember.hpp"
 #include "common/sph/strip_order.hpp"
+#include "solid_solver/guards.hpp"
 
 namespace toryu {
 
@@ -50,7 +51,7 @@ SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body,
   }
   external_ = constant_;
   for (const auto& observer : parameters_.observers)
-    observers_.emplace_back(observer.name, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h()));
+    observers_.emplace_back(observer, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h()));
   if (parameters_.wall_contact)
     walls_.emplace(scene.walls, *parameters_.wall_contact, parameters_.material, body_.spacing,
                    parameters_.h());
@@ -258,7 +259,7 @@ void SolidModel::look_for_detached() {
 }
 
 void SolidModel::watch_bonds() {
-  if (!bonds_) bonds_.emplace(body_, parameters_.bonds.value_or(BondLimits{}));
+  if (!bonds_) bonds_.emplace(body_, parameters_.bonds.value_or(BondLimits{}), stress_edges(parameters_));
 }
 
 void SolidModel::look_at_particles() {

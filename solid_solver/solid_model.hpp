@@ -128,7 +128,7 @@ class SolidModel : public Solver {
   std::vector<Vec> load_, u_at_load_;  ///< of the interface [N/m], [m]
   double past_work_ = 0;               ///< of earlier interface loads [J/m]
   double first_energy_ = 0;            ///< kinetic, of the start [J/m]
-  std::vector<std::pair<std::string, MaterialPoint>> observers_;
+  std::vector<std::pair<PointObserver, MaterialPoint>> observers_;
   std::vector<std::uint32_t> held_;  ///< numbers of the held particles
   Vec load_sum_;                     ///< of gravity and all loads [N/m]
   VecField push_;                    ///< acceleration by walls, if walls act on the solid [m/s2]

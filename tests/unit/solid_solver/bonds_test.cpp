@@ -1,14 +1,31 @@
 #include "solid_solver/bonds.hpp"
 
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <sstream>
 
 #include "common/run/failure.hpp"
 #include "samples.hpp"
 
 namespace toryu {
 namespace {
+
+Mat turned_by(double angle) {
+  return Eigen::Rotation2Dd(angle).toRotationMatrix();
+}
+Mat sheared_by(double gamma) {
+  Mat F;
+  F << 1, gamma, 0, 1;
+  return F;
+}
+std::vector<Vec> moved(std::vector<Vec> x, const Mat& F) {
+  for (Vec& place : x) place = F * place;
+  return x;
+}
 
 TEST(Bonds, AreSidesAndDiagonalsOfTheLatticeAndKnowHowFarTheyStretch) {
   const SolidParameters p = free_plate(4);  // 16 x 4 particles, 5 mm apart
@@ -30,16 +47,55 @@ TEST(Bonds, AreSidesAndDiagonalsOfTheLatticeAndKnowHowFarTheyStretch) {
   EXPECT_EQ(found.clumped, 4 * 15 + 16 * 3 + 2 * 15 * 3) << "all of them";
 }
 
+TEST(Bonds, KnowHowFarTheyTurn) {
+  const SolidBody body = body_of(free_plate(4));
+  const Bonds bonds(body, {});
+  for (const double angle : {0.3, -2.5}) {
+    const Stretches found = bonds.stretches(moved(body.X, turned_by(angle)));
+    EXPECT_NEAR(found.turn, std::abs(angle), 1e-7);
+    EXPECT_NEAR(found.strain(), 0, 1e-12);
+  }
+  // sheared: sides along y lean by atan 0.55, diagonals become 1.304 times as long
+  const Stretches found = bonds.stretches(moved(body.X, sheared_by(0.55)));
+  EXPECT_NEAR(found.turn, std::atan(0.55), 1e-7);
+  EXPECT_NEAR(found.strain(), std::sqrt((1.55 * 1.55 + 1) / 2) - 1, 1e-12);
+}
+
+TEST(BondWatch, SaysOnceThatTheStressIsBeyondAnEdge) {
+  const SolidBody body = body_of(free_plate(4));
+  std::ostringstream said;
+  const auto logger = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_st>(said)));
+  BondWatch watch(body, {}, {.turn = 0.7, .strain = 0.3});
+  watch.look(moved(body.X, turned_by(0.6)), 0.1);
+  watch.look(moved(body.X, sheared_by(0.5)), 0.2);
+  EXPECT_EQ(said.str(), "");
+  for (int n = 0; n < 2; ++n) watch.look(moved(body.X, turned_by(0.8)), 0.3);
+  for (int n = 0; n < 2; ++n) watch.look(moved(body.X, sheared_by(0.6)), 0.4);
+  spdlog::set_default_logger(logger);
+  const auto times_said = [&](const std::string& words) {
+    int times = 0;
+    for (auto at = said.str().find(words); at != std::string::npos; at = said.str().find(words, at + 1))
+      ++times;
+    return times;
+  };
+  EXPECT_EQ(times_said("cases/rigid_rotation/turn_map.toml"), 1) << said.str();
+  EXPECT_EQ(times_said("cases/patch_test/jaumann_map.toml"), 1) << said.str();
+}
+
 TEST(BondWatch, KeepsTheWorstAndStopsWhereAsked) {
   const SolidParameters p = free_plate(4);
   const SolidBody body = body_of(p);
   auto torn = body.X;
   torn[15] += Vec(0.1, 0);  // the corner: two sides and a diagonal
-  BondWatch watch(body, {});
+  BondWatch watch(body, {}, {});
   watch.look(torn, 0.5);
   watch.look(body.X, 1.0);
-  EXPECT_EQ(watch.worst(), std::make_pair(3L, 0L));
-  BondWatch strict(body, {.stop = true});
+  EXPECT_EQ(watch.worst().torn, 3);
+  EXPECT_EQ(watch.worst().clumped, 0);
+  EXPECT_NEAR(watch.worst().strain(), 20, 1e-9);
+  BondWatch strict(body, {.stop = true}, {});
   strict.look(body.X, 0.25);
   try {
     strict.look(torn, 0.5);
@@ -54,7 +110,7 @@ TEST(UpdatedLagrangian, WatchesItsBondsUnasked) {
   p.formulation = Formulation::updated_lagrangian;
   p.hourglass.reset();
   const auto model = model_of(p);
-  ASSERT_EQ(model->figures().size(), 2u);
+  ASSERT_EQ(model->figures().size(), 4u);
   EXPECT_EQ(model->figures()[0], std::make_pair(std::string("torn_bonds"), 0.0));
   const auto total = model_of(free_plate(4));
   EXPECT_TRUE(total->figures().empty()) << "neighbours for ever: its strain is checked";

@@ -43,6 +43,18 @@ TEST(Guards, NameTheMapBeyondWhoseEdgeACaseLies) {
   EXPECT_THAT(beyond_edges(p), ElementsAre(HasSubstr("midpoint steps amplify")));
 }
 
+TEST(Guards, KnowWhichFormBearsATurn) {
+  SolidParameters p = updated(0.3, 1.0);
+  EXPECT_DOUBLE_EQ(stress_edges(p).turn, 0.2);
+  // The diagonal of a square that is sheared until sin(gamma)/gamma is 0.95.
+  const double gamma = 0.5519;
+  EXPECT_NEAR(std::sin(gamma) / gamma, 0.95, 1e-5);
+  EXPECT_NEAR(stress_edges(p).strain, std::sqrt(((1 + gamma) * (1 + gamma) + 1) / 2) - 1, 0.006);
+  p.gradients = Gradients::renormalised;
+  EXPECT_GT(stress_edges(p).turn, 10);
+  EXPECT_GT(stress_edges(free_plate(4)).strain, 10) << "the total Lagrangian form";
+}
+
 TEST(Guards, ThinPlatesWantHourglassControlAndNotTooHighAPoissonsRatio) {
   SolidParameters p = free_plate(4);
   p.hourglass.reset();
