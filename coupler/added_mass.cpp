@@ -1,17 +1,36 @@
 #include "coupler/added_mass.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
+#include <fmt/format.h>
 
-#include "coupler/exchange_audit.hpp"
+#include <algorithm>
 
 namespace toryu {
 
-double layer_mass_ratio(const Interface& interface, const FluidTraits& fluid) {
-  const double mass = std::reduce(interface.mass.begin(), interface.mass.end());
-  const double area = sum_of_lengths(interface.area_vector), unit = fluid.density * fluid.spacing;
-  return area > 0 && unit > 0 ? mass / area / unit : std::numeric_limits<double>::infinity();
+namespace {
+
+/// A face is wet if the force on its particle points into it (out of it under suction) within 60 degrees: a
+/// fluid behind the solid, whose kernel sees through it, pulls at the dry face instead.
+constexpr double least_cosine = 0.5;
+
+Eigen::Map<const Vec> item(const std::vector<double>& vectors, std::size_t k) {
+  return Eigen::Map<const Vec>(&vectors[dim * k]);
+}
+
+}  // namespace
+
+std::optional<double> layer_mass_ratio(const Interface& interface, const InterfaceLoad& load,
+                                       const FluidTraits& fluid) {
+  double mass = 0, area = 0;
+  for (std::size_t k = 0; k < interface.size(); ++k) {
+    const Vec force = item(load.force, k), face = item(interface.area_vector, k);
+    if (force.isZero(0)) continue;
+    mass += interface.mass[k];
+    const double inward = load.pressure[k] < 0 ? force.dot(face) : -force.dot(face);
+    if (inward > least_cosine * force.norm() * face.norm()) area += face.norm();
+  }
+  const double row = fluid.density * fluid.spacing;
+  if (!(area > 0 && row > 0)) return std::nullopt;
+  return mass / area / row;
 }
 
 double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt) {
@@ -24,6 +43,14 @@ double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double 
     default:
       return 0.0;
   }
+}
+
+std::string too_light(double ratio, double least) {
+  return fmt::format(
+      "the solid's surface layer weighs {:.3g} of a row of fluid, the scheme bears {:.3g}: beyond the edge "
+      "of stability; take scheme = 'serial_implicit' or shorter windows, see "
+      "cases/pushed_column/added_mass_map.toml",
+      ratio, least);
 }
 
 }  // namespace toryu

@@ -10,16 +10,23 @@
 /// measured: see cases/pushed_column/added_mass_map.toml.
 #pragma once
 
+#include <optional>
+
 #include "common/link/participant.hpp"
 #include "coupler/parameters.hpp"
 
 namespace toryu {
 
-/// Mass per area of the layer of solid that the fluid can touch, over rho_f dx. All faces count, wet or not:
-/// for a plate that is wet on one side this is half of what that side has behind it.
-double layer_mass_ratio(const Interface& interface, const FluidTraits& fluid);
+/// The layer of solid that the fluid had in reach in a window: the mass of the particles that bear `load`
+/// over the area of the faces that it presses on (or sucks at), per row of fluid rho_f dx. Dry faces do not
+/// count. Nothing if no face is wet.
+std::optional<double> layer_mass_ratio(const Interface& interface, const InterfaceLoad& load,
+                                       const FluidTraits& fluid);
 
 /// The least such ratio that `scheme` bears with windows of `dt` [s]; 0 for the implicit scheme.
 double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt);
+
+/// How to say that a layer is too light: both ratios, and what helps.
+std::string too_light(double ratio, double least);
 
 }  // namespace toryu

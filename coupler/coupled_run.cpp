@@ -33,8 +33,8 @@ CoupledRun::CoupledRun(Settings settings, CouplerLink& link)
 void CoupledRun::run(const CouplerLink::Start& start) {
   scheme_ = make_scheme(settings_.coupling, link_, start);
   time_step_limit_ = start.traits.time_step_limit;
-  check_added_mass(start);
-  particles_ = start.interface.size();
+  interface_ = start.interface;
+  fluid_ = start.traits;
   series_.emplace(settings_.out, "coupler");
   if (settings_.frame_interval > 0) {
     record_.emplace(settings_.out, start.interface);
@@ -67,23 +67,19 @@ void CoupledRun::advance() {
   note_convergence(done);
   note_times(done, elapsed);
   audit(done);
+  check_added_mass(done.fluid.load);
   if (series_due_.at(time_)) write_series(done);
   if (record_ && frame_due_.at(time_)) record_->write(time_, done.solid.motion, done.felt);
 }
 
-void CoupledRun::check_added_mass(const CouplerLink::Start& start) const {
-  const auto& coupling = settings_.coupling;
-  const double ratio = layer_mass_ratio(start.interface, start.traits);
-  const double least = least_mass_ratio(coupling.scheme, start.traits,
-                                        coupling.fluid_steps_per_window * start.traits.time_step_limit);
-  spdlog::info("the solid's surface layer weighs {:.3g} of a row of fluid", ratio);
-  if (ratio >= least) return;
-  spdlog::warn(
-      "the solid's surface layer weighs {:.3g} of a row of fluid, the scheme bears {:.3g}: beyond the edge "
-      "of "
-      "stability; take scheme = 'serial_implicit' or shorter windows, see "
-      "cases/pushed_column/added_mass_map.toml",
-      ratio, least);
+void CoupledRun::check_added_mass(const InterfaceLoad& load) {
+  const auto ratio = layer_mass_ratio(interface_, load, fluid_);
+  if (!ratio) return;
+  lightest_layer_ = std::min(lightest_layer_, *ratio);
+  const double least = least_mass_ratio(settings_.coupling.scheme, fluid_, window_.dt);
+  if (*ratio >= least || warned_of_mass_) return;
+  spdlog::warn("window {}: {}", window_.number, too_light(*ratio, least));
+  warned_of_mass_ = true;
 }
 
 void CoupledRun::audit(const Exchange& done) {
@@ -157,7 +153,7 @@ void CoupledRun::report(Summary& summary) const {
   summary.largest_time_step = largest_window_;
   summary.time_step_rule = "fluid's limit";
   summary.parts = timers_.parts();
-  summary.particles = {{"interface", static_cast<long>(particles_)}};
+  summary.particles = {{"interface", static_cast<long>(interface_.size())}};
   if (round_trips_.empty()) return;
   auto sorted = round_trips_;
   std::sort(sorted.begin(), sorted.end());
@@ -170,6 +166,7 @@ void CoupledRun::report(Summary& summary) const {
                      {"round_trip_share", total / summary.wall_time},
                      {"fluid_compute_total", fluid_compute_},
                      {"solid_compute_total", solid_compute_}};
+  if (std::isfinite(lightest_layer_)) summary.figures.emplace_back("lightest_layer", lightest_layer_);
   if (!settings_.coupling.windows_repeat()) return;
   summary.figures.emplace_back("iterations", static_cast<double>(iterations_));
   summary.figures.emplace_back("unconverged_windows", static_cast<double>(unconverged_));

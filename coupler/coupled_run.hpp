@@ -2,6 +2,7 @@
 /// audited and recorded.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "common/link/coupler_link.hpp"
@@ -46,7 +47,7 @@ class CoupledRun {
 
  private:
   void advance();
-  void check_added_mass(const CouplerLink::Start& start) const;
+  void check_added_mass(const InterfaceLoad& load);
   void audit(const Exchange& done);
   void note_times(const Exchange& done, double elapsed);
   void note_convergence(const Exchange& done);
@@ -59,6 +60,10 @@ class CoupledRun {
   Window window_;
   ExchangeAudit audit_;
   bool warned_ = false;
+  Interface interface_;
+  FluidTraits fluid_;
+  double lightest_layer_ = std::numeric_limits<double>::infinity();  // of all windows, over a row of fluid
+  bool warned_of_mass_ = false;
   Timers timers_;
   std::vector<double> round_trips_;                  // one a window [s]
   double fluid_compute_ = 0, solid_compute_ = 0;     // [s], sums over the run
@@ -69,7 +74,6 @@ class CoupledRun {
   std::optional<InterfaceRecord> record_;
   std::optional<SeriesWriter> series_;
   Due frame_due_, series_due_;
-  std::size_t particles_ = 0;
 
   /// Over the windows since the last row of the series.
   struct Row {

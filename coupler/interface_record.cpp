@@ -14,7 +14,6 @@ InterfaceRecord::InterfaceRecord(const std::filesystem::path& out, const Interfa
   file_->series("time", "s", {});
   file_->series("position", "m", {count, dim});
   file_->series("velocity", "m/s", {count, dim});
-  file_->series("acceleration", "m/s2", {count, dim});
   file_->series("pressure", "Pa", {count});
   file_->series("force", "N/m", {count, dim});
   file_->series("friction_force", "N/m", {count, dim});
@@ -27,8 +26,8 @@ void InterfaceRecord::write(double time, const InterfaceMotion& motion, const In
   const auto row = [&](const std::vector<double>& values) {
     return values.empty() ? none.data() : values.data();
   };
-  file_->append({&time, motion.position.data(), motion.velocity.data(), motion.acceleration.data(),
-                 row(load.pressure), row(load.force), row(load.friction_force)});
+  file_->append({&time, motion.position.data(), motion.velocity.data(), row(load.pressure), row(load.force),
+                 row(load.friction_force)});
 }
 
 }  // namespace toryu

@@ -1,5 +1,5 @@
-/// `interface.h5`: what crossed the interface over time, for replay and for study. Positions, velocities and
-/// accelerations [m, m/s, m/s2] are at `time` [s]; pressure [Pa] and forces [N/m] are those of the window
+/// `interface.h5`: what crossed the interface over time, for replay and for study. Positions and velocities
+/// [m, m/s] are at `time` [s]; pressure [Pa] and forces [N/m] are those of the window
 /// that ended then (zero in the first row). The file is written as `interface.h5.part` and renamed at the
 /// end, if all of it could be written.
 #pragma once

@@ -13,16 +13,13 @@
 #include "common/run/program.hpp"
 #include "common/scene/scene.hpp"
 #include "coupler/coupled_run.hpp"
+#include "coupler/guards.hpp"
 #include "coupler/run_lock.hpp"
 #include "coupler/used_case.hpp"
 
 namespace {
 
 using namespace toryu;
-
-/// Fluid steps per window up to which the elastic gate's motion agrees with that at 1: at 2 within 1 %, at 4
-/// the tip is a third too far at 0.03 s.
-constexpr int largest_calm_window = 2;
 
 double processor_time() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -83,14 +80,10 @@ ExitCode couple(const Options& options) {
     return ExitCode::done;
   }
   file.throw_if_faulty();
+  for (const auto& beyond : beyond_edges(file, coupling)) spdlog::warn("{}", beyond);
   if (options.check) return ExitCode::done;
 
   const RunLock lock(options.out);
-  if (coupling.fluid_steps_per_window > largest_calm_window)
-    spdlog::warn(
-        "fluid_steps_per_window = {}: above {} the force on the interface may ring and the motion be wrong "
-        "without a failure; compare with 1",
-        coupling.fluid_steps_per_window, largest_calm_window);
   copy_references(scene, file, options.out);
   run_windows(options, file,
               {.end_time = scene.end_time,

@@ -118,6 +118,9 @@ std::vector<std::uint32_t> SolidBody::inside(const Box& box) const {
 }
 
 std::vector<std::uint32_t> SolidBody::near_surface(double reach) const {
+  // A hair more: where a row lies at the reach itself, rounding must not choose among its particles. A layer
+  // that is pushed against water would turn aside.
+  reach *= 1 + 1e-9;
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < size(); ++i)
     if (std::any_of(outside.begin(), outside.end(),

@@ -142,10 +142,9 @@ Vec SolidModel::acceleration(std::size_t particle) const {
 InterfaceMotion SolidModel::motion(const std::vector<std::uint32_t>& particles) const {
   InterfaceMotion result;
   for (const auto i : particles) {
-    const Vec x = body_.X[i] + displacement(i), v = velocity(i), a = acceleration(i);
+    const Vec x = body_.X[i] + displacement(i), v = velocity(i);
     result.position.insert(result.position.end(), x.begin(), x.end());
     result.velocity.insert(result.velocity.end(), v.begin(), v.end());
-    result.acceleration.insert(result.acceleration.end(), a.begin(), a.end());
   }
   return result;
 }

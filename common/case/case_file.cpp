@@ -119,6 +119,10 @@ void CaseFile::leave_to_others(const std::vector<std::string>& sections) {
   content_->left_sections.insert(content_->left_sections.end(), sections.begin(), sections.end());
 }
 
+std::optional<double> CaseFile::number(const std::string& path) const {
+  return content_->root.at_path(path).value<double>();
+}
+
 void CaseFile::fault(const std::string& key, const std::string& message) {
   content_->faults.push_back(fault_at(place_of(content_->root, key, content_->start), message));
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ class CaseFile {
 
   /// Top-level sections that belong to another participant and are not looked into.
   void leave_to_others(const std::vector<std::string>& sections);
+  /// A number in a section that belongs to another participant ("fluid.spacing",
+  /// "solid.region[0].box.min[1]"), if it is there: for estimates, never for what is computed.
+  std::optional<double> number(const std::string& path) const;
   /// Adds a fault that the owner of a section found by itself, at the place of `key`: a path with items by
   /// number or name ("fluid.region.0.box").
   void fault(const std::string& key, const std::string& message);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/link/process.hpp"
 #include "common/run/ending.hpp"
 #include "common/run/program.hpp"
 
@@ -22,6 +23,7 @@ using Seconds = std::chrono::duration<double>;
 Connection::Connection(const LinkSettings& settings, toryu_Role role)
     : settings_(settings),
       role_(role),
+      process_(own_process()),
       node_(dds::meeting_place(settings.out)),
       hello_(node_, wire::hello),
       status_(node_, wire::status),
@@ -41,6 +43,7 @@ void Connection::write_hello() {
   message.role = role_;
   message.program = settings_.role.data();
   message.version = settings_.version.data();
+  message.process = process_.data();
   message.protocol = wire::protocol;
   message.case_hash = settings_.case_hash;
   message.units = units.data();
@@ -85,6 +88,7 @@ void Connection::heed(const toryu_Session& session) {
   }
   if (!coupler_came_ || session.beat != coupler_beat_) coupler_moved_ = Clock::now();
   coupler_came_ = true;
+  coupler_process_ = session.process;
   coupler_beat_ = session.beat;
   if (session.phase == toryu_OVER) {
     over_ = true;
@@ -126,7 +130,7 @@ void Connection::check_coupler() {
     lapsed_ = {};
   else if (!lapsed_)
     lapsed_ = now;
-  if (lapsed_ && now - *lapsed_ > dds::grace)
+  if (lapsed_ && now - *lapsed_ > dds::grace && !runs_here(coupler_process_))
     throw PeerLost(
         fmt::format("coupler was killed or stopped: no sign of life in window {}", window_.number));
   if (now - coupler_moved_ > Seconds(time_limit_))

@@ -49,6 +49,7 @@ class Connection {
   LinkSettings settings_;
   toryu_Role role_;
   const std::uint64_t id_ = dds::random_id();
+  std::string process_;
   dds::Node node_;
   dds::Writer<toryu_Hello> hello_;
   dds::Writer<toryu_Status> status_;
@@ -67,6 +68,7 @@ class Connection {
 
   bool coupler_came_ = false;
   std::uint64_t coupler_beat_ = 0;
+  std::string coupler_process_;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point checked_ = start_, coupler_moved_ = start_;
   std::optional<Clock::time_point> lapsed_;  // since when the coupler's lease is over

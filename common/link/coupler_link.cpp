@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "common/link/dds.hpp"
+#include "common/link/process.hpp"
 #include "common/link/wire.hpp"
 #include "common/run/ending.hpp"
 #include "common/run/program.hpp"
@@ -28,6 +29,7 @@ struct Guest {
   const char* part;  ///< "fluid"
   std::uint64_t id = 0;
   CouplerLink::Partner partner = {};
+  std::string process = {};
   FluidTraits traits = {};  ///< of the fluid
   std::uint64_t window = 0, steps = 0;
   Clock::time_point moved = Clock::now();
@@ -35,7 +37,7 @@ struct Guest {
   bool left = false;
 
   bool joined() const { return id != 0; }
-  bool dead() const { return lapsed && Clock::now() - *lapsed > dds::grace; }
+  bool dead() const { return lapsed && Clock::now() - *lapsed > dds::grace && !runs_here(process); }
   /// Its program's name, or its part while nobody plays it.
   std::string name() const { return joined() ? partner.program : fmt::format("{} participant", part); }
 };
@@ -48,6 +50,7 @@ struct CouplerLink::Connection {
 
   LinkSettings settings;
   const std::uint64_t session = dds::random_id();
+  std::string process = own_process();
   dds::Node node;
   dds::Writer<toryu_Session> sessions{node, wire::session};
   dds::Reader<toryu_Hello> hellos{node, wire::hello};
@@ -84,6 +87,7 @@ void CouplerLink::Connection::announce() {
   message.session_id = session;
   message.phase = phase;
   message.beat = ++beat;
+  message.process = process.data();
   message.fluid = fluid.id;
   message.solid = solid.id;
   message.reach = fluid.traits.reach;
@@ -126,6 +130,7 @@ void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
     return;
   }
   guest.partner = {hello.program, hello.version, hello.used_case};
+  guest.process = hello.process;
   guest.traits = {hello.reach, hello.time_step_limit, hello.density, hello.sound_speed, hello.spacing};
   guest.id = hello.sender;
   guest.moved = Clock::now();

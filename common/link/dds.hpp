@@ -18,7 +18,8 @@ namespace toryu::dds {
 
 /// Signs of life of a process end this long after its death [ms].
 inline constexpr int lease_ms = 500;
-/// How long a lease may lapse before its owner counts as dead: a busy machine is late at times [ms].
+/// How long a lease may lapse before its owner is looked up, and counts as dead if its process does not run:
+/// a busy machine is late at times [ms].
 inline constexpr std::chrono::milliseconds grace{2500};
 
 /// Processes meet if they agree on both: the domain sets the ports, the tag keeps runs apart that share them.

@@ -44,7 +44,7 @@ struct Interface {
 
 /// Kinematics of the interface at one time, dim values a particle.
 struct InterfaceMotion {
-  std::vector<double> position, velocity, acceleration;  ///< [m], [m/s], [m/s2]
+  std::vector<double> position, velocity;  ///< [m], [m/s]
 };
 
 /// What the fluid does to the interface, averaged over a window.

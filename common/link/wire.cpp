@@ -72,7 +72,6 @@ toryu_Interface interface_message(std::uint64_t session_id, const Interface& int
   message.mass = sequence(interface.mass);
   message.position = sequence(start.position);
   message.velocity = sequence(start.velocity);
-  message.acceleration = sequence(start.acceleration);
   return message;
 }
 
@@ -88,7 +87,7 @@ Interface interface_of(const toryu_Interface& message) {
 }
 
 InterfaceMotion start_of(const toryu_Interface& message) {
-  return {values(message.position), values(message.velocity), values(message.acceleration)};
+  return {values(message.position), values(message.velocity)};
 }
 
 toryu_Motion motion(const toryu_WindowHead& window, const InterfaceMotion& motion) {
@@ -96,12 +95,11 @@ toryu_Motion motion(const toryu_WindowHead& window, const InterfaceMotion& motio
   message.window = window;
   message.position = sequence(motion.position);
   message.velocity = sequence(motion.velocity);
-  message.acceleration = sequence(motion.acceleration);
   return message;
 }
 
 InterfaceMotion motion(const toryu_Motion& message) {
-  return {values(message.position), values(message.velocity), values(message.acceleration)};
+  return {values(message.position), values(message.velocity)};
 }
 
 toryu_Load load(const toryu_WindowHead& window, const InterfaceLoad& load) {
@@ -132,7 +130,6 @@ void check(const Interface& interface, const std::string& sender) {
 void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender) {
   check_values(motion.position, particles, dim, "position", sender);
   check_values(motion.velocity, particles, dim, "velocity", sender);
-  check_values(motion.acceleration, particles, dim, "acceleration", sender);
 }
 
 void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender) {

@@ -33,7 +33,7 @@ LinkSettings settings_for(const std::string& role, std::size_t particles) {
 
 InterfaceMotion rest(std::size_t particles) {
   const std::vector<double> zero(dim * particles, 0.0);
-  return {zero, zero, zero};
+  return {zero, zero};
 }
 
 void play_fluid(const LinkSettings& settings) {
@@ -83,7 +83,7 @@ pid_t in_a_process(Play play) {
 
 /// The coupler runs in a process of its own too, since DDS must not be forked along.
 void measure(std::size_t particles, int exchanges) {
-  const std::size_t motion_bytes = 3 * dim * sizeof(double) * particles;
+  const std::size_t motion_bytes = 2 * dim * sizeof(double) * particles;
   const std::size_t load_bytes = (1 + dim) * sizeof(double) * particles;
   const pid_t processes[] = {
       in_a_process([=] { play_fluid(settings_for("fluid", particles)); }),

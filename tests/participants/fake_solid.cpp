@@ -40,12 +40,10 @@ Interface strip() {
 
 InterfaceMotion motion_at(double time, const Interface& interface) {
   const double omega = 2 * std::numbers::pi / period;
-  InterfaceMotion motion{interface.position, {}, {}};
+  InterfaceMotion motion{interface.position, {}};
   for (std::size_t j = 0; j < interface.size(); ++j) {
     motion.position[dim * j] += amplitude * (1 - std::cos(omega * time));
     motion.velocity.insert(motion.velocity.end(), {amplitude * omega * std::sin(omega * time), 0.0});
-    motion.acceleration.insert(motion.acceleration.end(),
-                               {amplitude * omega * omega * std::cos(omega * time), 0.0});
   }
   return motion;
 }

@@ -10,6 +10,7 @@
 #include "common/output/hdf5_file.hpp"
 #include "coupler/coupled_run.hpp"
 #include "coupler/exchange_audit.hpp"
+#include "coupler/guards.hpp"
 #include "coupler/interface_record.hpp"
 #include "coupler/run_lock.hpp"
 #include "coupler/used_case.hpp"
@@ -114,6 +115,47 @@ TEST(CouplingParameters, AnUnknownLoadIsAFault) {
                   "case.toml:2:1: error: 'loads' must name 'pressure_and_viscous', 'friction' or both")));
 }
 
+/// What is said of a layer of 20 mm and `density` [kg/m3] in water of 10 mm, and of `coupling`.
+std::vector<std::string> said_of(double density, const CouplingParameters& coupling) {
+  const Folder folder;
+  std::ofstream(folder.path / "case.toml") << fmt::format(
+      "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\n[solid]\ndensity = {}\n"
+      "[[solid.region]]\nbox = {{ min = [0, 0], max = [1, 0.5] }}\n"
+      "[[solid.region]]\nbox = {{ min = [0, 0.5], max = [1, 0.52] }}\n",
+      density);
+  return beyond_edges(CaseFile(folder.path, {}), coupling);
+}
+
+TEST(Guards, ForeseeALayerThatIsTooLight) {
+  CouplingParameters coupling;
+  EXPECT_TRUE(said_of(200, coupling).empty());  // 0.4 of a row of fluid
+  EXPECT_THAT(
+      said_of(180, coupling),
+      testing::ElementsAre(testing::HasSubstr("weighs 0.36 of a row of fluid, the scheme bears 0.37")));
+  coupling.scheme = CouplingScheme::parallel_explicit;
+  EXPECT_THAT(said_of(200, coupling), testing::SizeIs(1));
+  coupling.scheme = CouplingScheme::serial_implicit;
+  EXPECT_TRUE(said_of(180, coupling).empty());
+}
+
+TEST(Guards, SeeNoDeeperThanTheKernel) {
+  const Folder folder;
+  std::ofstream(folder.path / "case.toml")
+      << "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\nsmoothing_ratio = 1.25\n"
+         "[solid]\ndensity = 140\n[[solid.region]]\nbox = { min = [0, 0], max = [1, 1] }\n";
+  EXPECT_THAT(beyond_edges(CaseFile(folder.path, {}), {}),
+              testing::ElementsAre(testing::HasSubstr("weighs 0.35 of a row")));  // 140 x 2.5 rows
+}
+
+TEST(Guards, SayNothingOfWhatTheyDoNotKnow) {
+  CouplingParameters coupling;
+  coupling.fluid_steps_per_window = 4;
+  const Folder folder;
+  std::ofstream(folder.path / "case.toml") << "[fluid]\nviscosity = 1\n[solid]\nmass = 1\n";
+  EXPECT_THAT(beyond_edges(CaseFile(folder.path, {}), coupling),
+              testing::ElementsAre(testing::HasSubstr("cases/pushed_column/window_map.toml")));
+}
+
 TEST(UsedCase, TakesEachSectionOnce) {
   EXPECT_EQ(merge_used_cases({"[case]\nend_time = 1\n\n[[wall]]\nname = \"floor\"\n\n[coupling]\nn = 1\n",
                               "[case]\nend_time = 1\n\n[fluid]\nc = 2\n\n[[fluid.region]]\nx = [[1], [2]]\n",
@@ -140,8 +182,8 @@ TEST(InterfaceRecord, GrowsByRowsAndGetsItsNameAtTheEnd) {
   const Interface interface { {7, 8}, {0, 0, 1, 0}, {1, 1}, {0, 1, 0, 1}, {1, 1}, 1.0 };
   {
     InterfaceRecord record(folder, interface);
-    record.write(0.0, {{0, 0, 1, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}, {});
-    record.write(0.5, {{0, 1, 1, 2}, {3, 4, 5, 6}, {0, 0, 0, 0}}, {{10, 20}, {1, 2, 3, 4}, {}, Vec::Zero()});
+    record.write(0.0, {{0, 0, 1, 0}, {0, 0, 0, 0}}, {});
+    record.write(0.5, {{0, 1, 1, 2}, {3, 4, 5, 6}}, {{10, 20}, {1, 2, 3, 4}, {}, Vec::Zero()});
     EXPECT_FALSE(fs::exists(path));
   }
   const HdfHandle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "file");

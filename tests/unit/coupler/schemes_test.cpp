@@ -13,7 +13,7 @@ namespace {
 
 /// One particle that moves along x: position, velocity.
 InterfaceMotion one(double x, double v) {
-  return {{x, 0}, {v, 0}, {0, 0}};
+  return {{x, 0}, {v, 0}};
 }
 
 TEST(Forecast, FollowsOneWindowLateAtOrderZero) {
@@ -115,12 +115,38 @@ TEST(QuasiNewton, FiltersColumnsThatSayTheSame) {
   EXPECT_TRUE(next.allFinite());
 }
 
+/// Two rows of a plate with water above: 3 kg/m each, the upper one behind 0.02 m of surface. The water is in
+/// reach of both and pushes both down.
+struct PlateUnderWater {
+  FluidTraits water{.density = 1000, .sound_speed = 20, .spacing = 0.01};
+  Interface plate;
+  InterfaceLoad load{{5, 2}, {0, -4, 0, -1}, {}, Vec::Zero()};
+  PlateUnderWater() {
+    plate.id = {0, 1};
+    plate.mass = {3, 3};
+    plate.area_vector = {0, 0.02, 0, -0.02};
+  }
+};
+
 TEST(AddedMass, IsWeighedAgainstARowOfFluid) {
-  Interface layer;  // two particles of 3 kg/m behind 0.02 m of surface: 300 kg/m2
-  layer.mass = {3, 3};
-  layer.area_vector = {0, 0.02, 0, 0};
+  PlateUnderWater scene;
+  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 30);  // 300 kg/m2; dry below
+  scene.load.force[3] = 1;                                                        // water below too
+  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 15);
+  scene.load = {{-5, -2}, {0, 4, 0, 1}, {}, Vec::Zero()};  // water above that sucks
+  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 30);
+}
+
+TEST(AddedMass, WhatIsOutOfReachDoesNotCount) {
+  PlateUnderWater scene;
+  scene.load = {{5, 0}, {0, -4, 0, 0}, {}, Vec::Zero()};
+  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 15);
+  scene.load.force[1] = 0;
+  EXPECT_FALSE(layer_mass_ratio(scene.plate, scene.load, scene.water));
+}
+
+TEST(AddedMass, HasALimitByScheme) {
   const FluidTraits water{.density = 1000, .sound_speed = 20, .spacing = 0.01};
-  EXPECT_DOUBLE_EQ(layer_mass_ratio(layer, water), 30);
   EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::serial_explicit, water, 1e-4), 0.37);
   EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::serial_explicit, water, 1e-3), 1);  // C = 2
   EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::parallel_explicit, water, 1e-4), 0.9);

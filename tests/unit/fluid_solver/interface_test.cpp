@@ -26,7 +26,7 @@ Interface plate() {
 
 /// The plate moved by v t at time t.
 InterfaceMotion moved(const Interface& plate, const Vec& v, double t) {
-  InterfaceMotion motion{plate.position, {}, std::vector<double>(dim * plate.size(), 0.0)};
+  InterfaceMotion motion{plate.position, {}};
   for (std::size_t k = 0; k < plate.size(); ++k) {
     motion.position[dim * k] += v[0] * t;
     motion.position[dim * k + 1] += v[1] * t;

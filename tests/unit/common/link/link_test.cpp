@@ -8,10 +8,12 @@
 #include <filesystem>
 #include <functional>
 #include <future>
+#include <optional>
 #include <string>
 
 #include "common/link/coupler_link.hpp"
 #include "common/link/dds.hpp"
+#include "common/link/process.hpp"
 #include "common/link/wire.hpp"
 
 namespace toryu {
@@ -26,7 +28,7 @@ constexpr double time_limit = 20;  // [s], generous: no test waits for it but th
 
 InterfaceMotion still() {
   const std::vector<double> zero(dim * particles, 0.0);
-  return {zero, zero, zero};
+  return {zero, zero};
 }
 
 Interface three_particles() {
@@ -38,6 +40,8 @@ Interface three_particles() {
 /// Speaks the fluid's messages without the link's checks.
 class RawFluid {
  public:
+  std::string process = own_process();
+
   explicit RawFluid(const std::filesystem::path& out) : node_(dds::meeting_place(out)) {}
 
   void say_hello(std::uint32_t protocol = wire::protocol, std::string units = wire::units,
@@ -48,6 +52,7 @@ class RawFluid {
     hello.role = toryu_FLUID;
     hello.program = program.data();
     hello.version = nothing.data();
+    hello.process = process.data();
     hello.protocol = protocol;
     hello.case_hash = 42;
     hello.units = units.data();
@@ -97,7 +102,7 @@ class LinkTest : public testing::Test {
   ~LinkTest() override { end(ExitCode::interrupted, "end of the test"); }
 
   void end(ExitCode code, const std::string& reason) {
-    fluid_.leave();
+    if (fluid_) fluid_->leave();
     coupler_.stop(code, reason);
   }
 
@@ -124,7 +129,7 @@ class LinkTest : public testing::Test {
 
   LinkSettings settings_ = settings_for("coupler");
   CouplerLink coupler_{settings_};
-  RawFluid fluid_{settings_.out};
+  std::optional<RawFluid> fluid_{std::in_place, settings_.out};
 };
 
 TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
@@ -143,7 +148,7 @@ TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
 
 TEST_F(LinkTest, HandshakeCarriesTheInterface) {
   auto solid = start_solid();
-  fluid_.say_hello();
+  fluid_->say_hello();
   const auto start = coupler_.gather();
   EXPECT_EQ(start.fluid.program, "raw_fluid");
   EXPECT_EQ(start.solid.program, "solid");
@@ -157,12 +162,12 @@ TEST_F(LinkTest, HandshakeCarriesTheInterface) {
 
 TEST_F(LinkTest, AnswerToAStaleWindowIsRefused) {
   auto solid = start_solid();
-  fluid_.say_hello();
+  fluid_->say_hello();
   const auto start = coupler_.gather();
   const auto fluid = std::async(std::launch::async, [this] {
-    auto head = fluid_.await_window();
+    auto head = fluid_->await_window();
     --head.number;
-    fluid_.answer(head);
+    fluid_->answer(head);
   });
   EXPECT_THAT([&] { coupler_.ask_fluid({.number = 1, .iteration = 0, .time = 0, .dt = 1}, start.motion); },
               ThrowsMessage<PeerLost>(HasSubstr("raw_fluid sent window 0 iteration 0 where window 1")));
@@ -172,17 +177,17 @@ TEST_F(LinkTest, AnswerToAStaleWindowIsRefused) {
 
 TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
   auto solid = start_solid();
-  fluid_.say_hello();
+  fluid_->say_hello();
   const auto start = coupler_.gather();
   std::atomic<bool> answered_rightly = false;
   const auto fluid = std::async(std::launch::async, [&] {
-    const auto head = fluid_.await_window();
+    const auto head = fluid_->await_window();
     auto of_another_run = head;
     of_another_run.session_id += 1;
-    fluid_.answer(of_another_run);
+    fluid_->answer(of_another_run);
     std::this_thread::sleep_for(300ms);  // so that the coupler has met the wrong one
     answered_rightly = true;
-    fluid_.answer(head);
+    fluid_->answer(head);
   });
   coupler_.ask_fluid({.number = 1, .iteration = 0, .time = 0, .dt = 1}, start.motion);
   EXPECT_TRUE(answered_rightly);
@@ -191,9 +196,9 @@ TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
 }
 
 TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
-  fluid_.say_hello(wire::protocol + 1, "CGS", 3);
+  fluid_->say_hello(wire::protocol + 1, "CGS", 3);
   EXPECT_THAT([&] { coupler_.gather(); },
-              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 3, the coupler's is 2\n"
+              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 4, the coupler's is 3\n"
                                       "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
                                       "raw_fluid: error: dimension is 3, the coupler's is 2"));
 }
@@ -205,6 +210,31 @@ TEST_F(LinkTest, ASilentFluidIsNamed) {
   CouplerLink coupler(impatient);
   EXPECT_THAT([&] { coupler.gather(); },
               ThrowsMessage<PeerLost>("fluid participant did not join within 0.3 s"));
+}
+
+/// How a run ends whose fluid, a process of the given name, shows no sign of life any more.
+void lose_the_fluid(const LinkSettings& settings, const std::string& process) {
+  CouplerLink coupler(settings);
+  std::optional<RawFluid> fluid(std::in_place, settings.out);
+  fluid->process = process;
+  fluid->say_hello();
+  const auto lose_it = std::async(std::launch::async, [&] {
+    std::this_thread::sleep_for(300ms);
+    fluid.reset();
+  });
+  coupler.gather();  // in vain, since there is no solid
+}
+
+TEST(Lease, OfAProcessThatRunsMayLapse) {
+  LinkSettings settings;
+  settings.role = "coupler";
+  settings.out = std::filesystem::temp_directory_path() / fmt::format("toryu_lease_{}", getpid());
+  settings.case_hash = 42;
+  settings.time_limit = 4;
+  EXPECT_THAT([&] { lose_the_fluid(settings, "another_machine 1 1"); },
+              ThrowsMessage<PeerLost>(HasSubstr("raw_fluid was killed or stopped")));
+  EXPECT_THAT([&] { lose_the_fluid(settings, own_process()); },
+              ThrowsMessage<PeerLost>("solid participant did not join within 4 s"));
 }
 
 TEST_F(LinkTest, AMissingCouplerIsNamed) {
