@@ -81,6 +81,7 @@ TEST(SolidBody, InterfaceIsWhatAFluidCanReachFromOutside) {
   const SolidBody body = body_of(free_plate(10));  // spacing 2 mm, 40 x 10
   EXPECT_EQ(body.near_surface(0.0021).size(), 400u - 38u * 8u) << "one layer";
   EXPECT_EQ(body.near_surface(0.0041).size(), 400u - 36u * 6u) << "two layers";
+  EXPECT_EQ(body.near_surface(0.004).size(), 400u - 36u * 6u) << "just so: all of a layer or none";
 }
 
 TEST(SolidBody, TellsWhatIsWrongWithTheGeometry) {
