@@ -46,7 +46,12 @@ void take_turns(FluidLink& link, FluidSolver& solver, RunRecord& record) {
   });
 }
 
-void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
+void warn_of_thin_wall(const fluid::Boundary& wall, double spacing, const fluid::Parameters& parameters) {
+  if (const auto thin = fluid::beyond_thinnest(wall, spacing, parameters)) spdlog::warn("{}", *thin);
+}
+
+void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene,
+                     const fluid::Parameters& parameters, FluidSolver& solver) {
   FluidLink link({.role = "fluid_solver",
                   .version = provenance(1).version,
                   .out = options.out,
@@ -58,6 +63,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     spdlog::info("the solid's interface has {} particles of spacing {:g} m", interface.size(),
                  interface.spacing);
     solver.attach(interface);
+    warn_of_thin_wall(solver.boundaries().back(), interface.spacing, parameters);
   } catch (...) {
     link.leave();
     throw;
@@ -98,9 +104,10 @@ ExitCode solve(const Options& options) {
   const auto& start = solver.particles();
   for (const auto& beyond : fluid::beyond_edges(parameters, fluid::largest_norm(start.v, start.count)))
     spdlog::warn("{}", beyond);
+  for (const auto& wall : solver.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
   if (options.check) return ExitCode::done;
   if (file.has("solid"))
-    compute_coupled(options, file, scene, solver);
+    compute_coupled(options, file, scene, parameters, solver);
   else
     compute_alone(options, file, scene, solver);
   return ExitCode::done;

@@ -46,6 +46,22 @@ class ElasticObstacle(unittest.TestCase):
         self.assertLess(abs(rows[-1]["upper_left_corner_displacement_x[m]"] - 29.0e-3), 2e-3)
 
 
+class ThinWall(unittest.TestCase):
+    def force_error(self, spacing):
+        rows, _, said = run("thin_wall", **{"fluid.spacing": spacing})
+        half = [row for row in rows if row["time[s]"] >= 0.15]
+        impulse = half[-1]["impulse_from_load_x[N.s/m]"] - half[0]["impulse_from_load_x[N.s/m]"]
+        return impulse / (half[-1]["time[s]"] - half[0]["time[s]"]) / 23.544 - 1, said
+
+    def test_two_rows_of_water_part_it_and_one_row_does_not_and_is_warned_of(self):
+        error, said = self.force_error(0.005)
+        self.assertLess(abs(error), 0.04)
+        self.assertNotIn("thin_wall_map", said)
+        error, said = self.force_error(0.01)
+        self.assertLess(error, -0.2)
+        self.assertIn("'interface' is 0.01 m thick in places", said)
+
+
 class PushedColumn(unittest.TestCase):
     IMPLICIT = {"coupling.scheme": "serial_implicit"}
 

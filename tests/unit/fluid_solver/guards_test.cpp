@@ -39,5 +39,26 @@ TEST(FluidGuards, WantTenTimesTheSpeed) {
               ElementsAre(HasSubstr("sound_speed 20 m/s is below")));
 }
 
+TEST(FluidGuards, KnowWhatIsTooThinToPartWater) {
+  Parameters p = water(1, Integrator::midpoint);
+  p.spacing = 0.01;
+  p.smoothing_ratio = 1.5;
+  EXPECT_DOUBLE_EQ(thinnest_wall(p), 0.02);
+  const auto wall = [&](int columns, int rows, double spacing) {
+    std::vector<Vec> places;
+    for (int c = 0; c < columns; ++c)
+      for (int r = 0; r < rows; ++r) places.push_back(spacing * Vec(c + 0.5, r + 0.5));
+    Boundary boundary;
+    boundary.name = "leaf";
+    boundary.place(places, std::vector<double>(places.size(), spacing * spacing), 1000, 0.03);
+    return beyond_thinnest(boundary, spacing, p);
+  };
+  EXPECT_FALSE(wall(2, 20, 0.01));
+  EXPECT_FALSE(wall(20, 4, 0.005));
+  EXPECT_THAT(*wall(1, 20, 0.01), HasSubstr("'leaf' is 0.01 m thick in places, and below 2h - d0 = 0.02 m"));
+  EXPECT_THAT(*wall(20, 3, 0.005), HasSubstr("is 0.015 m thick"));
+  EXPECT_FALSE(wall(1, 15, 0.01)) << "as few as the poles of a round body";
+}
+
 }  // namespace
 }  // namespace toryu::fluid
