@@ -30,7 +30,7 @@ matplotlib.rcParams.update({
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": PALETTE["line"],
     "grid.linewidth": 0.8, "axes.axisbelow": True, "xtick.color": PALETTE["soft"], "ytick.color": PALETTE["soft"],
     "xtick.labelcolor": PALETTE["ink"], "ytick.labelcolor": PALETTE["ink"], "text.color": PALETTE["ink"],
-    "lines.linewidth": 1.8, "lines.markersize": 5, "legend.frameon": False, "legend.fontsize": 9,
+    "lines.linewidth": 1.8, "lines.markersize": 5, "legend.frameon": False, "legend.fontsize": 9, "legend.handlelength": 3.5,
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "axes.formatter.limits": (-3, 5),
 })
 
