@@ -12,6 +12,9 @@ namespace {
 /// fluid behind the solid, whose kernel sees through it, pulls at the dry face instead.
 constexpr double least_cosine = 0.5;
 
+/// Reach of the kernel, over the spacing, with which the lower bounds were measured.
+constexpr double measured_reach = 2.5;
+
 Eigen::Map<const Vec> item(const std::vector<double>& vectors, std::size_t k) {
   return Eigen::Map<const Vec>(&vectors[dim * k]);
 }
@@ -35,11 +38,13 @@ std::optional<double> layer_mass_ratio(const Interface& interface, const Interfa
 
 double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt) {
   const double courant = fluid.spacing > 0 ? fluid.sound_speed * dt / fluid.spacing : 0.0;
+  const double width =
+      fluid.spacing > 0 ? std::max(1.0, fluid.reach / (measured_reach * fluid.spacing)) : 1.0;
   switch (scheme) {
     case CouplingScheme::serial_explicit:
-      return std::max(0.37, 0.25 * courant * courant);
+      return std::max(0.37 * width, 0.25 * courant * courant);
     case CouplingScheme::parallel_explicit:
-      return std::max(0.9, 0.25 * courant * courant);
+      return std::max(0.9 * width, 0.25 * courant * courant);
     default:
       return 0.0;
   }

@@ -46,12 +46,13 @@ std::vector<std::string> beyond_edges(const CaseFile& file, const CouplingParame
         "without a failure; compare with 1, see cases/pushed_column/window_map.toml",
         coupling.fluid_steps_per_window, largest_calm_window));
   const auto number = [&](const char* key) { return file.number(key).value_or(0.0); };
-  const FluidTraits fluid{.density = number("fluid.density"),
-                          .sound_speed = number("fluid.sound_speed"),
-                          .spacing = number("fluid.spacing")};
+  FluidTraits fluid{.density = number("fluid.density"),
+                    .sound_speed = number("fluid.sound_speed"),
+                    .spacing = number("fluid.spacing")};
   if (!(fluid.density > 0 && fluid.sound_speed > 0 && fluid.spacing > 0)) return said;
   const double h = file.number("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
-  const double depth = std::min(thickness(file), 2 * h);  // no deeper than the kernel sees
+  fluid.reach = 2 * h;
+  const double depth = std::min(thickness(file), fluid.reach);  // no deeper than the kernel sees
   const double ratio = number("solid.density") * depth / (fluid.density * fluid.spacing);
   const double least = least_mass_ratio(
       coupling.scheme, fluid, coupling.fluid_steps_per_window * usual_courant_number * h / fluid.sound_speed);

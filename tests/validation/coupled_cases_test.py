@@ -1,6 +1,6 @@
 """Coupled cases at their smallest resolution, whole runs of three processes.
 
-    coupled_cases_test.py SOURCE BUILD/bin
+    coupled_cases_test.py SOURCE BUILD/bin [CLASS...]
 """
 import csv
 import math
@@ -43,7 +43,24 @@ class HydrostaticPlate(unittest.TestCase):
 class ElasticObstacle(unittest.TestCase):
     def test_bends_as_the_wave_strikes(self):
         rows, _, _ = run("dam_break_elastic_obstacle", **{"case.end_time": 0.2, "fluid.spacing": 0.00584, "solid.spacing": 0.003})
-        self.assertLess(abs(rows[-1]["upper_left_corner_displacement_x[m]"] - 29.0e-3), 2e-3)
+        self.assertLess(abs(rows[-1]["upper_left_corner_displacement_x[m]"] - 43.2e-3), 2e-3)
+
+
+class SubmergedBeam(unittest.TestCase):
+    """At its shipped spacing: a coarser kernel sees through the beam."""
+
+    def test_a_light_beam_rises_and_a_heavy_one_sinks(self):
+        for case, tip in (("submerged_beam/rho500.toml", 0.71e-3), ("submerged_beam", -0.63e-3)):
+            with self.subTest(case):
+                rows, figures, said = run(case, **{"case.end_time": 0.16})
+                self.assertLess(abs(rows[-1]["tip_displacement_y[m]"] - tip), 0.05e-3)
+                self.assertLess(figures["largest_impulse_error"], 1e-12)
+                self.assertNotIn("beyond the edge of stability", said)
+
+    def test_the_parallel_scheme_is_warned_of(self):
+        settings = {"case.end_time": 0.005, "coupling.scheme": "parallel_explicit"}
+        _, _, said = run("submerged_beam/rho500.toml", **settings)
+        self.assertIn("beyond the edge of stability", said)
 
 
 class ThinWall(unittest.TestCase):

@@ -146,11 +146,13 @@ TEST(AddedMass, WhatIsOutOfReachDoesNotCount) {
 }
 
 TEST(AddedMass, HasALimitByScheme) {
-  const FluidTraits water{.density = 1000, .sound_speed = 20, .spacing = 0.01};
+  FluidTraits water{.density = 1000, .sound_speed = 20, .spacing = 0.01};
   EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::serial_explicit, water, 1e-4), 0.37);
   EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::serial_explicit, water, 1e-3), 1);  // C = 2
   EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::parallel_explicit, water, 1e-4), 0.9);
   EXPECT_EQ(least_mass_ratio(CouplingScheme::serial_implicit, water, 1e-3), 0);
+  water.reach = 0.05;  // twice as far as that with which they were measured
+  EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::parallel_explicit, water, 1e-4), 1.8);
 }
 
 }  // namespace
