@@ -4,13 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fluid_solver/taken_places.hpp"
 
 namespace toryu::fluid {
 
 namespace {
+
 constexpr int least_thin_particles = 16;
+
+/// g H of the regions together [m2/s2].
+double weight_of_depth(const Parameters& p, const Vec& gravity) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const auto& region : p.regions)
+    for (const Vec& corner : {region.box.min, region.box.max}) {
+      lowest = std::min(lowest, gravity.dot(corner));
+      highest = std::max(highest, gravity.dot(corner));
+    }
+  return std::max(highest - lowest, 0.0);
+}
+
 }  // namespace
 
 double time_step_edge(const Parameters& p) {
@@ -49,18 +63,42 @@ std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
       body.name, found, least);
 }
 
-std::vector<std::string> beyond_edges(const Parameters& p, double speed) {
+double wall_speed_at_start(const std::vector<Wall>& walls) {
+  double fastest = 0;
+  for (const Wall& wall : walls) {
+    if (!wall.motion) continue;
+    Eigen::Index across;
+    (wall.box.max - wall.box.min).minCoeff(&across);
+    fastest = std::max(fastest, std::abs(wall.motion->velocity_at(0)[across]));
+  }
+  return fastest;
+}
+
+std::vector<std::string> beyond_edges(const Parameters& p, const Start& start) {
   std::vector<std::string> said;
   if (p.time_step_share > time_step_edge(p))
     said.push_back(
         fmt::format("time_step_share {:g} is beyond the edge of stability at {:.2g}; see "
                     "cases/hydrostatic_tank/time_step_map.toml",
                     p.time_step_share, time_step_edge(p)));
-  if (p.sound_speed < 10 * speed)
+  if (p.sound_speed < 10 * start.speed)
     said.push_back(fmt::format(
         "sound_speed {:g} m/s is below ten times the largest speed at the start, {:.3g} m/s: the density "
         "will change by more than 1 %",
-        p.sound_speed, speed));
+        p.sound_speed, start.speed));
+  if (start.wall_speed > start_edge * p.sound_speed)
+    said.push_back(
+        fmt::format("a wall starts at once at {:.3g} m/s, {:.2g} of the sound speed and beyond the edge at "
+                    "{:g}: pressures will be far off; see cases/retreating_piston/start_map.toml",
+                    start.wall_speed, start.wall_speed / p.sound_speed, start_edge));
+  const double edge = (p.hydrostatic_start ? depth_edge_hydrostatic : depth_edge_at_once) *
+                      std::sqrt(weight_of_depth(p, start.gravity));
+  if (p.sound_speed < edge)
+    said.push_back(
+        fmt::format("sound_speed {:g} m/s is below the edge of {:.3g} m/s for fluid that deep{}; see "
+                    "cases/hydrostatic_tank/start_map.toml",
+                    p.sound_speed, edge,
+                    p.hydrostatic_start ? "" : " on which gravity sets in at once ('hydrostatic_start')"));
   return said;
 }
 

@@ -27,7 +27,26 @@ double thinnest_wall(const Parameters& parameters);
 std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
                                            const Parameters& parameters);
 
-/// A sentence for each edge that a fluid lies beyond whose largest speed at the start is `speed` [m/s].
-std::vector<std::string> beyond_edges(const Parameters& parameters, double speed);
+/// Speed over c_0 of a wall that starts at once above which pressures are 15 % off rho c_0 v, by
+/// cases/retreating_piston/start_map.toml.
+inline constexpr double start_edge = 0.075;
+
+/// Sound speed over sqrt(g H) below which water H deep still swings after 2 s, or has a wrong pressure, by
+/// cases/hydrostatic_tank/start_map.toml: where it starts under its own weight, and where gravity sets in at
+/// once.
+inline constexpr double depth_edge_hydrostatic = 2.1, depth_edge_at_once = 6.9;
+
+/// What a fluid starts with.
+struct Start {
+  double speed = 0;       ///< the largest of the fluid [m/s]
+  double wall_speed = 0;  ///< the largest of its walls across their shorter side: what slides sends no sound
+  Vec gravity = Vec::Zero();  ///< [m/s2]
+};
+
+/// Speed at the start, across their shorter sides, of the fastest of `walls` [m/s].
+double wall_speed_at_start(const std::vector<Wall>& walls);
+
+/// A sentence for each edge that a fluid lies beyond.
+std::vector<std::string> beyond_edges(const Parameters& parameters, const Start& start);
 
 }  // namespace toryu::fluid

@@ -101,9 +101,11 @@ ExitCode solve(const Options& options) {
   FluidSolver solver(parameters, scene);
   omp_set_num_threads(thread_count(options, solver.particle_count(), particles_per_thread));
   check_start(solver, "[fluid]");
-  const auto& start = solver.particles();
-  for (const auto& beyond : fluid::beyond_edges(parameters, fluid::largest_norm(start.v, start.count)))
-    spdlog::warn("{}", beyond);
+  const auto& particles = solver.particles();
+  const fluid::Start start{.speed = fluid::largest_norm(particles.v, particles.count),
+                           .wall_speed = fluid::wall_speed_at_start(scene.walls),
+                           .gravity = scene.gravity};
+  for (const auto& beyond : fluid::beyond_edges(parameters, start)) spdlog::warn("{}", beyond);
   for (const auto& wall : solver.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
   if (options.check) return ExitCode::done;
   if (file.has("solid"))

@@ -1,7 +1,8 @@
-// A free surface that swings: cases/oscillating_drop.
+// Free surfaces that swing: cases/oscillating_drop, standing_wave.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "fluid_solver/initial_flow.hpp"
 #include "fluid_solver/observers.hpp"
@@ -66,6 +67,15 @@ TEST(OscillatingDrop, HasItsPeriod) {
   const double found = passes[2] - passes[0];
   RecordProperty("period_over_exact", std::to_string(found / period));
   EXPECT_NEAR(found / period, 1.0, 0.02);
+}
+
+TEST(StandingWave, HasThePeriodOfAiry) {
+  const double k = 2 * std::numbers::pi /* over 1 m */, omega = std::sqrt(9.81 * k * std::tanh(k * 0.5));
+  const auto passes = zeros(history(FluidCase("standing_wave", {"fluid.spacing=0.05"}), 1.1));
+  ASSERT_GE(passes.size(), 3u);
+  const double found = omega * (passes[2] - passes[0]) / (2 * std::numbers::pi);
+  RecordProperty("period_over_exact", std::to_string(found));
+  EXPECT_NEAR(found, 1.0, 0.05);
 }
 
 }  // namespace

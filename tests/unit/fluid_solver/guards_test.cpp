@@ -18,12 +18,12 @@ Parameters water(double time_step_share, Integrator integrator) {
 }
 
 TEST(FluidGuards, NameTheMapBeyondWhoseEdgeACaseLies) {
-  EXPECT_THAT(beyond_edges(water(2.5, Integrator::midpoint), 1), ElementsAre());
+  EXPECT_THAT(beyond_edges(water(2.5, Integrator::midpoint), {1, 0}), ElementsAre());
   EXPECT_THAT(
-      beyond_edges(water(2.7, Integrator::midpoint), 1),
+      beyond_edges(water(2.7, Integrator::midpoint), {1, 0}),
       ElementsAre(HasSubstr("2.7 is beyond the edge of stability at 2.6; see cases/hydrostatic_tank")));
-  EXPECT_THAT(beyond_edges(water(6.6, Integrator::symplectic), 1), ElementsAre());
-  EXPECT_THAT(beyond_edges(water(6.8, Integrator::symplectic), 1), ElementsAre(HasSubstr("at 6.7")));
+  EXPECT_THAT(beyond_edges(water(6.6, Integrator::symplectic), {1, 0}), ElementsAre());
+  EXPECT_THAT(beyond_edges(water(6.8, Integrator::symplectic), {1, 0}), ElementsAre(HasSubstr("at 6.7")));
 }
 
 TEST(FluidGuards, KnowWhatDensityDiffusionBears) {
@@ -31,11 +31,11 @@ TEST(FluidGuards, KnowWhatDensityDiffusionBears) {
   p.density_diffusion->delta = 0.0125;  // an eighth: half the step
   EXPECT_DOUBLE_EQ(time_step_edge(p), 1.3);
   p.density_diffusion.reset();
-  EXPECT_THAT(beyond_edges(p, 1), ElementsAre(HasSubstr("at 0.8")));
+  EXPECT_THAT(beyond_edges(p, {1, 0}), ElementsAre(HasSubstr("at 0.8")));
 }
 
 TEST(FluidGuards, WantTenTimesTheSpeed) {
-  EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), 2.1),
+  EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {2.1, 0}),
               ElementsAre(HasSubstr("sound_speed 20 m/s is below")));
 }
 
@@ -58,6 +58,32 @@ TEST(FluidGuards, KnowWhatIsTooThinToPartWater) {
   EXPECT_THAT(*wall(1, 20, 0.01), HasSubstr("'leaf' is 0.01 m thick in places, and below 2h - d0 = 0.02 m"));
   EXPECT_THAT(*wall(20, 3, 0.005), HasSubstr("is 0.015 m thick"));
   EXPECT_FALSE(wall(1, 15, 0.01)) << "as few as the poles of a round body";
+}
+
+TEST(FluidGuards, WantNoWallToStartAtOnceFasterThanAShareOfSound) {
+  EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {0, 1.4}), ElementsAre());
+  EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {0, 1.6}),
+              ElementsAre(HasSubstr("a wall starts at once at 1.6 m/s, 0.08 of the sound speed")));
+}
+
+TEST(FluidGuards, TakeOfAWallWhatMovesAcrossIt) {
+  Wall lid{"lid", {Vec(0, 0), Vec(5, 1)}, {}};
+  lid.motion = Motion{.velocity = {{0, 3, -2}}};
+  EXPECT_DOUBLE_EQ(wall_speed_at_start({lid}), 2);
+  lid.motion.reset();
+  EXPECT_DOUBLE_EQ(wall_speed_at_start({lid}), 0);
+}
+
+TEST(FluidGuards, WantSoundFasterThanDeepWaterFalls) {
+  Parameters p = water(1, Integrator::midpoint);
+  p.regions = {{"water", {Vec(0, 0), Vec(5, 1)}}};
+  const Start start{.gravity = Vec(0, -9)};  // sqrt(g H) = 3 m/s
+  EXPECT_THAT(beyond_edges(p, start), ElementsAre(HasSubstr("below the edge of 20.7 m/s")));
+  p.hydrostatic_start = HydrostaticStart{1};
+  EXPECT_THAT(beyond_edges(p, start), ElementsAre());
+  p.sound_speed = 6;
+  EXPECT_THAT(beyond_edges(p, start),
+              ElementsAre(HasSubstr("below the edge of 6.3 m/s for fluid that deep;")));
 }
 
 }  // namespace

@@ -141,6 +141,13 @@ TEST(RepeatedWindow, IsBitwiseTheSame) {
   }
 }
 
+TEST(Plate, MayNotStandWhereFluidIs) {
+  FluidSolver solver = tank_with_a_plate().solver();
+  Interface inside = plate();
+  for (std::size_t k = 0; k < inside.size(); ++k) inside.position[dim * k] -= 0.1;
+  EXPECT_THROW(solver.attach(inside), BadInput);
+}
+
 TEST(PlateAtRest, BearsThePressureOfTheWater) {
   omp_set_num_threads(1);
   Setting setting = tank_with_a_plate();
