@@ -217,7 +217,8 @@ Tensor<double> TotalLagrangian::gradient(std::size_t slot) const {
 void TotalLagrangian::check_strain(double time) const {
   if (inverted_)
     fail(inverted_->slot, inverted_->time, "volume ratio", fmt::format("{:.4g}", inverted_->volume_ratio),
-         "above 0");
+         std::isnan(inverted_->volume_ratio) ? "above 0; a row one particle thick has no gradient across"
+                                             : "above 0");
   const double longest = 1.0 + parameters_.limits.strain,
                shortest = std::max(1.0 - parameters_.limits.strain, 0.0);
   const auto within_limits = [&](const auto& stretches) {
