@@ -94,7 +94,11 @@ Sweep sweep_of(const ChosenTerms& terms) {
   return [terms](Square& square) {
     const BodyForce none;
     std::vector<Given> given;
-    const PairSweeps sweeps{terms, none, false, false};
+    const PairSweeps sweeps{.terms = terms,
+                            .body_force = none,
+                            .viscous_walls = false,
+                            .wall_suction = true,
+                            .tensile_control = false};
     sweeps.rates(CubicSpline(h), RatesOf::both, square.fluid, square.near, {}, given);
   };
 }
