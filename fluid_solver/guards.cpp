@@ -17,11 +17,12 @@ constexpr int least_thin_particles = 16;
 /// g H of the regions together [m2/s2].
 double weight_of_depth(const Parameters& p, const Vec& gravity) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (const auto& region : p.regions)
-    for (const Vec& corner : {region.box.min, region.box.max}) {
-      lowest = std::min(lowest, gravity.dot(corner));
-      highest = std::max(highest, gravity.dot(corner));
-    }
+  for (const auto& region : p.regions) {
+    const double middle = 0.5 * gravity.dot(region.box.min + region.box.max);
+    const double half = 0.5 * gravity.cwiseAbs().dot(region.box.max - region.box.min);
+    lowest = std::min(lowest, middle - half);
+    highest = std::max(highest, middle + half);
+  }
   return std::max(highest - lowest, 0.0);
 }
 

@@ -79,6 +79,8 @@ TEST(FluidGuards, WantSoundFasterThanDeepWaterFalls) {
   p.regions = {{"water", {Vec(0, 0), Vec(5, 1)}}};
   const Start start{.gravity = Vec(0, -9)};  // sqrt(g H) = 3 m/s
   EXPECT_THAT(beyond_edges(p, start), ElementsAre(HasSubstr("below the edge of 20.7 m/s")));
+  EXPECT_THAT(beyond_edges(p, {.gravity = Vec(1, -4)}), ElementsAre(HasSubstr("below the edge of 20.7 m/s")))
+      << "from corner to corner";
   p.hydrostatic_start = HydrostaticStart{1};
   EXPECT_THAT(beyond_edges(p, start), ElementsAre());
   p.sound_speed = 6;
