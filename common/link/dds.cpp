@@ -165,6 +165,10 @@ void Node::check_quality() const {
       require(dds_get_offered_incompatible_qos_status(endpoint.entity, &status), endpoint.topic);
       count = status.total_count, policy = status.last_policy_id;
     }
+    if (count > 0 && policy == DDS_TYPE_CONSISTENCY_ENFORCEMENT_QOS_POLICY_ID)
+      throw BadInput({{.place = endpoint.topic,
+                       .message = "another process speaks another protocol, with messages of another shape; "
+                                  "take programs of one version"}});
     if (count > 0)
       throw PeerLost(
           fmt::format("another process speaks of '{}' with another quality of service (DDS policy {}): no "

@@ -46,7 +46,8 @@ class Node {
   dds_entity_t make_reader(const dds_topic_descriptor_t& type, const std::string& topic);
   /// Blocks until a reader has news since the last call, or the time is over; false if it is.
   bool wait(std::chrono::milliseconds longest) const;
-  /// Throws PeerLost if another process offers or asks for a topic on terms that can never match.
+  /// Throws PeerLost if another process offers or asks for a topic on terms that can never match, BadInput if
+  /// with messages of another shape.
   void check_quality() const;
 
  private:
