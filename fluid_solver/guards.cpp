@@ -64,6 +64,15 @@ std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
       body.name, found, least);
 }
 
+std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Parameters& p) {
+  if (!(p.friction || p.removal) || spacing < 1.01 * p.spacing) return {};
+  return fmt::format(
+      "the work piece's particles stand {:.3g} m apart, the fluid's {:.3g} m: friction and removal will be "
+      "far "
+      "too small; take a spacing of the solid that is no larger, see cases/abrasive_flow/README.md",
+      spacing, p.spacing);
+}
+
 double wall_speed_at_start(const std::vector<Wall>& walls) {
   double fastest = 0;
   for (const Wall& wall : walls) {

@@ -27,6 +27,10 @@ double thinnest_wall(const Parameters& parameters);
 std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
                                            const Parameters& parameters);
 
+/// A sentence if the particles of an elastic work piece stand `spacing` [m], farther apart than the fluid's:
+/// a medium that finds gaps in the surface sticks to it, and what friction and removal give is far too small.
+std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Parameters& parameters);
+
 /// Speed over c_0 of a wall that starts at once above which pressures are 15 % off rho c_0 v, by
 /// cases/retreating_piston/start_map.toml.
 inline constexpr double start_edge = 0.075;

@@ -64,6 +64,8 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                  interface.spacing);
     solver.attach(interface);
     warn_of_thin_wall(solver.boundaries().back(), interface.spacing, parameters);
+    if (const auto coarse = fluid::beyond_coarsest_work_piece(interface.spacing, parameters))
+      spdlog::warn("{}", *coarse);
   } catch (...) {
     link.leave();
     throw;

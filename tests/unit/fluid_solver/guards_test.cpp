@@ -34,6 +34,15 @@ TEST(FluidGuards, KnowWhatDensityDiffusionBears) {
   EXPECT_THAT(beyond_edges(p, {1, 0}), ElementsAre(HasSubstr("at 0.8")));
 }
 
+TEST(FluidGuards, WantWorkPiecesAsFineAsTheFluid) {
+  Parameters p = water(1, Integrator::midpoint);
+  p.spacing = 0.5e-3;
+  EXPECT_FALSE(beyond_coarsest_work_piece(1e-3, p)) << "nothing rubs";
+  p.friction = Friction{.coefficient = 0.3};
+  EXPECT_FALSE(beyond_coarsest_work_piece(0.5e-3, p));
+  EXPECT_THAT(beyond_coarsest_work_piece(1e-3, p), testing::Optional(HasSubstr("stand 0.001 m apart")));
+}
+
 TEST(FluidGuards, WantTenTimesTheSpeed) {
   EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {2.1, 0}),
               ElementsAre(HasSubstr("sound_speed 20 m/s is below")));
