@@ -12,7 +12,7 @@ namespace toryu {
 namespace {
 
 /// Fluid steps per window up to which the elastic gate's motion agrees with that at 1: at 2 within 1 %, at 4
-/// the tip is a third too far at 0.03 s.
+/// its peak is 6 % too far (cases/elastic_gate/terms.toml).
 constexpr int largest_calm_window = 2;
 
 constexpr double usual_smoothing_ratio = 1.3;  // where the case does not say it
