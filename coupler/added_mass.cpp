@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "common/sph/sorted_points.hpp"
 
 namespace toryu {
 
@@ -11,6 +14,9 @@ namespace {
 /// A face is wet if the force on its particle points into it (out of it under suction) within 60 degrees: a
 /// fluid behind the solid, whose kernel sees through it, pulls at the dry face instead.
 constexpr double least_cosine = 0.5;
+
+/// Where a row lies at the reach itself, rounding must not choose among its particles.
+constexpr double hair = 1e-9;
 
 /// Reach of the kernel, over the spacing, with which the lower bounds were measured.
 constexpr double measured_reach = 2.5;
@@ -21,19 +27,44 @@ Eigen::Map<const Vec> item(const std::vector<double>& vectors, std::size_t k) {
 
 }  // namespace
 
-std::optional<double> layer_mass_ratio(const Interface& interface, const InterfaceLoad& load,
-                                       const FluidTraits& fluid) {
-  double mass = 0, area = 0;
-  for (std::size_t k = 0; k < interface.size(); ++k) {
-    const Vec force = item(load.force, k), face = item(interface.area_vector, k);
-    if (force.isZero(0)) continue;
-    mass += interface.mass[k];
-    const double inward = load.pressure[k] < 0 ? force.dot(face) : -force.dot(face);
-    if (inward > least_cosine * force.norm() * face.norm()) area += face.norm();
+double layer_depth(const FluidTraits& fluid) {
+  return fluid.reach - 0.5 * fluid.spacing;
+}
+
+SurfaceLayer::SurfaceLayer(const Interface& interface, const FluidTraits& fluid)
+    : mass_(interface.mass), row_(fluid.density * fluid.spacing) {
+  std::vector<Vec> places(interface.size());
+  for (std::size_t k = 0; k < places.size(); ++k) places[k] = item(interface.position, k);
+  const double half = 0.5 * interface.spacing;
+  const double deepest = (1 + hair) * layer_depth(fluid), reach = std::max(deepest, interface.spacing);
+  const SortedPoints points(places, reach);
+  for (std::uint32_t k = 0; k < places.size(); ++k) {
+    const Vec area = item(interface.area_vector, k);
+    if (area.isZero(0)) continue;
+    Face& face = faces_.emplace_back(Face{k, area, {k}});
+    const Vec inward = -area.normalized();
+    points.near(places[k], reach, [&](std::uint32_t j) {
+      const Vec from = places[j] - places[k];
+      const double depth = from.dot(inward), aside = (from - depth * inward).norm();
+      if (j != k && depth > 0 && depth + half < deepest && aside < (1 + hair) * half)
+        face.behind.push_back(j);
+    });
   }
-  const double row = fluid.density * fluid.spacing;
-  if (!(area > 0 && row > 0)) return std::nullopt;
-  return mass / area / row;
+}
+
+std::optional<double> SurfaceLayer::mass_ratio(const InterfaceLoad& load) const {
+  std::vector<char> weighed(mass_.size());
+  double mass = 0, area = 0;
+  for (const Face& face : faces_) {
+    const Vec force = item(load.force, face.particle);
+    const double inward = load.pressure[face.particle] < 0 ? force.dot(face.area) : -force.dot(face.area);
+    if (!(inward > least_cosine * force.norm() * face.area.norm())) continue;
+    area += face.area.norm();
+    for (const std::uint32_t j : face.behind)
+      if (!std::exchange(weighed[j], 1)) mass += mass_[j];
+  }
+  if (!(area > 0 && row_ > 0)) return std::nullopt;
+  return mass / area / row_;
 }
 
 double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt) {

@@ -19,11 +19,33 @@
 
 namespace toryu {
 
-/// The layer of solid that the fluid had in reach in a window: the mass of the particles that bear `load`
-/// over the area of the faces that it presses on (or sucks at), per row of fluid rho_f dx. Dry faces do not
-/// count. Nothing if no face is wet.
-std::optional<double> layer_mass_ratio(const Interface& interface, const InterfaceLoad& load,
-                                       const FluidTraits& fluid);
+/// How deep the layer of solid is that fluid beside it has in reach [m]: the fluid's first row stands half a
+/// spacing off.
+double layer_depth(const FluidTraits& fluid);
+
+/// The layer of solid behind the faces that the fluid wets.
+class SurfaceLayer {
+ public:
+  SurfaceLayer(const Interface& interface, const FluidTraits& fluid);
+
+  /// The mass of the particles behind the faces that `load` presses on (or sucks at), as deep as fluid beside
+  /// them has in reach, over the area of these faces, per row of fluid rho_f dx. Dry faces do not count, and
+  /// what lies behind two wet ones counts once. Nothing if no face is wet.
+  ///
+  /// Depth counts from the face: water that only grazes a dry solid has its outermost particles alone in
+  /// reach, but those behind move along.
+  std::optional<double> mass_ratio(const InterfaceLoad& load) const;
+
+ private:
+  struct Face {
+    std::uint32_t particle;
+    Vec area;                           ///< outward [m per metre depth]
+    std::vector<std::uint32_t> behind;  ///< particles, itself among them
+  };
+  std::vector<Face> faces_;
+  std::vector<double> mass_;  ///< [kg per metre depth]
+  double row_ = 0;            ///< rho_f dx [kg/m2]
+};
 
 /// The least such ratio that `scheme` bears with windows of `dt` [s]; 0 for the implicit scheme.
 double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt);

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "common/run/failure.hpp"
-#include "coupler/added_mass.hpp"
 
 namespace toryu {
 
@@ -33,8 +32,9 @@ CoupledRun::CoupledRun(Settings settings, CouplerLink& link)
 void CoupledRun::run(const CouplerLink::Start& start) {
   scheme_ = make_scheme(settings_.coupling, link_, start);
   time_step_limit_ = start.traits.time_step_limit;
-  interface_ = start.interface;
   fluid_ = start.traits;
+  interface_count_ = start.interface.size();
+  layer_.emplace(start.interface, start.traits);
   series_.emplace(settings_.out, "coupler");
   if (settings_.frame_interval > 0) {
     record_.emplace(settings_.out, start.interface);
@@ -73,7 +73,7 @@ void CoupledRun::advance() {
 }
 
 void CoupledRun::check_added_mass(const InterfaceLoad& load) {
-  const auto ratio = layer_mass_ratio(interface_, load, fluid_);
+  const auto ratio = layer_->mass_ratio(load);
   if (!ratio) return;
   lightest_layer_ = std::min(lightest_layer_, *ratio);
   const double least = least_mass_ratio(settings_.coupling.scheme, fluid_, window_.dt);
@@ -153,7 +153,7 @@ void CoupledRun::report(Summary& summary) const {
   summary.largest_time_step = largest_window_;
   summary.time_step_rule = "fluid's limit";
   summary.parts = timers_.parts();
-  summary.particles = {{"interface", static_cast<long>(interface_.size())}};
+  summary.particles = {{"interface", static_cast<long>(interface_count_)}};
   if (round_trips_.empty()) return;
   auto sorted = round_trips_;
   std::sort(sorted.begin(), sorted.end());

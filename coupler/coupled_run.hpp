@@ -9,6 +9,7 @@
 #include "common/output/results.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/timers.hpp"
+#include "coupler/added_mass.hpp"
 #include "coupler/exchange_audit.hpp"
 #include "coupler/interface_record.hpp"
 #include "coupler/parameters.hpp"
@@ -60,8 +61,9 @@ class CoupledRun {
   Window window_;
   ExchangeAudit audit_;
   bool warned_ = false;
-  Interface interface_;
   FluidTraits fluid_;
+  std::size_t interface_count_ = 0;
+  std::optional<SurfaceLayer> layer_;
   double lightest_layer_ = std::numeric_limits<double>::infinity();  // of all windows, over a row of fluid
   bool warned_of_mass_ = false;
   Timers timers_;

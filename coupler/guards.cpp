@@ -52,7 +52,7 @@ std::vector<std::string> beyond_edges(const CaseFile& file, const CouplingParame
   if (!(fluid.density > 0 && fluid.sound_speed > 0 && fluid.spacing > 0)) return said;
   const double h = file.number("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
   fluid.reach = 2 * h;
-  const double depth = std::min(thickness(file), fluid.reach);  // no deeper than the kernel sees
+  const double depth = std::min(thickness(file), layer_depth(fluid));  // no deeper than the kernel sees
   const double ratio = number("solid.density") * depth / (fluid.density * fluid.spacing);
   const double least = least_mass_ratio(
       coupling.scheme, fluid, coupling.fluid_steps_per_window * usual_courant_number * h / fluid.sound_speed);

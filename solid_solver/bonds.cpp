@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/run/failure.hpp"
-#include "solid_solver/sorted_points.hpp"
+#include "common/sph/sorted_points.hpp"
 
 namespace toryu {
 

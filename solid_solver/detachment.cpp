@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solid_solver/sorted_points.hpp"
+#include "common/sph/sorted_points.hpp"
 
 namespace toryu {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "solid_solver/sorted_points.hpp"
+#include "common/sph/sorted_points.hpp"
 
 namespace toryu {
 

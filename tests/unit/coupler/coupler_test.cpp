@@ -144,7 +144,8 @@ TEST(Guards, SeeNoDeeperThanTheKernel) {
       << "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\nsmoothing_ratio = 1.25\n"
          "[solid]\ndensity = 140\n[[solid.region]]\nbox = { min = [0, 0], max = [1, 1] }\n";
   EXPECT_THAT(beyond_edges(CaseFile(folder.path, {}), {}),
-              testing::ElementsAre(testing::HasSubstr("weighs 0.35 of a row")));  // 140 x 2.5 rows
+              testing::ElementsAre(
+                  testing::HasSubstr("weighs 0.28 of a row")));  // 140 x 2 rows: from half a spacing off
 }
 
 TEST(Guards, SayNothingOfWhatTheyDoNotKnow) {

@@ -115,34 +115,52 @@ TEST(QuasiNewton, FiltersColumnsThatSayTheSame) {
   EXPECT_TRUE(next.allFinite());
 }
 
-/// Two rows of a plate with water above: 3 kg/m each, the upper one behind 0.02 m of surface. The water is in
-/// reach of both and pushes both down.
+/// Three rows of a plate, 3 kg/m each, with water above, whose kernel reaches two of them. The upper one is
+/// behind 0.02 m of surface, as the lower one is.
 struct PlateUnderWater {
-  FluidTraits water{.density = 1000, .sound_speed = 20, .spacing = 0.01};
-  Interface plate;
-  InterfaceLoad load{{5, 2}, {0, -4, 0, -1}, {}, Vec::Zero()};
-  PlateUnderWater() {
-    plate.id = {0, 1};
-    plate.mass = {3, 3};
-    plate.area_vector = {0, 0.02, 0, -0.02};
+  FluidTraits water{.reach = 0.045, .density = 1000, .sound_speed = 20, .spacing = 0.01};
+  Interface plate{.id = {0, 1, 2},
+                  .position = {0, -0.01, 0, -0.03, 0, -0.05},
+                  .volume = {4e-4, 4e-4, 4e-4},
+                  .area_vector = {0, 0.02, 0, 0, 0, -0.02},
+                  .mass = {3, 3, 3},
+                  .spacing = 0.02};
+  /// Water of which every row bears a part, or the upper alone; its pressure above, its forces on the rows.
+  std::optional<double> under(double pressure, double upper, double middle, double lower) const {
+    return SurfaceLayer(plate, water).mass_ratio({{pressure, 0, 0}, {0, upper, 0, middle, 0, lower}, {}, {}});
   }
 };
 
 TEST(AddedMass, IsWeighedAgainstARowOfFluid) {
-  PlateUnderWater scene;
-  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 30);  // 300 kg/m2; dry below
-  scene.load.force[3] = 1;                                                        // water below too
-  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 15);
-  scene.load = {{-5, -2}, {0, 4, 0, 1}, {}, Vec::Zero()};  // water above that sucks
-  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 30);
+  const PlateUnderWater scene;
+  EXPECT_DOUBLE_EQ(*scene.under(5, -4, -1, 0), 30);  // 600 kg/m2; dry below
+  EXPECT_DOUBLE_EQ(*scene.under(5, -4, -1, -1), 30) << "a kernel that sees through the plate pulls below";
+  EXPECT_DOUBLE_EQ(*scene.under(-5, 4, 1, 0), 30) << "water above that sucks";
+  EXPECT_FALSE(scene.under(0, 0, 0, 0));
 }
 
-TEST(AddedMass, WhatIsOutOfReachDoesNotCount) {
+TEST(AddedMass, CountsOnceWhatLiesBehindTwoWetFaces) {
+  const PlateUnderWater scene;
+  EXPECT_DOUBLE_EQ(*scene.under(5, -4, 0, 4), 22.5);  // 9 kg/m behind 0.04 m
+}
+
+TEST(AddedMass, IsThatOfTheWholeLayerWhereWaterOnlyGrazesTheSolid) {
+  const PlateUnderWater scene;
+  EXPECT_DOUBLE_EQ(*scene.under(0.1, -1e-3, 0, 0), 30);
+}
+
+TEST(AddedMass, IsOfNoMoreThanFluidBesideTheSolidHasInReach) {
   PlateUnderWater scene;
-  scene.load = {{5, 0}, {0, -4, 0, 0}, {}, Vec::Zero()};
-  EXPECT_DOUBLE_EQ(*layer_mass_ratio(scene.plate, scene.load, scene.water), 15);
-  scene.load.force[1] = 0;
-  EXPECT_FALSE(layer_mass_ratio(scene.plate, scene.load, scene.water));
+  scene.water.reach = 0.034;  // 1 mm short of the second row, from water half a spacing off
+  EXPECT_DOUBLE_EQ(*scene.under(5, -4, -1, 0), 15);
+  scene.water.reach = 0.2;
+  EXPECT_DOUBLE_EQ(*scene.under(5, -4, -1, 0), 45);
+}
+
+TEST(AddedMass, IsOfWhatLiesBehindTheFaceAndNotBeside) {
+  PlateUnderWater scene;
+  scene.plate.position = {0, -0.01, 0.02, -0.03, 0, 0.01};
+  EXPECT_DOUBLE_EQ(*scene.under(5, -4, -1, 0), 15);
 }
 
 TEST(AddedMass, HasALimitByScheme) {
