@@ -18,10 +18,11 @@ namespace {
 /// A step that is a smaller share of its way never arrives: time would stand still.
 constexpr double most_needed = 1e12;
 
-}  // namespace
+/// What the limit may fall by within a window before the window is divided anew. The limits are shares of
+/// what is stable that leave more than that.
+constexpr double bearable_fall = 0.05;
 
-SubSteps advance_by(Solver& solver, double length, long most) {
-  const double limit = solver.time_step_limit();
+SubSteps advance_within(Solver& solver, double length, double limit, long most) {
   if (!(limit * most_needed > length))  // NaN as well
     throw PhysicsFailure(fmt::format("time step of {:.3g} s ({} limit) is too small for {:.3g} s", limit,
                                      solver.time_step_rule(), length));
@@ -31,6 +32,12 @@ SubSteps advance_by(Solver& solver, double length, long most) {
   return steps;
 }
 
+}  // namespace
+
+SubSteps advance_by(Solver& solver, double length, long most) {
+  return advance_within(solver, length, solver.time_step_limit(), most);
+}
+
 int thread_count(const Options& options, std::size_t particles, int particles_per_thread) {
   if (options.threads > 0) return options.threads;
   return std::clamp(static_cast<int>(particles) / particles_per_thread, 1, omp_get_num_procs());
@@ -38,9 +45,13 @@ int thread_count(const Options& options, std::size_t particles, int particles_pe
 
 void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,
                     const std::function<void(const SubSteps&)>& taken) {
+  double planned = 0;
   for (double left = length; left > 1e-9 * length;) {
     throw_if_interrupted();
-    const SubSteps steps = advance_by(solver, left, steps_between_checks);
+    const double limit = solver.time_step_limit();
+    const bool holds = limit < planned && limit > (1 - bearable_fall) * planned;
+    const SubSteps steps = advance_within(solver, left, holds ? planned : limit, steps_between_checks);
+    planned = steps.dt;
     left -= static_cast<double>(steps.taken) * steps.dt;
     record.count_steps(steps.taken, steps.dt);
     taken(steps);

@@ -21,7 +21,8 @@ SubSteps advance_by(Solver& solver, double length, long most = std::numeric_limi
 int thread_count(const Options& options, std::size_t particles, int particles_per_thread);
 
 /// Advances over a coupling window from `time` [s], `length` [s] long. After every `steps_between_checks`
-/// sub-steps at most, `taken` hears of them and the state is checked.
+/// sub-steps at most, `taken` hears of them, the state is checked, and what is left of the window is divided
+/// anew if the limit has fallen by more than a twentieth: for less, one step more would do twice the work.
 void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,
                     const std::function<void(const SubSteps&)>& taken);
 
