@@ -1,4 +1,4 @@
-// A medium under suction: cases/retreating_piston.
+// A medium under suction: cases/retreating_piston, rotating_square_patch.
 #include <gtest/gtest.h>
 
 #include "tests/validation/fluid_case.hpp"
@@ -23,6 +23,25 @@ TEST(RetreatingPiston, IsUnderTheSuctionOfTheColumn) {
 
 TEST(RetreatingPiston, IsNotTornFromByTensileControl) {
   EXPECT_NEAR(suction({"fluid.particle_shifting={}", "fluid.tensile_control={}"}), 1, 0.1);
+}
+
+TEST(RotatingSquarePatch, StaysWholeAndKeepsItsEnergy) {
+  FluidSolver solver = FluidCase("rotating_square_patch", {"fluid.spacing=0.04"}).solver();
+  const auto seen = [&](const std::string& name) {
+    for (const auto& observation : solver.observe())
+      if (observation.name == name) return observation.value;
+    return std::nan("");
+  };
+  EXPECT_NEAR(seen("pressure_in_the_middle") / -147.34, 1, 0.015) << "Poisson's equation";
+  const double start = solver.kinetic_energy();
+  double largest_void = 0;
+  for (int n = 1; n <= 100; ++n) {
+    run_until(solver, 0.02 * n);
+    largest_void = std::max(largest_void, seen("largest_void"));
+  }
+  EXPECT_LT(largest_void, 1.1);
+  // 0.959 and 0.984 at half and a quarter of the spacing.
+  EXPECT_NEAR(solver.kinetic_energy() / start, 0.905, 0.01);
 }
 
 }  // namespace
