@@ -1,5 +1,6 @@
 #include "fluid_solver/consistent_gradients.hpp"
 
+#include "fluid_solver/terms/neighbour_sum.hpp"
 #include "fluid_solver/terms/renormalisation.hpp"
 
 namespace toryu::fluid {
@@ -21,28 +22,18 @@ Sums sums_of(const Particles& f, double mu, const W& kernel, std::size_t first, 
   const Lanes p_i = load(f.p, first), p_rho2_i = load(f.p_rho2, first);
   const Lanes two_nu = 2.0 * mu * inverse(load(f.rho, first));
   Sums sums;
-  for (const Near& near : nears) {
-    const VecLanes x_i = shifted(load(f.x, first), near.shift);
-    for (const std::uint32_t j : near.sources) {
-      const VecLanes x_ij{x_i[0] - f.x[0][j], x_i[1] - f.x[1][j]};
-      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300), inverse_r = inverse_sqrt(r2);
-      const Lanes G = kernel.gradient_over_r(r2 * inverse_r, inverse_r), V_G = f.V[j] * G;
-      const VecLanes V_grad{V_G * x_ij[0], V_G * x_ij[1]};
-      sums.moment.add(x_ij, V_grad);
-      const Lanes p_ji = f.p[j] - p_i, push = f.m[j] * (f.p_rho2[j] + p_rho2_i) * G;
-      const Lanes k = two_nu * V_G;
-      for (int a = 0; a < dim; ++a) {
-        sums.p[a] += p_ji * V_grad[a];
-        sums.a[a] -= push * x_ij[a];
-        sums.k_v[a] += k * (v_i[a] - f.v[a][j]);
-        sums.k_x[a] += k * x_ij[a];
-      }
-      for (int b = 0; b < dim; ++b) {
-        const Lanes v_ji = f.v[b][j] - v_i[b];
-        for (int a = 0; a < dim; ++a) sums.v[b][a] += v_ji * V_grad[a];
-      }
-    }
-  }
+  over_neighbours(kernel, nears, load(f.x, first), sources(f),
+                  [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    sums.moment.add(n.x_ij, n.V_grad);
+                    add_product(sums.p, f.p[j] - p_i, n.V_grad);
+                    const Lanes push = f.m[j] * (f.p_rho2[j] + p_rho2_i) * n.G, k = two_nu * (f.V[j] * n.G);
+                    for (int a = 0; a < dim; ++a) {
+                      sums.a[a] -= push * n.x_ij[a];
+                      sums.k_v[a] += k * (v_i[a] - f.v[a][j]);
+                    }
+                    add_product(sums.k_x, k, n.x_ij);
+                    for (int b = 0; b < dim; ++b) add_product(sums.v[b], f.v[b][j] - v_i[b], n.V_grad);
+                  });
   return sums;
 }
 
@@ -51,7 +42,8 @@ struct Difference {
   Lanes divergence;
   VecLanes a;
 };
-Difference difference(Sums& sums, const Lanes& rho) {
+// One for all kernels, so that it rounds alike wherever it stands.
+[[gnu::noinline]] Difference difference(Sums& sums, const Lanes& rho) {
   sums.moment.invert();
   const VecLanes grad_p = sums.moment.renormalised(sums.p);
   const Lanes inverse_rho = inverse(rho);

@@ -1,5 +1,6 @@
 #include "fluid_solver/free_surface.hpp"
 
+#include "fluid_solver/terms/neighbour_sum.hpp"
 #include "fluid_solver/terms/renormalisation.hpp"
 
 namespace toryu::fluid {
@@ -9,15 +10,9 @@ namespace {
 template <class W>
 void add_moment(Moment& moment, const VecLanes& x_i, const Sources& sources, std::span<const Near> nears,
                 const W& kernel) {
-  for (const Near& near : nears) {
-    const VecLanes x = shifted(x_i, near.shift);
-    for (const std::uint32_t j : near.sources) {
-      const VecLanes x_ij{x[0] - sources.x[0][j], x[1] - sources.x[1][j]};
-      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300), inverse_r = inverse_sqrt(r2);
-      const Lanes V_G = sources.V[j] * kernel.gradient_over_r(r2 * inverse_r, inverse_r);
-      moment.add(x_ij, {V_G * x_ij[0], V_G * x_ij[1]});
-    }
-  }
+  over_neighbours(kernel, nears, x_i, sources, [&](std::uint32_t, const Neighbour& n) TORYU_INLINE_LAMBDA {
+    moment.add(n.x_ij, n.V_grad);
+  });
 }
 
 /// 1 where particle i of the cluster has none of those of `at_surface` within `support`.

@@ -1,5 +1,6 @@
 #include "fluid_solver/shifting.hpp"
 
+#include "fluid_solver/terms/neighbour_sum.hpp"
 #include "fluid_solver/terms/renormalisation.hpp"
 
 namespace toryu::fluid {
@@ -20,27 +21,15 @@ struct Sums {
 template <bool fluid_sources, class W>
 void add(Sums& sums, const VecLanes& x_i, const VecLanes& v_i, const Lanes& rho_i, const Sources& source,
          std::span<const Near> nears, const W& kernel, double inverse_W_d0) {
-  for (const Near& near : nears) {
-    const VecLanes x = shifted(x_i, near.shift);
-    for (const std::uint32_t j : near.sources) {
-      const VecLanes x_ij{x[0] - source.x[0][j], x[1] - source.x[1][j]};
-      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300), inverse_r = inverse_sqrt(r2), r = r2 * inverse_r;
-      const Lanes V_G = source.V[j] * kernel.gradient_over_r(r, inverse_r);
-      const Lanes share = kernel.value(r) * inverse_W_d0, share_2 = share * share;
-      const VecLanes V_grad{V_G * x_ij[0], V_G * x_ij[1]};
-      const Lanes weight = 1.0 + R * (share_2 * share_2);
-      for (int a = 0; a < dim; ++a) sums.crowding[a] += weight * V_grad[a];
-      if constexpr (fluid_sources) {
-        sums.moment.add(x_ij, V_grad);
-        const Lanes rho_ji = source.rho[j] - rho_i;
-        for (int a = 0; a < dim; ++a) sums.rho[a] += rho_ji * V_grad[a];
-        for (int b = 0; b < dim; ++b) {
-          const Lanes v_ji = source.v[b][j] - v_i[b];
-          for (int a = 0; a < dim; ++a) sums.v[b][a] += v_ji * V_grad[a];
-        }
-      }
+  over_neighbours(kernel, nears, x_i, source, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+    const Lanes share = kernel.value(n.r) * inverse_W_d0, share_2 = share * share;
+    add_product(sums.crowding, 1.0 + R * (share_2 * share_2), n.V_grad);
+    if constexpr (fluid_sources) {
+      sums.moment.add(n.x_ij, n.V_grad);
+      add_product(sums.rho, source.rho[j] - rho_i, n.V_grad);
+      for (int b = 0; b < dim; ++b) add_product(sums.v[b], source.v[b][j] - v_i[b], n.V_grad);
     }
-  }
+  });
 }
 
 /// What the particles of one cluster become.

@@ -6,7 +6,7 @@
 /// is seen. Exact in a linear velocity. A particle without enough neighbours (L_i near singular) has none.
 #pragma once
 
-#include "common/sph/cluster_list.hpp"
+#include "fluid_solver/terms/neighbour_sum.hpp"
 #include "fluid_solver/terms/renormalisation.hpp"
 
 namespace toryu::fluid {
@@ -17,7 +17,12 @@ class VelocityGradient {
 
   template <class W>
   TORYU_INLINE void add(const Sources& source, std::span<const Near> neighbours, const W& kernel) {
-    for (const Near& near : neighbours) add(source, near, kernel);
+    over_neighbours(kernel, neighbours, x_i_, source,
+                    [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                      moment_.add(n.x_ij, n.V_grad);
+                      for (int b = 0; b < dim; ++b)
+                        add_product(sums_[b], source.v_viscous[b][j] - v_i_[b], n.V_grad);
+                    });
   }
 
   /// [a][b]: dv_b/dx_a [1/s].
@@ -32,23 +37,6 @@ class VelocityGradient {
   }
 
  private:
-  template <class W>
-  TORYU_INLINE void add(const Sources& source, const Near& near, const W& kernel) {
-    const VecLanes x_i = shifted(x_i_, near.shift);
-    for (const std::uint32_t j : near.sources) {
-      const VecLanes x_ij{x_i[0] - source.x[0][j], x_i[1] - source.x[1][j]};
-      const Lanes r2 = max(dot(x_ij, x_ij), 1e-300);
-      const Lanes inverse_r = inverse_sqrt(r2);
-      const Lanes V_G = source.V[j] * kernel.gradient_over_r(r2 * inverse_r, inverse_r);
-      const VecLanes V_grad{V_G * x_ij[0], V_G * x_ij[1]};
-      moment_.add(x_ij, V_grad);
-      for (int b = 0; b < dim; ++b) {
-        const Lanes v_ji = source.v_viscous[b][j] - v_i_[b];
-        for (int a = 0; a < dim; ++a) sums_[b][a] += v_ji * V_grad[a];
-      }
-    }
-  }
-
   VecLanes x_i_, v_i_;
   Moment moment_;
   TensorLanes sums_ = zero_tensor();  ///< one row a component of the velocity
