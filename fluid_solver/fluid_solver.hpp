@@ -7,6 +7,7 @@
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
 #include "fluid_solver/dynamics.hpp"
+#include "fluid_solver/free_surface.hpp"
 #include "fluid_solver/interface.hpp"
 #include "fluid_solver/neighbours.hpp"
 #include "fluid_solver/period.hpp"
@@ -65,7 +66,11 @@ class FluidSolver : public Solver {
   long list_builds() const { return neighbours_.builds(); }
 
  private:
-  struct Step;
+  /// The state at the start of a midpoint step.
+  struct Start {
+    VecField x, v;
+    Field rho;
+  };
   void fill_regions();
   void start_flow(std::size_t particle);
   void fill_walls();
@@ -75,7 +80,7 @@ class FluidSolver : public Solver {
   void update_neighbours(double dt);
   void step_midpoint(double dt);
   void step_symplectic(double dt);
-  void advance_from(const Step& start, double dt);
+  void advance_from(const Start& start, double dt);
   void bear_load(double dt);
   void shift(double dt);
   void note_surface(double dt);
@@ -102,6 +107,8 @@ class FluidSolver : public Solver {
   };
   std::vector<Impulse> impulses_;
   Vec gravity_impulse_ = Vec::Zero(), start_momentum_ = Vec::Zero();
+  Start start_;  ///< kept from step to step for its memory
+  FreeSurface free_surface_;
   std::optional<Shifting> shifting_;
   bool density_rate_known_ = false;  ///< of the symplectic step, from the last one
   std::optional<SurfaceRecord> surface_record_;

@@ -32,9 +32,9 @@ Lanes none_near(const Particles& fluid, std::span<const Near> nears, const VecLa
 
 }  // namespace
 
-void find_inside(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
-                 const Kernel& kernel) {
-  Field at_surface(padded(fluid.count), 0.0);
+void FreeSurface::find_inside(Particles& fluid, const ClusterList& neighbours,
+                              const std::vector<Boundary>& boundaries, const Kernel& kernel) {
+  at_surface_.resize(padded(fluid.count));
   fluid.inside.resize(padded(fluid.count));
   kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
@@ -43,11 +43,11 @@ void find_inside(Particles& fluid, const ClusterList& neighbours, const std::vec
       Moment moment;
       add_moment(moment, x_i, sources(fluid), neighbours.near(c), W);
       for (const auto& wall : boundaries) add_moment(moment, x_i, sources(wall), wall.near_fluid.near(c), W);
-      store(select(moment.smaller_eigenvalue() < surface_moment, 1.0, 0.0), at_surface, c * lane_count);
+      store(select(moment.smaller_eigenvalue() < surface_moment, 1.0, 0.0), at_surface_, c * lane_count);
     }
   });
   const bool no_surface =
-      std::all_of(at_surface.begin(), at_surface.begin() + static_cast<std::ptrdiff_t>(fluid.count),
+      std::all_of(at_surface_.begin(), at_surface_.begin() + static_cast<std::ptrdiff_t>(fluid.count),
                   [](double is) { return is == 0; });
   if (no_surface) {
     std::fill(fluid.inside.begin(), fluid.inside.end(), 1.0);
@@ -55,7 +55,7 @@ void find_inside(Particles& fluid, const ClusterList& neighbours, const std::vec
   }
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c)
-    store(none_near(fluid, neighbours.near(c), load(fluid.x, c * lane_count), at_surface, kernel.support()),
+    store(none_near(fluid, neighbours.near(c), load(fluid.x, c * lane_count), at_surface_, kernel.support()),
           fluid.inside, c * lane_count);
 }
 

@@ -10,8 +10,14 @@ namespace toryu::fluid {
 
 inline constexpr double surface_moment = 0.75;
 
-/// Fills `fluid.inside`.
-void find_inside(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
-                 const Kernel& kernel);
+class FreeSurface {
+ public:
+  /// Fills `fluid.inside`.
+  void find_inside(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
+                   const Kernel& kernel);
+
+ private:
+  Field at_surface_;  ///< 1 for a particle at the surface, else 0; kept from step to step for its memory
+};
 
 }  // namespace toryu::fluid

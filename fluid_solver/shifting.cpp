@@ -32,18 +32,12 @@ void add(Sums& sums, const VecLanes& x_i, const VecLanes& v_i, const Lanes& rho_
   });
 }
 
-/// What the particles of one cluster become.
-struct Moved {
-  VecLanes x, v;
-  Lanes rho;
-};
-
 }  // namespace
 
 void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
-                     double largest_speed, double dt) const {
+                     double largest_speed, double dt) {
   const double factor = -strength_ * kernel_.h() * largest_speed * dt, longest = 0.5 * largest_speed * dt;
-  std::vector<Moved> moved(fluid.clusters());
+  moved_.resize(fluid.clusters());
   kernel_.visit([&](const auto& W) {
     const double inverse_W_d0 = 1.0 / W.value(spacing_);
 #pragma omp parallel for schedule(dynamic, 8)
@@ -60,17 +54,17 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
       const Lanes share = load(fluid.inside, first) * min(1.0, longest * inverse(max(length, 1e-300)));
       for (auto& component : dx) component *= share;
       sums.moment.invert();
-      moved[c] = {{x_i[0] + dx[0], x_i[1] + dx[1]},
-                  {v_i[0] + dot(dx, sums.moment.renormalised(sums.v[0])),
-                   v_i[1] + dot(dx, sums.moment.renormalised(sums.v[1]))},
-                  rho_i + dot(dx, sums.moment.renormalised(sums.rho))};
+      moved_[c] = {{x_i[0] + dx[0], x_i[1] + dx[1]},
+                   {v_i[0] + dot(dx, sums.moment.renormalised(sums.v[0])),
+                    v_i[1] + dot(dx, sums.moment.renormalised(sums.v[1]))},
+                   rho_i + dot(dx, sums.moment.renormalised(sums.rho))};
     }
   });
   for (std::size_t c = 0; c < fluid.clusters(); ++c) {
     const std::size_t first = c * lane_count;
-    store(moved[c].x, fluid.x, first);
-    store(moved[c].v, fluid.v, first);
-    store(moved[c].rho, fluid.rho, first);
+    store(moved_[c].x, fluid.x, first);
+    store(moved_[c].v, fluid.v, first);
+    store(moved_[c].rho, fluid.rho, first);
   }
 }
 

@@ -21,11 +21,18 @@ class Shifting {
   /// Shifts `fluid`, where it is `inside`, by what belongs to a step of `dt` [s] at a largest speed of
   /// `largest_speed` [m/s].
   void shift(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
-             double largest_speed, double dt) const;
+             double largest_speed, double dt);
 
  private:
+  /// What the particles of one cluster become.
+  struct Moved {
+    VecLanes x, v;
+    Lanes rho;
+  };
+
   double strength_, spacing_;
   Kernel kernel_;
+  std::vector<Moved> moved_;  // kept from step to step for its memory
 };
 
 }  // namespace toryu::fluid

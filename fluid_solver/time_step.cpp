@@ -13,7 +13,6 @@
 /// diffusion and the factor rho of continuity are taken half a step old, to the first order.
 
 #include "fluid_solver/fluid_solver.hpp"
-#include "fluid_solver/free_surface.hpp"
 
 namespace toryu::fluid {
 
@@ -34,13 +33,7 @@ void add(Field& field, double dt, const Field& rate, std::size_t clusters) {
 
 }  // namespace
 
-/// The state at the start of a step.
-struct FluidSolver::Step {
-  VecField x, v;
-  Field rho;
-};
-
-void FluidSolver::advance_from(const Step& start, double dt) {
+void FluidSolver::advance_from(const Start& start, double dt) {
 #pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < fluid_.clusters(); ++c) {
     const std::size_t first = c * lane_count;
@@ -57,7 +50,7 @@ void FluidSolver::advance(double dt) {
   update_neighbours(dt);
   if (parameters_.seeks_free_surface()) {
     const auto timer = timers_.measure("free surface");
-    find_inside(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
+    free_surface_.find_inside(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
   }
   if (parameters_.integrator == Integrator::symplectic)
     step_symplectic(dt);
@@ -75,14 +68,14 @@ void FluidSolver::update_neighbours(double dt) {
 }
 
 void FluidSolver::step_midpoint(double dt) {
-  const Step start{fluid_.x, fluid_.v, fluid_.rho};
+  start_.x = fluid_.x, start_.v = fluid_.v, start_.rho = fluid_.rho;
   dynamics_.evaluate(RatesOf::both, fluid_, neighbours_.of_fluid(), boundaries_, given_, timers_);
-  advance_from(start, 0.5 * dt);
+  advance_from(start_, 0.5 * dt);
   move_boundaries(time_ + 0.5 * dt);
   dynamics_.evaluate(RatesOf::both, fluid_, neighbours_.of_fluid(), boundaries_, given_, timers_);
   bear_load(dt);
   const auto timer = timers_.measure("step");
-  advance_from(start, dt);
+  advance_from(start_, dt);
   time_ += dt;
   move_boundaries(time_);
 }

@@ -141,6 +141,7 @@ Vec SolidModel::acceleration(std::size_t particle) const {
 
 InterfaceMotion SolidModel::motion(const std::vector<std::uint32_t>& particles) const {
   InterfaceMotion result;
+  for (auto* values : {&result.position, &result.velocity}) values->reserve(dim * particles.size());
   for (const auto i : particles) {
     const Vec x = body_.X[i] + displacement(i), v = velocity(i);
     result.position.insert(result.position.end(), x.begin(), x.end());

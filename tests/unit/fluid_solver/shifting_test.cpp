@@ -41,7 +41,7 @@ Sorted sorted(const WendlandC2& kernel) {
 TEST(FreeSurface, IsInReachOfTheOuterRowsAlone) {
   const WendlandC2 kernel(1.5 * d_0);
   Sorted s = sorted(kernel);
-  find_inside(s.fluid, s.lists.of_fluid(), {}, kernel);
+  FreeSurface().find_inside(s.fluid, s.lists.of_fluid(), {}, kernel);
   int inside = 0;
   for (std::size_t i = 0; i < s.fluid.count; ++i) {
     const Vec x = at(s.fluid.x, i);
