@@ -249,7 +249,9 @@ void describe(ParameterTable& table, Observer& observer) {
                 "a largest void needs a 'box'");
 }
 
-void describe(ParameterTable& table, Parameters& p) {
+namespace {
+
+void describe_medium(ParameterTable& table, Parameters& p) {
   table.number(
       "density", p.density,
       {.unit = "kg/m3", .minimum = 0, .above_minimum = true, .required = true, .help = "rest density rho_0"});
@@ -261,6 +263,9 @@ void describe(ParameterTable& table, Parameters& p) {
                 .help = "c_0 of (3), at least ten times the largest speed"});
   table.integer("stiffness_exponent", p.stiffness_exponent,
                 {.minimum = 1, .maximum = 7, .help = "gamma of (3)"});
+}
+
+void describe_discretisation(ParameterTable& table, Parameters& p) {
   table.number(
       "spacing", p.spacing,
       {.unit = "m", .minimum = 0, .above_minimum = true, .required = true, .help = "particle spacing d_0"});
@@ -283,10 +288,16 @@ void describe(ParameterTable& table, Parameters& p) {
        .maximum = 0.3,
        .help = "largest random distance of a particle from the lattice at the start, over the spacing; "
                "a lattice that is strained stays one, and shifting finds nothing to mend"});
+}
+
+void describe_start(ParameterTable& table, Parameters& p) {
   table.list("region", p.regions, "where there is fluid at the start");
   table.list("hole", p.holes, "cut out of the regions");
   table.optional("hydrostatic_start", p.hydrostatic_start, "start at rest under gravity");
   table.optional("initial_flow", p.initial_flow, "a flow to start with");
+}
+
+void describe_terms(ParameterTable& table, Parameters& p) {
   table.optional("central_force", p.central_force, "pulls the fluid towards a point");
   table.optional("background_pressure", p.background_pressure,
                  "shifts (3); for a medium enclosed on all sides, a free surface would burst");
@@ -303,8 +314,9 @@ void describe(ParameterTable& table, Parameters& p) {
   table.optional("wall_repulsion", p.wall_repulsion, "keeps particles off the sharp corners of walls");
   table.optional("removal", p.removal, "what comes off the work pieces; writes surface.h5");
   table.group("wall_model", p.wall_model, "how walls act on the fluid, (27)-(29)");
-  table.group("limits", p.limits, "bounds of physics");
-  table.list("observer", p.observers, "numbers reported over time in fluid.csv");
+}
+
+void require_consistency(ParameterTable& table, const Parameters& p) {
   table.require(!p.regions.empty(), "region", "a fluid needs at least one [[fluid.region]]");
   table.require(!p.consistent_gradients || p.particle_shifting, "consistent_gradients",
                 "consistent gradients do not drive particles apart: they need [fluid.particle_shifting]");
@@ -314,6 +326,18 @@ void describe(ParameterTable& table, Parameters& p) {
                 "a flow_amplitude needs [fluid.initial_flow]; a flow_error one of Taylor-Green with a "
                 "[fluid.laminar_viscosity]");
   table.require(names_differ(p.observers), "observer", "two [[fluid.observer]] have the same name");
+}
+
+}  // namespace
+
+void describe(ParameterTable& table, Parameters& p) {
+  describe_medium(table, p);
+  describe_discretisation(table, p);
+  describe_start(table, p);
+  describe_terms(table, p);
+  table.group("limits", p.limits, "bounds of physics");
+  table.list("observer", p.observers, "numbers reported over time in fluid.csv");
+  require_consistency(table, p);
 }
 
 }  // namespace toryu::fluid

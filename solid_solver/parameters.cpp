@@ -60,13 +60,7 @@ void describe_material(ParameterTable& table, SolidParameters& p) {
   p.material = p.yeoh ? p.yeoh->small_strain(given.density) : given;
 }
 
-}  // namespace
-
-void describe(ParameterTable& table, SolidParameters& p) {
-  table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian"},
-               {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
-                        "right; updated: present neighbours, can tear"});
-  describe_material(table, p);
+void describe_discretisation(ParameterTable& table, SolidParameters& p) {
   table.number("spacing", p.spacing,
                {.unit = "m",
                 .minimum = 0,
@@ -93,12 +87,19 @@ void describe(ParameterTable& table, SolidParameters& p) {
       "integrator", p.integrator, {"midpoint", "symplectic"},
       {.help = "updated Lagrangian: two evaluations a step as in the thesis, or one and no growth of "
                "undamped modes; the total Lagrangian form's is symplectic"});
+}
+
+/// Its shape, what holds and loads it, and how it starts.
+void describe_body(ParameterTable& table, SolidParameters& p) {
   table.list("region", p.regions, "boxes filled with the solid; they may touch but not overlap");
   table.list("hole", p.holes, "boxes cut out of the regions");
   table.list("clamp", p.clamps, "boxes whose particles are held in place");
   table.list("load", p.loads, "constant forces on the particles of a box");
   table.list("observer", p.observers, "material points whose displacement goes to solid.csv");
   table.optional("initial_velocity", p.initial_velocity, "velocity at the start; absent: at rest");
+}
+
+void describe_terms(ParameterTable& table, SolidParameters& p) {
   table.optional("hourglass", p.hourglass,
                  "pair penalty on modes the strain does not see (total Lagrangian)");
   table.optional("artificial_viscosity", p.artificial_viscosity, "damps approaching pairs");
@@ -114,8 +115,9 @@ void describe(ParameterTable& table, SolidParameters& p) {
       "bonds", p.bonds,
       "columns that tell whether the body tears or its particles clump: stretches of pairs adjacent "
       "at the start");
-  table.group("limits", p.limits, "bounds beyond which the run stops");
+}
 
+void require_consistency(ParameterTable& table, const SolidParameters& p) {
   const bool total = p.formulation == Formulation::total_lagrangian;
   table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
   table.require(total || (p.law == ElasticLaw::saint_venant_kirchhoff && !p.yeoh), p.yeoh ? "yeoh" : "law",
@@ -142,6 +144,20 @@ void describe(ParameterTable& table, SolidParameters& p) {
   table.require(!total || p.gradients == Gradients::plain, "gradients",
                 "'gradients' in [solid] is for formulation = \"updated_lagrangian\" only; the other always "
                 "renormalises");
+}
+
+}  // namespace
+
+void describe(ParameterTable& table, SolidParameters& p) {
+  table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian"},
+               {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
+                        "right; updated: present neighbours, can tear"});
+  describe_material(table, p);
+  describe_discretisation(table, p);
+  describe_body(table, p);
+  describe_terms(table, p);
+  table.group("limits", p.limits, "bounds beyond which the run stops");
+  require_consistency(table, p);
 }
 
 }  // namespace toryu
