@@ -235,8 +235,8 @@ Vec SolidModel::momentum() const {
 }
 
 std::vector<Vec> SolidModel::positions() const {
-  std::vector<Vec> x;
-  for (std::size_t i = 0; i < particle_count(); ++i) x.push_back(body_.X[i] + displacement(i));
+  std::vector<Vec> x(particle_count());
+  for (std::size_t i = 0; i < particle_count(); ++i) x[i] = body_.X[i] + displacement(i);
   return x;
 }
 
