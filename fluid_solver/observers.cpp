@@ -1,7 +1,6 @@
 #include "fluid_solver/observers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "fluid_solver/initial_flow.hpp"
@@ -20,34 +19,32 @@ double share_in(const Box& box, const Vec& x, double side) {
   return share;
 }
 
-/// Squares of the distances of points from the particle nearest to each. The points fill a box,
-/// `step` apart.
-class Nearest {
- public:
-  Nearest(const Box& box, double step, double reach) : box_(box), step_(step), reach_(reach) {
-    for (int a = 0; a < dim; ++a) count_[a] = std::lround((box.max[a] - box.min[a]) / step) + 1;
-    r2_.assign(static_cast<std::size_t>(count_[0] * count_[1]), reach * reach);
-  }
-  void add(const Vec& x) {
-    std::array<long, dim> first{}, last{};
-    for (int a = 0; a < dim; ++a) {
-      first[a] = std::max(static_cast<long>(std::floor((x[a] - reach_ - box_.min[a]) / step_)), 0L);
-      last[a] = std::min(static_cast<long>(std::ceil((x[a] + reach_ - box_.min[a]) / step_)) + 1, count_[a]);
-    }
-    for (long i = first[0]; i < last[0]; ++i)
-      for (long j = first[1]; j < last[1]; ++j) {
-        double& r2 = r2_[static_cast<std::size_t>(i * count_[1] + j)];
-        r2 = std::min(r2, (box_.min + step_ * Vec(i, j) - x).squaredNorm());
+/// Farthest that one of the points which fill a box, `step` apart, lies from any of `particles`; at most
+/// `reach`. Column by column of points, so that it takes little memory.
+double farthest_from_any(std::vector<Vec> particles, const Box& box, double step, double reach) {
+  std::sort(particles.begin(), particles.end(), [](const Vec& a, const Vec& b) { return a[0] < b[0]; });
+  const auto count = [&](int a) { return std::lround((box.max[a] - box.min[a]) / step) + 1; };
+  const long columns = count(0), rows = count(1);
+  std::vector<double> r2(static_cast<std::size_t>(rows));
+  double farthest = 0;
+  auto first = particles.begin();
+  for (long i = 0; i < columns; ++i) {
+    std::fill(r2.begin(), r2.end(), reach * reach);
+    const double x = box.min[0] + step * static_cast<double>(i);
+    while (first != particles.end() && (*first)[0] < x - reach) ++first;
+    for (auto p = first; p != particles.end() && (*p)[0] <= x + reach; ++p) {
+      const double y = (*p)[1] - box.min[1];
+      const long begin = std::max(static_cast<long>(std::floor((y - reach) / step)), 0L);
+      const long end = std::min(static_cast<long>(std::ceil((y + reach) / step)) + 1, rows);
+      for (long j = begin; j < end; ++j) {
+        double& nearest = r2[static_cast<std::size_t>(j)];
+        nearest = std::min(nearest, (box.min + step * Vec(i, j) - *p).squaredNorm());
       }
+    }
+    farthest = std::max(farthest, *std::max_element(r2.begin(), r2.end()));
   }
-  double farthest() const { return std::sqrt(*std::max_element(r2_.begin(), r2_.end())); }
-
- private:
-  Box box_;
-  double step_, reach_;
-  std::array<long, dim> count_{};
-  std::vector<double> r2_;
-};
+  return std::sqrt(farthest);
+}
 
 }  // namespace
 
@@ -102,14 +99,17 @@ double flow_error(const Particles& fluid, const InitialFlow& flow, double share)
 
 double largest_void(const Particles& fluid, const std::vector<Boundary>& walls, const Box& box,
                     double spacing, const Period& period) {
-  Nearest nearest(box, 0.1 * spacing, 2 * spacing);
+  const double reach = 2 * spacing;
+  const Box around{box.min - Vec::Constant(reach), box.max + Vec::Constant(reach)};
+  std::vector<Vec> near;
   const auto add = [&](const VecField& x, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
-      for (const Vec& shift : period.shifts()) nearest.add(at(x, i) + shift);
+      for (const Vec& shift : period.shifts())
+        if (const Vec image = at(x, i) + shift; around.contains(image)) near.push_back(image);
   };
   add(fluid.x, fluid.count);
   for (const auto& wall : walls) add(wall.x, wall.count);
-  return nearest.farthest() / spacing;
+  return farthest_from_any(std::move(near), box, 0.1 * spacing, reach) / spacing;
 }
 
 Observation observe(const Observer& observer, const Observed& now) {
