@@ -16,7 +16,9 @@ namespace {
 constexpr int largest_calm_window = 2;
 
 constexpr double usual_smoothing_ratio = 1.3;  // where the case does not say it
-constexpr double usual_courant_number = 0.25;  // step of the fluid over h/c_0
+// Limits of the fluid's step, over h/c_0 and over h^2 and the kinematic viscosity; those of acceleration and
+// friction show only in the flow.
+constexpr double acoustic_share = 0.25, viscous_share = 0.125;
 
 /// Thickness of the thinnest region [m]; infinite without one.
 double thickness(const CaseFile& file) {
@@ -36,6 +38,24 @@ double thickness(const CaseFile& file) {
   }
 }
 
+/// Viscosity of the medium at rest [Pa s], 0 if the case gives none.
+double viscosity_at_rest(const CaseFile& file) {
+  const bool thickens = file.number("fluid.power_law.exponent").value_or(0.0) > 1;
+  for (const char* key :
+       {"fluid.laminar_viscosity.dynamic_viscosity", "fluid.carreau.zero_shear_viscosity",
+        thickens ? "fluid.power_law.smallest_viscosity" : "fluid.power_law.largest_viscosity"})
+    if (const auto viscosity = file.number(key)) return *viscosity;
+  return 0;
+}
+
+/// Length of a window of the fluid at rest [s], as far as the case tells it.
+double foreseen_window(const CaseFile& file, const FluidTraits& fluid, int steps) {
+  const double h = 0.5 * fluid.reach, nu = viscosity_at_rest(file) / fluid.density;
+  double limit = acoustic_share * h / fluid.sound_speed;
+  if (nu > 0) limit = std::min(limit, viscous_share * h * h / nu);
+  return steps * file.number("fluid.time_step_share").value_or(1.0) * limit;
+}
+
 }  // namespace
 
 std::vector<std::string> beyond_edges(const CaseFile& file, const CouplingParameters& coupling) {
@@ -50,12 +70,11 @@ std::vector<std::string> beyond_edges(const CaseFile& file, const CouplingParame
                     .sound_speed = number("fluid.sound_speed"),
                     .spacing = number("fluid.spacing")};
   if (!(fluid.density > 0 && fluid.sound_speed > 0 && fluid.spacing > 0)) return said;
-  const double h = file.number("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
-  fluid.reach = 2 * h;
+  fluid.reach = 2 * file.number("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
   const double depth = std::min(thickness(file), layer_depth(fluid));  // no deeper than the kernel sees
   const double ratio = number("solid.density") * depth / (fluid.density * fluid.spacing);
-  const double least = least_mass_ratio(
-      coupling.scheme, fluid, coupling.fluid_steps_per_window * usual_courant_number * h / fluid.sound_speed);
+  const double least =
+      least_mass_ratio(coupling.scheme, fluid, foreseen_window(file, fluid, coupling.fluid_steps_per_window));
   if (ratio > 0 && ratio < least) said.push_back(too_light(ratio, least));
   return said;
 }

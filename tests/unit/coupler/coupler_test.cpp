@@ -115,14 +115,16 @@ TEST(CouplingParameters, AnUnknownLoadIsAFault) {
                   "case.toml:2:1: error: 'loads' must name 'pressure_and_viscous', 'friction' or both")));
 }
 
-/// What is said of a layer of 20 mm and `density` [kg/m3] in water of 10 mm, and of `coupling`.
-std::vector<std::string> said_of(double density, const CouplingParameters& coupling) {
+/// What is said of a layer of 20 mm and `density` [kg/m3] in water of 10 mm with more lines, and of
+/// `coupling`.
+std::vector<std::string> said_of(double density, const CouplingParameters& coupling,
+                                 const std::string& of_fluid = "") {
   const Folder folder;
   std::ofstream(folder.path / "case.toml") << fmt::format(
-      "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\n[solid]\ndensity = {}\n"
+      "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\n{}\n[solid]\ndensity = {}\n"
       "[[solid.region]]\nbox = {{ min = [0, 0], max = [1, 0.5] }}\n"
       "[[solid.region]]\nbox = {{ min = [0, 0.5], max = [1, 0.52] }}\n",
-      density);
+      of_fluid, density);
   return beyond_edges(CaseFile(folder.path, {}), coupling);
 }
 
@@ -136,6 +138,24 @@ TEST(Guards, ForeseeALayerThatIsTooLight) {
   EXPECT_THAT(said_of(200, coupling), testing::SizeIs(1));
   coupling.scheme = CouplingScheme::serial_implicit;
   EXPECT_TRUE(said_of(180, coupling).empty());
+}
+
+TEST(Guards, CountAWindowAsLongAsTheFluidsSteps) {
+  // C = 0.25 h/d_0 times share or steps, h = 1.3 d_0: (C/2)^2 = 0.660 at 5, above the least of 0.385
+  const auto bears = testing::ElementsAre(testing::HasSubstr("the scheme bears 0.66"));
+  EXPECT_TRUE(said_of(300, {}).empty());  // 0.6 of a row
+  EXPECT_THAT(said_of(300, {}, "time_step_share = 5"), bears);
+  CouplingParameters two_steps;
+  two_steps.fluid_steps_per_window = 2;
+  EXPECT_THAT(said_of(300, two_steps, "time_step_share = 2.5"), bears);
+  // of viscosity the window is shorter: 0.125 h^2/nu is a tenth of 0.25 h/c_0 at nu = 5 h c_0 = 1.3 m2/s
+  EXPECT_TRUE(said_of(300, {}, "time_step_share = 5\nlaminar_viscosity.dynamic_viscosity = 1300").empty());
+  EXPECT_TRUE(said_of(300, {}, "time_step_share = 5\ncarreau.zero_shear_viscosity = 1300").empty());
+  const std::string power_law =
+      "time_step_share = 5\npower_law.smallest_viscosity = 1\n"
+      "power_law.largest_viscosity = 1300\npower_law.exponent = ";
+  EXPECT_TRUE(said_of(300, {}, power_law + "0.5").empty());
+  EXPECT_THAT(said_of(300, {}, power_law + "1.5"), bears);  // thin while it is at rest
 }
 
 TEST(Guards, SeeNoDeeperThanTheKernel) {
