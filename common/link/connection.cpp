@@ -121,6 +121,7 @@ void Connection::check_coupler() {
   if (now - checked_ < longest_sleep) return;
   if (now - checked_ > 1s) coupler_moved_ = now;  // silence counts only while this side listened
   checked_ = now;
+  node_.check_quality();  // a coupler of another protocol never comes
   if (!coupler_came_) {
     if (now - start_ > Seconds(time_limit_))
       throw PeerLost(fmt::format("coupler did not come within {} s", time_limit_));
@@ -136,7 +137,6 @@ void Connection::check_coupler() {
   if (now - coupler_moved_ > Seconds(time_limit_))
     throw PeerLost(
         fmt::format("coupler hangs: it has not moved for {} s in window {}", time_limit_, window_.number));
-  node_.check_quality();
 }
 
 /// Hears what the coupler says of the run, and looks after it and after interruptions.

@@ -19,8 +19,9 @@ NAMES = {"coupler": "coupler", "fluid": "fake_fluid", "solid": "fake_solid"}
 
 
 class ProcessTest(unittest.TestCase):
-    def run_of_three(self, fluid="fake_fluid", **settings):
-        programs = {role: PROGRAMS["bin"] / name for role, name in (NAMES | {"fluid": fluid}).items()}
+    def run_of_three(self, fluid="fake_fluid", coupler="coupler", **settings):
+        names = NAMES | {"fluid": fluid, "coupler": coupler}
+        programs = {role: PROGRAMS["bin"] / name for role, name in names.items()}
         return self.enterContext(trio.Trio(programs, **settings))
 
     def assert_ending(self, run, name, code, *words):
@@ -250,6 +251,17 @@ class Refusal(ProcessTest):
                 for name in ("coupler", "solid"):
                     self.assert_ending(run, name, code, text)
                 run.wait("fluid", LIMIT)
+
+    def test_of_a_fluid_of_an_older_protocol(self):
+        run = self.run_of_three(fluid="outdated_peer").start("fluid").start("coupler").start("solid")
+        for name in ("coupler", "solid"):
+            self.assert_ending(run, name, trio.EXIT_BAD_INPUT, "toryu/hello", "another protocol")
+
+    def test_of_a_coupler_of_an_older_protocol(self):
+        run = self.run_of_three(coupler="outdated_peer").start("coupler", environment={"PART": "coupler"})
+        run.start("fluid").start("solid")
+        for name in ("fluid", "solid"):
+            self.assert_ending(run, name, trio.EXIT_BAD_INPUT, "toryu/session", "another protocol")
 
     def test_false_impulse_is_reported(self):
         run = self.run_of_three(fluid="faulty_fluid", end_time="0.01").start("coupler").start("solid")

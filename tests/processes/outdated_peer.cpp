@@ -1,0 +1,74 @@
+/// A program of protocol 2, for the tests of what those of today make of it: the fluid or the coupler of a
+/// run, as the environment variable PART says, which introduces itself and waits.
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "common/link/dds.hpp"
+#include "common/link/wire.hpp"
+#include "common/run/program.hpp"
+#include "messages_2.h"
+
+namespace toryu::dds {
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_2_Hello>() {
+  return toryu_2_Hello_desc;
+}
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_2_Session>() {
+  return toryu_2_Session_desc;
+}
+}  // namespace toryu::dds
+
+namespace {
+
+using namespace toryu;
+using namespace std::chrono_literals;
+
+std::string program = "outdated_peer", nothing, units = wire::units;
+
+[[noreturn]] void wait() {
+  for (;;) {
+    throw_if_interrupted();
+    std::this_thread::sleep_for(50ms);
+  }
+}
+
+void play_fluid(dds::Node& node) {
+  dds::Writer<toryu_2_Hello> writer(node, wire::hello);
+  toryu_2_Hello hello{};
+  hello.sender = dds::random_id();
+  hello.role = toryu_2_FLUID;
+  hello.program = program.data();
+  hello.version = nothing.data();
+  hello.protocol = 2;
+  hello.units = units.data();
+  hello.dimension = dim;
+  hello.used_case = nothing.data();
+  writer.write(hello);
+  wait();
+}
+
+void play_coupler(dds::Node& node) {
+  dds::Writer<toryu_2_Session> writer(node, wire::session);
+  toryu_2_Session session{};
+  session.session_id = dds::random_id();
+  session.reason = nothing.data();
+  writer.write(session);
+  wait();
+}
+
+ExitCode run(const Options& options) {
+  dds::Node node(dds::meeting_place(options.out));
+  const char* part = std::getenv("PART");
+  if (part != nullptr && part == std::string("coupler")) play_coupler(node);
+  play_fluid(node);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("outdated_peer", argc, argv, run);
+}
