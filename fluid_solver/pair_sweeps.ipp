@@ -62,7 +62,14 @@ TORYU_INLINE void add_viscous(const auto& term, const Targets& i, const Sources&
   if constexpr (requires { term.viscous(i, s, j, p, r); }) term.viscous(i, s, j, p, r);
 }
 
-/// A term that is another one between the fluid and a wall has `at_wall`.
+/// A term that is another one between the fluid and a wall has `density_at_wall` or `at_wall`.
+TORYU_INLINE void add_density_at_wall(const auto& term, const Targets& i, const Sources& s, std::size_t j,
+                                      const Pair& p, Rates& r) {
+  if constexpr (requires { term.density_at_wall(i, s, j, p, r); })
+    term.density_at_wall(i, s, j, p, r);
+  else
+    add_density(term, i, s, j, p, r);
+}
 TORYU_INLINE void add_at_wall(const auto& term, const Targets& i, const Sources& s, std::size_t j,
                               const Pair& p, Rates& r) {
   if constexpr (requires { term.at_wall(i, s, j, p, r); })
@@ -124,7 +131,7 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
     const Sources wall = sources(boundaries[b]);
     const VecLanes before = rates.a;
     over_pairs(kernel, near, i, x_i, wall, [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
-      if constexpr (of_density<wanted>) (add_density(term, i, wall, j, pair, rates), ...);
+      if constexpr (of_density<wanted>) (add_density_at_wall(term, i, wall, j, pair, rates), ...);
       if constexpr (of_velocity<wanted>) {
         (add_at_wall(term, i, wall, j, pair, rates), ...);
         if (sweeps.viscous_walls) (add_viscous(term, i, wall, j, pair, rates), ...);
@@ -175,8 +182,8 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
   if (wanted == RatesOf::both)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, given, Continuity{},
-                                      Pressure{wall_suction}, term...);
+          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, given,
+                                      Continuity{wall_suction}, Pressure{wall_suction}, term...);
         },
         terms.diffusion, terms.artificial, terms.viscous, terms.repulsion);
   else if (wanted == RatesOf::velocity)
@@ -189,8 +196,8 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
   else
     std::visit(
         [&](const auto& diffusion) {
-          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, given, Continuity{},
-                                         diffusion);
+          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, given,
+                                         Continuity{wall_suction}, diffusion);
         },
         terms.diffusion);
 }

@@ -236,5 +236,19 @@ TEST(FluidSolver, NamesTheLimitThatRulesTheStep) {
   EXPECT_EQ(heavy.time_step_rule(), "force");
 }
 
+TEST(FluidSolver, LetsADropLeaveTheFloorWithTheDensityOfWater) {
+  const auto thinned = [](bool suction) {
+    Setting setting = empty_space();
+    setting.scene.walls = {{"floor", {Vec(-0.15, -0.15), Vec(0.2, 0)}, {}}};
+    setting.parameters.regions = {{"drop", {Vec(0, 0), Vec(0.05, 0.05)}, Vec(0, 1)}};
+    setting.parameters.wall_model.suction = suction;
+    FluidSolver solver = setting.solver();
+    run_until(solver, 0.2);
+    return 1 - solver.particles().rho[0] / 1000;
+  };
+  EXPECT_LT(std::abs(thinned(false)), 1e-12);
+  EXPECT_GT(thinned(true), 0.001);
+}
+
 }  // namespace
 }  // namespace toryu::fluid
