@@ -41,13 +41,6 @@ void Boundary::sort() {
   strips.index(x[0], count);
 }
 
-bool wall_in_reach(const std::vector<Boundary>& boundaries, std::size_t cluster) {
-  for (const auto& wall : boundaries)
-    for (const Near& near : wall.near_fluid.near(cluster))
-      if (!near.sources.empty()) return true;
-  return false;
-}
-
 namespace {
 
 // A sum of kernel values below this share of W(0) means that no fluid is in reach.

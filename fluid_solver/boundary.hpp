@@ -67,9 +67,6 @@ inline Sources sources(const Boundary& b) {
           b.V.data(),    b.rho.data(),  b.p_rho2.data(),       b.eta.data(), pointers(b.eta_grad_v)};
 }
 
-/// Whether a particle of any boundary is near a cluster of the fluid.
-bool wall_in_reach(const std::vector<Boundary>& boundaries, std::size_t cluster);
-
 /// Extrapolates pressure (29) and velocity (27) from the fluid to the particles of `boundary` near it.
 void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity);
 

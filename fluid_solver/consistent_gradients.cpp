@@ -61,19 +61,19 @@ struct Difference {
 }  // namespace
 
 void make_gradients_consistent(RatesOf wanted, double mu, Particles& fluid, const ClusterList& neighbours,
-                               const std::vector<Boundary>& boundaries, const Kernel& kernel) {
+                               const Kernel& kernel) {
   kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c) {
-      if (wall_in_reach(boundaries, c)) continue;
       const std::size_t first = c * lane_count;
-      const Lanes rho = load(fluid.rho, first), inside = load(fluid.inside, first);
+      const Lanes rho = load(fluid.rho, first), deep = load(fluid.deep, first);
+      if (sum_of(deep) == 0) continue;
       Sums sums = sums_of(fluid, mu, W, first, neighbours.near(c));
       const Difference more = difference(sums, rho);
       if (wanted != RatesOf::velocity)
-        store(load(fluid.drho, first) - inside * rho * more.divergence, fluid.drho, first);
+        store(load(fluid.drho, first) - deep * rho * more.divergence, fluid.drho, first);
       if (wanted != RatesOf::density)
-        for (int a = 0; a < dim; ++a) store(load(fluid.a[a], first) + inside * more.a[a], fluid.a[a], first);
+        for (int a = 0; a < dim; ++a) store(load(fluid.a[a], first) + deep * more.a[a], fluid.a[a], first);
     }
   });
 }

@@ -162,7 +162,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
   kernel_.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries, given); });
   if (parameters_.consistent_gradients)
     make_gradients_consistent(wanted, viscosity_varies() ? 0.0 : viscosity_at_rest(), fluid, neighbours,
-                              boundaries, kernel_);
+                              kernel_);
   if (velocity && friction_) brake_by_friction(fluid, boundaries, given);
 }
 

@@ -15,19 +15,20 @@ void add_moment(Moment& moment, const VecLanes& x_i, const Sources& sources, std
   });
 }
 
-/// 1 where particle i of the cluster has none of those of `at_surface` within `support`.
-Lanes none_near(const Particles& fluid, std::span<const Near> nears, const VecLanes& x_i,
-                const Field& at_surface, double support) {
-  Lanes inside = 1.0;
+/// 1 where particle i of the cluster has none of the `sources` that count within `support`.
+template <class Counts>
+Lanes none_near(const VecLanes& x_i, const Sources& sources, std::span<const Near> nears, double support,
+                Counts&& counts) {
+  Lanes none = 1.0;
   for (const Near& near : nears) {
     const VecLanes x = shifted(x_i, near.shift);
     for (const std::uint32_t j : near.sources) {
-      if (at_surface[j] == 0) continue;
-      const VecLanes x_ij{x[0] - fluid.x[0][j], x[1] - fluid.x[1][j]};
-      inside = select(dot(x_ij, x_ij) < support * support, 0.0, inside);
+      if (!counts(j)) continue;
+      const VecLanes x_ij{x[0] - sources.x[0][j], x[1] - sources.x[1][j]};
+      none = select(dot(x_ij, x_ij) < support * support, 0.0, none);
     }
   }
-  return inside;
+  return none;
 }
 
 }  // namespace
@@ -55,8 +56,26 @@ void FreeSurface::find_inside(Particles& fluid, const ClusterList& neighbours,
   }
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c)
-    store(none_near(fluid, neighbours.near(c), load(fluid.x, c * lane_count), at_surface_, kernel.support()),
+    store(none_near(load(fluid.x, c * lane_count), sources(fluid), neighbours.near(c), kernel.support(),
+                    [&](std::uint32_t j) { return at_surface_[j] != 0; }),
           fluid.inside, c * lane_count);
+}
+
+bool is_closed(const Particles& fluid) {
+  return std::all_of(fluid.inside.begin(), fluid.inside.begin() + static_cast<std::ptrdiff_t>(fluid.count),
+                     [](double inside) { return inside > 0; });
+}
+
+void find_deep(Particles& fluid, const std::vector<Boundary>& boundaries, const Kernel& kernel) {
+  fluid.deep.resize(padded(fluid.count));
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::size_t c = 0; c < fluid.clusters(); ++c) {
+    Lanes deep = load(fluid.inside, c * lane_count);
+    for (const auto& wall : boundaries)
+      deep *= none_near(load(fluid.x, c * lane_count), sources(wall), wall.near_fluid.near(c),
+                        kernel.support(), [](std::uint32_t) { return true; });
+    store(deep, fluid.deep, c * lane_count);
+  }
 }
 
 }  // namespace toryu::fluid

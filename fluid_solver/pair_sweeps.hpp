@@ -48,7 +48,7 @@ struct PairSweeps {
   const BodyForce& body_force;
   bool viscous_walls;
   bool wall_suction;
-  bool tensile_control;  ///< needs `inside` of the fluid
+  bool tensile_control;  ///< needs `deep` of the fluid
 
   /// Fills the rates a, drho of `fluid`, and `given` where the velocity is among them. Opens a parallel
   /// region. Defined for CubicSpline and WendlandC2.

@@ -109,8 +109,7 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
   Targets i = load_targets(fluid, first);
   const VecLanes x_i = i.x;
   const Lanes p_rho2_i = i.p_rho2;
-  if (sweeps.tensile_control && !wall_in_reach(boundaries, cluster))
-    i.p_rho2 = without_tension(p_rho2_i, load(fluid.inside, first));
+  if (sweeps.tensile_control) i.p_rho2 = without_tension(p_rho2_i, load(fluid.deep, first));
   Rates rates;
   over_pairs(kernel, neighbours.near(cluster), i, x_i, own,
              [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {

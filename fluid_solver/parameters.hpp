@@ -202,7 +202,9 @@ struct Parameters {
 
   double h() const { return smoothing_ratio * spacing; }
   /// Whether a term asks who has a free surface in reach.
-  bool seeks_free_surface() const { return particle_shifting || tensile_control || consistent_gradients; }
+  bool seeks_free_surface() const { return particle_shifting || keeps_off_walls(); }
+  /// Whether one of them acts away from walls alone.
+  bool keeps_off_walls() const { return tensile_control || consistent_gradients; }
   double strip_width() const;  ///< of the order in which particles are stored [m]
 };
 void describe(ParameterTable& table, Parameters& parameters);

@@ -51,6 +51,7 @@ void FluidSolver::advance(double dt) {
   if (parameters_.seeks_free_surface()) {
     const auto timer = timers_.measure("free surface");
     free_surface_.find_inside(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
+    if (parameters_.keeps_off_walls()) find_deep(fluid_, boundaries_, dynamics_.kernel());
   }
   if (parameters_.integrator == Integrator::symplectic)
     step_symplectic(dt);

@@ -8,9 +8,7 @@
 /// negative p_i draws neighbours together until they pair, with s_i = -1 it does not. Momentum between
 /// particles is kept only as far as they lie evenly; so walls, whose loads are counted, must have s_i = 1,
 /// and then the fluid near them too: a sum with two signs is no gradient (in cases/retreating_piston it tore
-/// the medium at once). What is near a wall is judged by whole clusters of `lane_count` particles and by
-/// their lists, skin included: with `neighbour_skin` 0.05 instead of 0.2 the pull on that piston changes by
-/// 5e-4.
+/// the medium at once).
 ///
 /// Artificial pressure (Monaghan 2000) keeps momentum, but its repulsion is a pressure of its own, a tenth of
 /// the suction; it is not offered.
@@ -21,8 +19,8 @@
 namespace toryu::fluid {
 
 /// s_i p_i/rho_i^2 from p_i/rho_i^2.
-TORYU_INLINE Lanes without_tension(Lanes p_rho2, Lanes inside) {
-  return select((p_rho2 < 0.0) & (inside > 0.0), -p_rho2, p_rho2);
+TORYU_INLINE Lanes without_tension(Lanes p_rho2, Lanes deep) {
+  return select((p_rho2 < 0.0) & (deep > 0.0), -p_rho2, p_rho2);
 }
 
 }  // namespace toryu::fluid

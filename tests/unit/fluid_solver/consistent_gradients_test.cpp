@@ -36,7 +36,7 @@ struct Block {
       fluid.p_rho2[i] = fluid.p[i] / (rho * rho);
       fluid.V[i] = d_0 * d_0;
     }
-    fluid.inside.assign(padded(fluid.count), 1.0);
+    fluid.deep.assign(padded(fluid.count), 1.0);
     for (std::size_t i = 0; i < fluid.count; ++i) sum_plainly(i);
   }
   void sum_plainly(std::size_t i) {
@@ -75,7 +75,7 @@ TEST(ConsistentGradients, AreExactInLinearFields) {
   const std::size_t i = block.middle();
   EXPECT_GT(std::abs(block.fluid.drho[i] + 5 * rho), 0.01 * rho);  // which the plain sums are not
   EXPECT_GT((at(block.fluid.a, i) + slope / rho).norm(), 0.1 * slope.norm() / rho);
-  make_gradients_consistent(RatesOf::both, mu, block.fluid, block.lists.of_fluid(), {}, kernel);
+  make_gradients_consistent(RatesOf::both, mu, block.fluid, block.lists.of_fluid(), kernel);
   EXPECT_NEAR(block.fluid.drho[i], -5 * rho, 1e-9 * rho);
   EXPECT_LT((at(block.fluid.a, i) + slope / rho).norm(), 1e-9 * slope.norm() / rho);
 }
@@ -87,7 +87,7 @@ TEST(ConsistentGradients, GiveTheViscousForceOfACurvedVelocity) {
   const std::size_t i = block.middle();
   const Vec exact = mu / rho * Vec(4, -6);
   const double plain = (at(block.fluid.a, i) - exact).norm() / exact.norm();
-  make_gradients_consistent(RatesOf::velocity, mu, block.fluid, block.lists.of_fluid(), {}, kernel);
+  make_gradients_consistent(RatesOf::velocity, mu, block.fluid, block.lists.of_fluid(), kernel);
   const double consistent = (at(block.fluid.a, i) - exact).norm() / exact.norm();
   EXPECT_GT(plain, 0.1);
   EXPECT_LT(consistent, 0.1);
@@ -97,8 +97,8 @@ TEST(ConsistentGradients, LeaveAloneWhatIsNotAskedFor) {
   Block block(linear);
   const std::size_t i = block.middle();
   const Particles before = block.fluid;
-  block.fluid.inside[i] = 0;
-  make_gradients_consistent(RatesOf::density, mu, block.fluid, block.lists.of_fluid(), {}, kernel);
+  block.fluid.deep[i] = 0;
+  make_gradients_consistent(RatesOf::density, mu, block.fluid, block.lists.of_fluid(), kernel);
   EXPECT_EQ(block.fluid.drho[i], before.drho[i]);  // with a free surface in reach
   EXPECT_EQ(block.fluid.a, before.a);
   EXPECT_NE(block.fluid.drho, before.drho);

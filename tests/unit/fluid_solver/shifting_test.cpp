@@ -125,5 +125,38 @@ TEST(TensileControl, TakesTheForceOffAUniformSuction) {
   EXPECT_LT(calm[middle].norm(), 1e-6 * pulled[middle].norm());
 }
 
+/// Positions of a disordered block under suction after two steps, with a wall on its left; lists that reach a
+/// `skin` farther than the kernel.
+std::vector<Vec> beside_a_wall(double skin, bool controlled) {
+  Setting s = block();
+  s.parameters.neighbour_skin = skin;
+  s.parameters.background_pressure = BackgroundPressure{-500};
+  s.scene.walls = {{"wall", {Vec(-0.2, 0), Vec(0, 0.7)}, {}}};
+  if (controlled) s.parameters.tensile_control = TensileControl{};
+  FluidSolver solver = s.solver();
+  for (int n = 0; n < 2; ++n) solver.advance(1e-3);
+  return positions(solver);
+}
+
+TEST(TensileControl, DoesNotDependOnTheNeighbourLists) {
+  const auto tight = beside_a_wall(0.02, true), wide = beside_a_wall(0.5, true);
+  EXPECT_LT(largest_difference(tight, wide), 1e-14);
+  EXPECT_GT(largest_difference(tight, beside_a_wall(0.02, false)), 1e-6);
+}
+
+TEST(FreeSurface, IsNoBetterThanAWallForWhatKeepsOffBoth) {
+  const WendlandC2 kernel(1.5 * d_0);
+  Sorted s = sorted(kernel);
+  s.fluid.inside.assign(padded(s.fluid.count), 1.0);
+  s.fluid.inside[7] = 0;
+  Boundary wall;
+  wall.place({Vec(0, 0.35)}, {d_0 * d_0}, 1000, 0.1);
+  std::vector<Boundary> walls{wall};
+  s.lists.build(s.fluid, walls);
+  find_deep(s.fluid, walls, kernel);
+  for (std::size_t i = 0; i < s.fluid.count; ++i)
+    EXPECT_EQ(s.fluid.deep[i], i != 7 && (at(s.fluid.x, i) - Vec(0, 0.35)).norm() >= kernel.support());
+}
+
 }  // namespace
 }  // namespace toryu::fluid
