@@ -14,6 +14,54 @@ namespace {
 
 constexpr int least_thin_particles = 16;
 
+std::vector<Vec> places_of(const auto& particles) {
+  std::vector<Vec> places(particles.count);
+  for (std::size_t k = 0; k < places.size(); ++k) places[k] = at(particles.x, k);
+  return places;
+}
+
+/// Particles of one body, and what else fills the space around it.
+class Bodies {
+ public:
+  Bodies(std::vector<Vec> places, const std::vector<Boundary>& others, double spacing)
+      : places_(std::move(places)), spacing_(spacing) {
+    take(places_);
+    for (const auto& other : others) take(places_of(other));
+  }
+
+  /// The least thickness along x or y [m], if enough particles have one below `least` [m].
+  std::optional<double> thinnest(double least) const {
+    int thin = 0;
+    double found = least;
+    for (const Vec& x : places_) {
+      const double here = std::min(thickness(x, Vec::UnitX(), least), thickness(x, Vec::UnitY(), least));
+      thin += here < 0.999 * least;
+      found = std::min(found, here);
+    }
+    if (thin < least_thin_particles) return {};
+    return found;
+  }
+
+ private:
+  void take(const std::vector<Vec>& places) { taken_.emplace_back(0.6 * spacing_).take(places, ""); }
+
+  double thickness(const Vec& x, const Vec& direction, double least) const {
+    const auto filled = [&](const Vec& site) {
+      return std::any_of(taken_.begin(), taken_.end(), [&](const auto& body) { return body.taken(site); });
+    };
+    double sum = spacing_;
+    for (const double step : {-spacing_, spacing_})
+      for (Vec site = x + step * direction; sum < 0.999 * least && filled(site); site += step * direction)
+        sum += spacing_;
+    return sum;
+  }
+
+  std::vector<Vec> places_;
+  double spacing_;
+  std::vector<TakenPlaces>
+      taken_;  // one a body: bodies may stand nearer to each other than their own particles
+};
+
 /// g H of the regions together [m2/s2].
 double weight_of_depth(const Parameters& p, const Vec& gravity) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -39,37 +87,32 @@ double thinnest_wall(const Parameters& p) {
 }
 
 std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing, const Parameters& p) {
-  std::vector<Vec> places(body.count);
-  for (std::size_t k = 0; k < body.count; ++k) places[k] = at(body.x, k);
-  TakenPlaces taken(0.6 * spacing);
-  taken.take(places, body.name);
+  const Bodies bodies(places_of(body), {}, spacing);
   const double least = thinnest_wall(p);
-  const auto thickness = [&](const Vec& x, const Vec& step) {
-    double sum = spacing;
-    for (const double side : {-1.0, 1.0})
-      for (Vec site = x + side * step; sum < least && taken.taken(site); site += side * step) sum += spacing;
-    return sum;
-  };
-  int thin = 0;
-  double found = least;
-  for (const Vec& x : places) {
-    const double here = std::min(thickness(x, spacing * Vec::UnitX()), thickness(x, spacing * Vec::UnitY()));
-    thin += here < 0.999 * least;
-    found = std::min(found, here);
-  }
-  if (thin < least_thin_particles) return {};
-  return fmt::format(
-      "'{}' is {:.3g} m thick in places, and below 2h - d0 = {:.3g} m water on either side of a wall "
-      "acts on that on the other; see cases/thin_wall/thin_wall_map.toml",
-      body.name, found, least);
+  if (const auto found = bodies.thinnest(least))
+    return fmt::format(
+        "'{}' is {:.3g} m thick in places, and below 2h - d0 = {:.3g} m water on either side of a wall "
+        "acts on that on the other; see cases/thin_wall/thin_wall_map.toml",
+        body.name, *found, least);
+  return {};
+}
+
+std::optional<std::string> beyond_thinnest_jet(const Particles& fluid, const std::vector<Boundary>& walls,
+                                               double spacing) {
+  const Bodies bodies(places_of(fluid), walls, spacing);
+  if (const auto found = bodies.thinnest(3 * spacing))
+    return fmt::format(
+        "the fluid is {:.0f} particle{} wide in places: a jet so narrow bounces off a wall with up to half "
+        "of its momentum; see cases/thin_jet/near_singular_map.toml",
+        *found / spacing, *found < 1.5 * spacing ? "" : "s");
+  return {};
 }
 
 std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Parameters& p) {
   if (!(p.friction || p.removal) || spacing < 1.01 * p.spacing) return {};
   return fmt::format(
       "the work piece's particles stand {:.3g} m apart, the fluid's {:.3g} m: friction and removal will be "
-      "far "
-      "too small; take a spacing of the solid that is no larger, see cases/abrasive_flow/README.md",
+      "far too small; take a spacing of the solid that is no larger, see cases/abrasive_flow/README.md",
       spacing, p.spacing);
 }
 

@@ -27,6 +27,12 @@ double thinnest_wall(const Parameters& parameters);
 std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
                                            const Parameters& parameters);
 
+/// A sentence if the fluid is narrower than 3 spacings along x or y in so many places, walls beside it
+/// counted as fluid: a jet of 1 or 2 particles bounces with 11 to 46 % of its momentum, and one of 3 with 10
+/// to 16 % (cases/thin_jet/near_singular_map.toml).
+std::optional<std::string> beyond_thinnest_jet(const Particles& fluid, const std::vector<Boundary>& walls,
+                                               double spacing);
+
 /// A sentence if the particles of an elastic work piece stand `spacing` [m], farther apart than the fluid's:
 /// a medium that finds gaps in the surface sticks to it, and what friction and removal give is far too small.
 std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Parameters& parameters);

@@ -50,6 +50,10 @@ void warn_of_thin_wall(const fluid::Boundary& wall, double spacing, const fluid:
   if (const auto thin = fluid::beyond_thinnest(wall, spacing, parameters)) spdlog::warn("{}", *thin);
 }
 
+void warn_of_coarse_work_piece(double spacing, const fluid::Parameters& parameters) {
+  if (const auto coarse = fluid::beyond_coarsest_work_piece(spacing, parameters)) spdlog::warn("{}", *coarse);
+}
+
 void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene,
                      const fluid::Parameters& parameters, FluidSolver& solver) {
   FluidLink link({.role = "fluid_solver",
@@ -64,8 +68,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                  interface.spacing);
     solver.attach(interface);
     warn_of_thin_wall(solver.boundaries().back(), interface.spacing, parameters);
-    if (const auto coarse = fluid::beyond_coarsest_work_piece(interface.spacing, parameters))
-      spdlog::warn("{}", *coarse);
+    warn_of_coarse_work_piece(interface.spacing, parameters);
   } catch (...) {
     link.leave();
     throw;
@@ -109,7 +112,12 @@ ExitCode solve(const Options& options) {
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::beyond_edges(parameters, start)) spdlog::warn("{}", beyond);
   for (const auto& wall : solver.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
-  if (options.check) return ExitCode::done;
+  if (const auto jet = fluid::beyond_thinnest_jet(particles, solver.boundaries(), parameters.spacing))
+    spdlog::warn("{}", *jet);
+  if (options.check) {  // in a run the solid tells its spacing, whoever plays it
+    warn_of_coarse_work_piece(file.number("solid.spacing").value_or(0), parameters);
+    return ExitCode::done;
+  }
   if (file.has("solid"))
     compute_coupled(options, file, scene, parameters, solver);
   else

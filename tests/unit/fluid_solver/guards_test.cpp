@@ -69,6 +69,27 @@ TEST(FluidGuards, KnowWhatIsTooThinToPartWater) {
   EXPECT_FALSE(wall(1, 15, 0.01)) << "as few as the poles of a round body";
 }
 
+TEST(FluidGuards, KnowWhatIsTooNarrowForAJet) {
+  const auto said = [](int columns, int rows, const std::vector<Boundary>& walls) {
+    Particles fluid;
+    fluid.count = static_cast<std::size_t>(columns * rows);
+    resize(fluid.x, fluid.count);
+    for (int n = 0; n < columns * rows; ++n)
+      set(fluid.x, static_cast<std::size_t>(n), 0.01 * Vec(n % columns + 0.5, n / columns + 0.5));
+    return beyond_thinnest_jet(fluid, walls, 0.01);
+  };
+  EXPECT_FALSE(said(3, 20, {}));
+  EXPECT_THAT(*said(2, 20, {}), HasSubstr("the fluid is 2 particles wide in places"));
+  EXPECT_THAT(*said(20, 1, {}), HasSubstr("is 1 particle wide"));
+  EXPECT_FALSE(said(15, 1, {})) << "a drop";
+  Boundary floor;
+  std::vector<Vec> places;
+  for (int n = 0; n < 20; ++n) places.push_back(0.01 * Vec(n + 0.5, -0.5));
+  floor.place(places, std::vector<double>(places.size(), 1e-4), 1000, 0.03);
+  EXPECT_TRUE(said(20, 1, {floor}));
+  EXPECT_FALSE(said(20, 2, {floor})) << "a film on a floor";
+}
+
 TEST(FluidGuards, WantNoWallToStartAtOnceFasterThanAShareOfSound) {
   EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {0, 1.4}), ElementsAre());
   EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {0, 1.6}),
