@@ -1,5 +1,7 @@
 #include "fluid_solver/fluid_solver.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,6 +47,8 @@ FluidSolver::FluidSolver(const Parameters& parameters, const Scene& scene)
                   parameters.strip_width(), period_.shifts()) {
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, dynamics_.kernel());
+  else
+    suction_watch_.emplace(parameters.spacing, dynamics_.equation_of_state());
   fill_regions();
   fill_walls();
   check_overlaps();
@@ -125,6 +129,17 @@ void FluidSolver::record_surface(const std::filesystem::path& out) {
 
 void FluidSolver::record(double time) {
   if (surface_record_) surface_record_->write(time);
+  if (suction_watch_) watch_suction(time);
+}
+
+/// Who has a free surface in reach is not known in every run, and asked where it matters alone.
+void FluidSolver::watch_suction(double time) {
+  const auto suction = suction_watch_->look(fluid_, time);
+  if (!suction) return;
+  free_surface_.find_inside(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
+  if (!is_closed(fluid_)) return suction_watch_->forget();
+  spdlog::warn("{}", *suction);
+  suction_watch_.reset();
 }
 
 /// Counts what the corrector is about to do, so that the sum is the change of momentum to rounding.

@@ -12,6 +12,7 @@
 #include "fluid_solver/neighbours.hpp"
 #include "fluid_solver/period.hpp"
 #include "fluid_solver/shifting.hpp"
+#include "fluid_solver/suction_watch.hpp"
 #include "fluid_solver/surface_record.hpp"
 
 namespace toryu::fluid {
@@ -37,7 +38,7 @@ class FluidSolver : public Solver {
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;
-  /// A row of surface.h5, where `record_surface` was called.
+  /// A row of surface.h5, where `record_surface` was called. Warns of suction that the fluid does not bear.
   void record(double time) override;
   std::vector<ActiveTerm> active_terms() const override { return dynamics_.active_terms(); }
   std::size_t particle_count() const override { return fluid_.count; }
@@ -84,6 +85,7 @@ class FluidSolver : public Solver {
   void bear_load(double dt);
   void shift(double dt);
   void note_surface(double dt);
+  void watch_suction(double time);
   void count_impulses(double dt);
   /// What no force gave the fluid: shifting, tensile control, consistent gradients [N.s per metre].
   Vec numerical_impulse() const;
@@ -112,6 +114,7 @@ class FluidSolver : public Solver {
   std::optional<Shifting> shifting_;
   bool density_rate_known_ = false;  ///< of the symplectic step, from the last one
   std::optional<SurfaceRecord> surface_record_;
+  std::optional<SuctionWatch> suction_watch_;
   std::optional<std::size_t> interface_boundary_;
   MovingInterface interface_;
   double time_ = 0;
