@@ -26,8 +26,10 @@ std::optional<std::string> SuctionWatch::look(const Particles& fluid, double tim
   path_.resize(fluid.count);
   std::size_t paired = 0;
   double lowest = 0;
+  const double rho_without_pressure = state_.density(0);
   for (std::size_t i = 0; i < fluid.count; ++i) {
     double& path = path_[fluid.id[i]];
+    if (path == 0 && fluid.rho[i] >= rho_without_pressure) continue;  // nearly all of a medium that is well
     const double p = !fluid.deep.empty() && fluid.deep[i] > 0 ? 0.0 : state_.pressure(fluid.rho[i]);
     const double step = std::min(std::sqrt(std::abs(p) / fluid.rho[i]) * dt / spacing_, 1.0);
     path = std::max(path - std::copysign(step, p), 0.0);
