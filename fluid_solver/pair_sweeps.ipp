@@ -1,6 +1,8 @@
 /// The definitions of pair_sweeps.hpp, for the file of each kernel.
 #pragma once
 
+#include <utility>
+
 #include "fluid_solver/pair_sweeps.hpp"
 #include "fluid_solver/terms/continuity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
@@ -78,9 +80,9 @@ TORYU_INLINE void add_at_wall(const auto& term, const Targets& i, const Sources&
     add_momentum(term, i, s, j, p, r);
 }
 
-Vec lane_sums(const Lanes& m, const VecLanes& after, const VecLanes& before) {
+Vec lane_sums(const Lanes& m, const VecLanes& v) {
   Vec sum;
-  for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * (after[a] - before[a]));
+  for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * v[a]);
   return sum;
 }
 
@@ -128,7 +130,9 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
     const auto near = boundaries[b].near_fluid.near(cluster);
     if (near.size() == 1 && near[0].sources.empty()) continue;
     const Sources wall = sources(boundaries[b]);
-    const VecLanes before = rates.a;
+    // Summed apart: where a wall is only grazed, its share of the acceleration is below the rounding of the
+    // rest.
+    const VecLanes others = std::exchange(rates.a, zero_vector());
     over_pairs(kernel, near, i, x_i, wall, [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
       if constexpr (of_density<wanted>) (add_density_at_wall(term, i, wall, j, pair, rates), ...);
       if constexpr (of_velocity<wanted>) {
@@ -137,7 +141,8 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
       }
     });
     if constexpr (of_velocity<wanted>)
-      given[b].by_cluster[cluster] = lane_sums(load(fluid.m, first), rates.a, before);
+      given[b].by_cluster[cluster] = lane_sums(load(fluid.m, first), rates.a);
+    for (int a = 0; a < dim; ++a) rates.a[a] += others[a];
   }
   if constexpr (of_density<wanted>) store(i.rho * rates.compression + rates.diffusion, fluid.drho, first);
   if constexpr (of_velocity<wanted>) {
