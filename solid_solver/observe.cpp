@@ -13,6 +13,7 @@ std::vector<std::pair<std::string, double>> SolidModel::figures() const {
   const Stretches& worst = bonds_->worst();
   return {{"torn_bonds", static_cast<double>(worst.torn)},
           {"clumped_bonds", static_cast<double>(worst.clumped)},
+          {"largest_energy_gain", energy_.largest_gain()},
           {"largest_bond_strain", worst.strain()},
           {"largest_bond_turn", worst.turn}};
 }

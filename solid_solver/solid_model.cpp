@@ -72,9 +72,9 @@ Vec SolidModel::initial_velocity(std::size_t particle) const {
 
 /// All that a step or a load changes, here and in what a formulation adds.
 void SolidModel::save() {
-  restore_ =
-      remember(time_, number_, slot_, X_, u_, v_, a_, external_, constant_, mobile_, walls_, loaded_, load_,
-               u_at_load_, past_work_, load_sum_, push_, impulses_, bodies_, detachment_, bonds_, steps_);
+  restore_ = remember(time_, number_, slot_, X_, u_, v_, a_, external_, constant_, mobile_, walls_, loaded_,
+                      load_, u_at_load_, past_work_, load_sum_, push_, impulses_, bodies_, detachment_,
+                      bonds_, energy_, steps_);
 }
 
 void SolidModel::find_slots() {
@@ -267,6 +267,8 @@ void SolidModel::look_at_particles() {
   if (!bonds_ || ++steps_ % steps_between_looks != 0) return;
   const auto scope = timers_.measure("bonds");
   bonds_->look(positions(), time_);
+  if (!walls_)  // the work of moving ones is not known
+    energy_.look(kinetic_energy(), first_energy_ + interface_work() - potential_energy(), time_);
 }
 
 }  // namespace toryu

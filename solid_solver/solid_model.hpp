@@ -15,6 +15,7 @@
 #include "solid_solver/body.hpp"
 #include "solid_solver/bonds.hpp"
 #include "solid_solver/detachment.hpp"
+#include "solid_solver/energy_watch.hpp"
 #include "solid_solver/parameters.hpp"
 
 namespace toryu {
@@ -136,6 +137,7 @@ class SolidModel : public Solver {
   std::optional<DetachmentObserver> detachment_;
   HearDetached hear_detached_;
   std::optional<BondWatch> bonds_;
+  EnergyWatch energy_;
   long steps_ = 0;
   std::size_t heard_detached_ = 0;  ///< how many were told of
   std::function<void()> restore_;   ///< what `save` kept

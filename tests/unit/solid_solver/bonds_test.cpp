@@ -110,7 +110,7 @@ TEST(UpdatedLagrangian, WatchesItsBondsUnasked) {
   p.formulation = Formulation::updated_lagrangian;
   p.hourglass.reset();
   const auto model = model_of(p);
-  ASSERT_EQ(model->figures().size(), 4u);
+  ASSERT_EQ(model->figures().size(), 5u);
   EXPECT_EQ(model->figures()[0], std::make_pair(std::string("torn_bonds"), 0.0));
   const auto total = model_of(free_plate(4));
   EXPECT_TRUE(total->figures().empty()) << "neighbours for ever: its strain is checked";

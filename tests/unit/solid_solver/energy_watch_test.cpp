@@ -1,0 +1,71 @@
+#include "solid_solver/energy_watch.hpp"
+
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <sstream>
+
+#include "samples.hpp"
+
+namespace toryu {
+namespace {
+
+/// What the log is told as long as this lives.
+class Heard {
+ public:
+  Heard() {
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_st>(said_)));
+  }
+  ~Heard() { spdlog::set_default_logger(before_); }
+  std::string said() const { return said_.str(); }
+
+ private:
+  std::ostringstream said_;
+  std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
+};
+
+TEST(EnergyWatch, TellsOfTwoPercentOfTheMostAndOfEachDoubling) {
+  Heard heard;
+  EnergyWatch watch;
+  watch.look(0, 0, 0);
+  watch.look(20, 25, 1);  // 5 J held by deformation, or dissipated
+  watch.look(10, 9.7, 2);
+  EXPECT_EQ(heard.said(), "");
+  EXPECT_NEAR(watch.largest_gain(), 0.015, 1e-12);
+  std::size_t length = 0;
+  for (const auto& [gained, told] : {std::pair{0.5, true}, {0.9, false}, {1.1, true}, {0.2, false}}) {
+    watch.look(10, 10 - gained, 3);
+    EXPECT_EQ(heard.said().size() > length, told) << gained;
+    length = heard.said().size();
+  }
+  EXPECT_NE(heard.said().find("0.025 of it"), std::string::npos) << heard.said();
+  EXPECT_NEAR(watch.largest_gain(), 0.055, 1e-12);
+}
+
+/// Largest gain of a free bar that swings along its length, in updated form, by steps of `courant_number`.
+double gain(double courant_number) {
+  SolidParameters p = free_plate(5);
+  p.hourglass.reset();
+  p.formulation = Formulation::updated_lagrangian;
+  p.courant_number = courant_number;
+  p.initial_velocity =
+      InitialVelocity{.profile = VelocityProfile::linear, .gradient = {{1.0, 0.0}, {0.0, -1.0}}};
+  const auto bar = model_of(p);
+  for (int n = 0; n < 300; ++n) bar->advance(bar->time_step_limit());
+  for (const auto& [name, value] : bar->figures())
+    if (name == "largest_energy_gain") return value;
+  return -1;
+}
+
+TEST(EnergyWatch, SeesWhatMidpointStepsThatAreTooLongFeedASolid) {
+  Heard heard;
+  EXPECT_NEAR(gain(0.1), 0, 1e-3);
+  EXPECT_EQ(heard.said(), "");
+  EXPECT_GT(gain(1.0), 0.02);
+  EXPECT_NE(heard.said().find("from nowhere"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace toryu
