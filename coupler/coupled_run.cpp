@@ -35,6 +35,7 @@ void CoupledRun::run(const CouplerLink::Start& start) {
   fluid_ = start.traits;
   interface_count_ = start.interface.size();
   layer_.emplace(start.interface, start.traits);
+  work_.emplace(start.motion.position);
   series_.emplace(settings_.out, "coupler");
   if (settings_.frame_interval > 0) {
     record_.emplace(settings_.out, start.interface);
@@ -67,6 +68,7 @@ void CoupledRun::advance() {
   note_convergence(done);
   note_times(done, elapsed);
   audit(done);
+  audit_work(done);
   check_added_mass(done.fluid.load);
   if (series_due_.at(time_)) write_series(done);
   if (record_ && frame_due_.at(time_)) record_->write(time_, done.solid.motion, done.felt);
@@ -92,6 +94,19 @@ void CoupledRun::audit(const Exchange& done) {
       "the run is in the summary",
       window_.number, error);
   warned_ = true;
+}
+
+void CoupledRun::audit_work(const Exchange& done) {
+  work_->note(done.given, done.followed, done.felt, done.solid.motion.position,
+              done.solid.health.kinetic_energy);
+  if (warned_of_work_ || !work_->feeds()) return;
+  spdlog::warn(
+      "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "
+      "gave "
+      "{:.3g}; its motion is not to be trusted; take scheme = 'serial_implicit', shorter windows or more "
+      "artificial viscosity of the solid, see cases/pushed_column/window_map.toml",
+      window_.number, time_, work_->taken(), work_->given());
+  warned_of_work_ = true;
 }
 
 void CoupledRun::note_times(const Exchange& done, double elapsed) {
@@ -131,6 +146,8 @@ void CoupledRun::write_series(const Exchange& done) {
                                {"fluid_compute", "s", row_.fluid_compute / windows},
                                {"solid_compute", "s", row_.solid_compute / windows},
                                {"impulse_error", "1", row_.impulse_error},
+                               {"work_given", "J/m", work_->given()},
+                               {"work_taken", "J/m", work_->taken()},
                                {"interface_force_x", "N/m", force.x()},
                                {"interface_force_y", "N/m", force.y()},
                                {"fluid_kinetic_energy", "J/m", done.fluid.health.kinetic_energy},
@@ -165,7 +182,9 @@ void CoupledRun::report(Summary& summary) const {
                      {"round_trip_total", total},
                      {"round_trip_share", total / summary.wall_time},
                      {"fluid_compute_total", fluid_compute_},
-                     {"solid_compute_total", solid_compute_}};
+                     {"solid_compute_total", solid_compute_},
+                     {"work_given", work_->given()},
+                     {"work_taken", work_->taken()}};
   if (std::isfinite(lightest_layer_)) summary.figures.emplace_back("lightest_layer", lightest_layer_);
   if (!settings_.coupling.windows_repeat()) return;
   summary.figures.emplace_back("iterations", static_cast<double>(iterations_));

@@ -14,6 +14,7 @@
 #include "coupler/interface_record.hpp"
 #include "coupler/parameters.hpp"
 #include "coupler/schemes.hpp"
+#include "coupler/work_audit.hpp"
 
 namespace toryu {
 
@@ -50,6 +51,7 @@ class CoupledRun {
   void advance();
   void check_added_mass(const InterfaceLoad& load);
   void audit(const Exchange& done);
+  void audit_work(const Exchange& done);
   void note_times(const Exchange& done, double elapsed);
   void note_convergence(const Exchange& done);
   void write_series(const Exchange& done);
@@ -60,12 +62,13 @@ class CoupledRun {
   double time_ = 0, time_step_limit_ = 0;  // [s]
   Window window_;
   ExchangeAudit audit_;
+  std::optional<WorkAudit> work_;
   bool warned_ = false;
   FluidTraits fluid_;
   std::size_t interface_count_ = 0;
   std::optional<SurfaceLayer> layer_;
   double lightest_layer_ = std::numeric_limits<double>::infinity();  // of all windows, over a row of fluid
-  bool warned_of_mass_ = false;
+  bool warned_of_mass_ = false, warned_of_work_ = false;
   Timers timers_;
   std::vector<double> round_trips_;                  // one a window [s]
   double fluid_compute_ = 0, solid_compute_ = 0;     // [s], sums over the run

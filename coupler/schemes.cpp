@@ -37,8 +37,10 @@ class SerialExplicit final : public Scheme {
 
   Exchange compute(Window& window) override {
     Exchange done;
-    done.fluid = link_.ask_fluid(window, forecast_.over(window.dt));
-    done.felt = felt_of(done.fluid.load, parameters_);
+    InterfaceMotion motion = forecast_.over(window.dt);
+    done.fluid = link_.ask_fluid(window, motion);
+    done.followed = std::move(motion.position);
+    done.given = done.felt = felt_of(done.fluid.load, parameters_);
     done.solid = link_.ask_solid(window, done.felt);
     forecast_.note(done.solid.motion, window.dt);
     done.fluid_compute = done.fluid.health.compute_time;
@@ -65,11 +67,13 @@ class ParallelExplicit final : public Scheme {
     Exchange done;
     done.felt = past_over(window.dt);
     link_.grant_solid(window, done.felt);
-    link_.grant_fluid(window, forecast_.over(window.dt));
+    InterfaceMotion motion = forecast_.over(window.dt);
+    link_.grant_fluid(window, motion);
+    done.followed = std::move(motion.position);
     done.fluid = link_.await_fluid(window);
     done.solid = link_.await_solid(window);
     forecast_.note(done.solid.motion, window.dt);
-    past_ = felt_of(done.fluid.load, parameters_);
+    done.given = past_ = felt_of(done.fluid.load, parameters_);
     past_dt_ = window.dt;
     done.fluid_compute = done.fluid.health.compute_time;
     done.solid_compute = done.solid.health.compute_time;
@@ -134,6 +138,8 @@ class SerialImplicit final : public Scheme {
       Eigen::Map<Values>(guess.position.data(), next.size()) = next;
       Eigen::Map<Values>(guess.velocity.data(), next.size()) = (next - start) / window.dt;
     }
+    done.given = done.felt;
+    done.followed = std::move(guess.position);
     forecast_.note(done.solid.motion, window.dt);
     done.compute = done.fluid_compute + done.solid_compute;
     return done;

@@ -18,7 +18,9 @@ namespace toryu {
 /// What a window brought.
 struct Exchange {
   CouplerLink::FluidAnswer fluid;
-  InterfaceLoad felt;  ///< what the solid computed the window with
+  std::vector<double> followed;  ///< positions to which the fluid brought its copy of the interface [m]
+  InterfaceLoad given;           ///< what of the fluid's load the case lets the solid feel
+  InterfaceLoad felt;            ///< what the solid computed the window with
   CouplerLink::SolidAnswer solid;
   double fluid_compute = 0, solid_compute = 0;  ///< over all iterations [s]
   double compute = 0;                           ///< of these, what cannot be done at once [s]

@@ -60,3 +60,5 @@ def coupling(summaries):
                              f"{100 * figures['round_trip_share']:.0f} % of the run")
     if "largest_impulse_error" in figures:
         yield "impulse given and taken", f"differ by at most {figures['largest_impulse_error']:.1g} of the sum of the forces"
+    if "work_given" in figures:
+        yield "work given and taken", f"{figures['work_given']:.3g} and {figures['work_taken']:.3g} J/m"

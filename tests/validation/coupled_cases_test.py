@@ -95,6 +95,16 @@ class PushedColumn(unittest.TestCase):
                 self.assertLess(figures["largest_impulse_error"], 1e-12)
                 self.assertNotIn("beyond the edge of stability", said)
 
+    def test_a_run_that_ends_well_but_is_fed_by_the_exchange_is_told_of(self):
+        parallel = {"coupling.scheme": "parallel_explicit"}
+        error, figures, said = self.way_error(200, **parallel)
+        self.assertGreater(abs(error), 0.2)
+        self.assertGreater(figures["work_taken"] - figures["work_given"], 1)
+        self.assertIn("the exchange feeds the solid", said)
+        error, _, said = self.way_error(1000, **parallel)
+        self.assertLess(abs(error), 0.02)
+        self.assertNotIn("the exchange feeds the solid", said)
+
     def test_a_light_layer_needs_iterations(self):
         _, _, said = run("pushed_column", **{"solid.density": 30})
         self.assertIn("beyond the edge of stability", said)
