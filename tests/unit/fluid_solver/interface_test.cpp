@@ -104,6 +104,31 @@ INSTANTIATE_TEST_SUITE_P(
         Contact{"Symplectic", WallSlip::no_slip, Friction{.coefficient = 0.3}, {}, Integrator::symplectic}),
     [](const auto& one) { return one.param.name; });
 
+TEST(GrazedPlate, TakesWhatItGivesToRoundingOfThatLittle) {
+  omp_set_num_threads(1);
+  Setting setting = tank_with_a_plate();
+  FluidSolver solver = setting.solver();
+  Interface interface = plate();
+  // The first columns, of water at 0.475 m and of the plate; their rows are 0.0125 m off each other.
+  const double apart = std::sqrt(solver.reach() * solver.reach() - 0.0125 * 0.0125) - 1e-5;
+  for (std::size_t k = 0; k < interface.size(); ++k) interface.position[dim * k] += 0.475 + apart - 0.5125;
+  solver.attach(interface);
+  const double dt = 1e-6;
+  solver.begin_window(moved(interface, Vec::Zero(), 0), dt);
+  solver.advance(dt);
+  const InterfaceLoad load = solver.take_load();
+  Vec on_plate = Vec::Zero();
+  double size = 0;
+  for (std::size_t k = 0; k < interface.size(); ++k) {
+    const Vec force(load.force[dim * k], load.force[dim * k + 1]);
+    on_plate += dt * force;
+    size += dt * force.norm();
+  }
+  EXPECT_GT(size, 0);
+  EXPECT_LT(size, 1e-4 * dt) << "of some 10 N/m that it bears in contact";
+  EXPECT_LT((on_plate + load.impulse_on_fluid).norm(), 1e-13 * size);
+}
+
 /// Ten windows beside the plate, in which the lists are built anew; the loads of all of them.
 std::vector<double> loads_of_ten_windows(FluidSolver& solver, const Interface& interface) {
   std::vector<double> loads;
