@@ -53,8 +53,12 @@ class Dynamics {
     return std::holds_alternative<DensityDiffusionTerm<true>>(terms_.diffusion);
   }
   PairSweeps sweeps() const {
-    return {terms_, body_force_, viscous_walls(), parameters_.wall_model.suction,
-            parameters_.tensile_control.has_value()};
+    return {.terms = terms_,
+            .body_force = body_force_,
+            .viscous_walls = viscous_walls(),
+            .wall_suction = parameters_.wall_model.suction,
+            .rest_density = parameters_.density,
+            .tensile_control = parameters_.tensile_control.has_value()};
   }
 
   Parameters parameters_;

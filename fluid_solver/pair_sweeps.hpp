@@ -48,6 +48,7 @@ struct PairSweeps {
   const BodyForce& body_force;
   bool viscous_walls;
   bool wall_suction;
+  double rest_density;   ///< [kg/m3]
   bool tensile_control;  ///< needs `deep` of the fluid
 
   /// Fills the rates a, drho of `fluid`, and `given` where the velocity is among them. Opens a parallel

@@ -187,7 +187,8 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
     std::visit(
         [&](const auto&... term) {
           rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, given,
-                                      Continuity{wall_suction}, Pressure{wall_suction}, term...);
+                                      Continuity{rest_density, wall_suction}, Pressure{wall_suction},
+                                      term...);
         },
         terms.diffusion, terms.artificial, terms.viscous, terms.repulsion);
   else if (wanted == RatesOf::velocity)
@@ -201,7 +202,7 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
     std::visit(
         [&](const auto& diffusion) {
           rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, given,
-                                         Continuity{wall_suction}, diffusion);
+                                         Continuity{rest_density, wall_suction}, diffusion);
         },
         terms.diffusion);
 }

@@ -98,6 +98,7 @@ Sweep sweep_of(const ChosenTerms& terms) {
                             .body_force = none,
                             .viscous_walls = false,
                             .wall_suction = true,
+                            .rest_density = 1000,
                             .tensile_control = false};
     sweeps.rates(CubicSpline(h), RatesOf::both, square.fluid, square.near, {}, given);
   };
