@@ -1,7 +1,9 @@
 #include "coupler/work_audit.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace toryu {
 
@@ -23,7 +25,9 @@ void WorkAudit::note(const InterfaceLoad& given, const std::vector<double>& flui
   taken_ += work(taken, solid_, solid);
   largest_given_ = std::max(largest_given_, std::abs(given_));
   largest_kinetic_energy_ = std::max(largest_kinetic_energy_, kinetic_energy);
-  const bool suspicious = made() > std::max(bearable_share * largest_given_, largest_kinetic_energy_);
+  if (std::has_single_bit(++windows_)) made_before_ = std::exchange(made_at_power_of_two_, made());
+  const bool suspicious = made() > std::max({bearable_share * largest_given_, largest_kinetic_energy_,
+                                             least_growth * made_before_});
   suspicious_ = suspicious ? suspicious_ + 1 : 0;
   fluid_ = fluid;
   solid_ = solid;

@@ -26,17 +26,21 @@ class WorkAudit {
   double made() const { return taken_ - given_; }  ///< by the exchange [J/m]
 
   /// Whether the exchange feeds the solid: for some windows in a row it has made more than any kinetic energy
-  /// that the solid ever had, and more than a fifth of the largest work of the fluid. Measured: at most a
-  /// tenth in runs that are right, a quarter and more in runs that are wrong.
+  /// that the solid ever had, more than a fifth of the largest work of the fluid (measured: at most a tenth
+  /// in runs that are right, a quarter and more in runs that are wrong), and goes on to make more: what the
+  /// start of a run makes stays as it is.
   bool feeds() const { return suspicious_ >= windows_in_a_row; }
 
  private:
   static constexpr double bearable_share = 0.2;
+  static constexpr double least_growth = 1.8;  // since half the run or before
   static constexpr int windows_in_a_row = 20;
 
   std::vector<double> fluid_, solid_;
   double given_ = 0, taken_ = 0;
   double largest_given_ = 0, largest_kinetic_energy_ = 0;  // so far
+  unsigned long windows_ = 0;
+  double made_at_power_of_two_ = 0, made_before_ = 0;  // at that window, and at half of it
   int suspicious_ = 0;
 };
 
