@@ -49,7 +49,7 @@ class Solver {
   virtual double time_step_limit() const = 0;
   /// Which limit rules: "acoustic", "viscous", "force".
   virtual std::string_view time_step_rule() const = 0;
-  /// Advances by `dt` [s], which exceeds the limit by a twentieth at most.
+  /// Advances by `dt` [s], which exceeds the limit by a nineteenth at most.
   virtual void advance(double dt) = 0;
   /// Keeps the present state, and brings it back bit by bit, as often as asked: for a window that is
   /// repeated.
