@@ -111,6 +111,7 @@ ExitCode solve(const Options& options) {
                            .wall_speed = fluid::wall_speed_at_start(scene.walls),
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::beyond_edges(parameters, start)) spdlog::warn("{}", beyond);
+  for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) spdlog::warn("{}", face);
   for (const auto& wall : solver.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
   if (const auto jet = fluid::beyond_thinnest_jet(particles, solver.boundaries(), parameters.spacing))
     spdlog::warn("{}", *jet);

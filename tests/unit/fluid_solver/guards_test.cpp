@@ -96,6 +96,21 @@ TEST(FluidGuards, WantNoWallToStartAtOnceFasterThanAShareOfSound) {
               ElementsAre(HasSubstr("a wall starts at once at 1.6 m/s, 0.08 of the sound speed")));
 }
 
+TEST(FluidGuards, WantRowsOfAWallToEndAtTheFluid) {
+  Parameters p;
+  p.spacing = 0.1;
+  p.regions = {{"water", {Vec(0, 0), Vec(2, 1)}}};
+  const auto said = [&](const Box& box) { return misplaced_faces({{"wall", box, {}}}, p); };
+  EXPECT_THAT(said({Vec(-0.4, -0.4), Vec(2.4, 0)}), ElementsAre());
+  EXPECT_THAT(said({Vec(0, -0.658), Vec(2, 0)}),
+              ElementsAre(HasSubstr("'wall' is 6.58 spacings long along y: "
+                                    "its last row stands 0.08 spacings")));
+  EXPECT_THAT(said({Vec(-0.34, 0), Vec(0, 1)}), ElementsAre(HasSubstr("along x: its last row stands 0.90")));
+  EXPECT_THAT(said({Vec(2, 0), Vec(2.34, 1)}), ElementsAre()) << "rows begin at the fluid";
+  EXPECT_THAT(said({Vec(-0.4, -0.34), Vec(2.4, -0.2)}), ElementsAre()) << "the fluid stands elsewhere";
+  EXPECT_THAT(said({Vec(3, -0.34), Vec(4, 0)}), ElementsAre()) << "beside it";
+}
+
 TEST(FluidGuards, TakeOfAWallWhatMovesAcrossIt) {
   Wall lid{"lid", {Vec(0, 0), Vec(5, 1)}, {}};
   lid.motion = Motion{.velocity = {{0, 3, -2}}};
