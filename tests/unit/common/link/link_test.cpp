@@ -118,7 +118,7 @@ class LinkTest : public testing::Test {
   }
 
   /// Where nobody else is. The domain is another than the coupler's, since a process makes each only once:
-  /// one folder in a hundred has the same, and there this test would find the coupler.
+  /// one folder in 25 has the same, and there a test would find the coupler.
   LinkSettings impatient_elsewhere(const std::string& role) const {
     LinkSettings settings = settings_for(role);
     const auto domain = [](const auto& out) { return dds::meeting_place(out).domain; };
