@@ -7,7 +7,7 @@
 
 #include "common/sph/sorted_points.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 namespace {
 
@@ -67,14 +67,14 @@ std::optional<double> SurfaceLayer::mass_ratio(const InterfaceLoad& load) const 
   return mass / area / row_;
 }
 
-double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt) {
+double least_mass_ratio(SchemeKind scheme, const FluidTraits& fluid, double dt) {
   const double courant = fluid.spacing > 0 ? fluid.sound_speed * dt / fluid.spacing : 0.0;
   const double width =
       fluid.spacing > 0 ? std::max(1.0, fluid.reach / (measured_reach * fluid.spacing)) : 1.0;
   switch (scheme) {
-    case CouplingScheme::serial_explicit:
+    case SchemeKind::serial_explicit:
       return std::max(0.37 * width, 0.25 * courant * courant);
-    case CouplingScheme::parallel_explicit:
+    case SchemeKind::parallel_explicit:
       return std::max(0.9 * width, 0.25 * courant * courant);
     default:
       return 0.0;
@@ -89,4 +89,4 @@ std::string too_light(double ratio, double least) {
       ratio, least);
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

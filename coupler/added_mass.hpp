@@ -17,7 +17,7 @@
 #include "common/link/participant.hpp"
 #include "coupler/parameters.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// How deep the layer of solid is that fluid beside it has in reach [m]: the fluid's first row stands half a
 /// spacing off.
@@ -48,9 +48,9 @@ class SurfaceLayer {
 };
 
 /// The least such ratio that `scheme` bears with windows of `dt` [s]; 0 for the implicit scheme.
-double least_mass_ratio(CouplingScheme scheme, const FluidTraits& fluid, double dt);
+double least_mass_ratio(SchemeKind scheme, const FluidTraits& fluid, double dt);
 
 /// How to say that a layer is too light: both ratios, and what helps.
 std::string too_light(double ratio, double least);
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -1,14 +1,14 @@
 #include "coupler/coupled_run.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
+#include "common/run/log.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 double window_length(double left, int steps, double limit) {
   const double longest = steps * limit;
@@ -80,7 +80,7 @@ void CoupledRun::check_added_mass(const InterfaceLoad& load) {
   lightest_layer_ = std::min(lightest_layer_, *ratio);
   const double least = least_mass_ratio(settings_.coupling.scheme, fluid_, window_.dt);
   if (*ratio >= least || warned_of_mass_) return;
-  spdlog::warn("window {}: {}", window_.number, too_light(*ratio, least));
+  log::warn("window {}: {}", window_.number, too_light(*ratio, least));
   warned_of_mass_ = true;
 }
 
@@ -88,7 +88,7 @@ void CoupledRun::audit(const Exchange& done) {
   const double error = audit_.compare(done.fluid.load, done.felt, done.solid.impulse_taken, window_.dt);
   row_.impulse_error = std::max(row_.impulse_error, error);
   if (error <= ExchangeAudit::tolerance || warned_) return;
-  spdlog::warn(
+  log::warn(
       "window {}: impulse given and taken differ by {:.3g} of the sum of the forces; the largest difference "
       "of "
       "the run is in the summary",
@@ -100,7 +100,7 @@ void CoupledRun::audit_work(const Exchange& done) {
   work_->note(done.given, done.followed, done.felt, done.solid.motion.position,
               done.solid.health.kinetic_energy);
   if (warned_of_work_ || !work_->feeds()) return;
-  spdlog::warn(
+  log::warn(
       "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "
       "gave "
       "{:.3g}; its motion is not to be trusted; take scheme = 'serial_implicit', shorter windows or more "
@@ -126,7 +126,7 @@ void CoupledRun::note_convergence(const Exchange& done) {
   unconverged_in_a_row_ = done.converged ? 0 : unconverged_in_a_row_ + 1;
   if (done.converged) return;
   if (unconverged_++ == 0)
-    spdlog::warn(
+    log::warn(
         "window {}: not converged after {} iterations, residual {:.3g}; the summary counts such windows",
         window_.number, done.iterations, done.residual);
   if (unconverged_in_a_row_ < settings_.coupling.implicit->unconverged_windows_to_stop) return;
@@ -191,4 +191,4 @@ void CoupledRun::report(Summary& summary) const {
   summary.figures.emplace_back("unconverged_windows", static_cast<double>(unconverged_));
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -16,7 +16,7 @@
 #include "coupler/schemes.hpp"
 #include "coupler/work_audit.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// Length [s] of the window that starts `left` [s] before the end of the run: at most `steps` fluid steps of
 /// `limit` [s], and the last two windows alike rather than a whole one and a splinter.
@@ -37,7 +37,7 @@ class CoupledRun {
  public:
   struct Settings {
     double end_time, frame_interval, series_interval;  ///< [s]
-    CouplingParameters coupling;
+    Parameters coupling;
     std::filesystem::path out;
   };
   CoupledRun(Settings settings, CouplerLink& link);
@@ -89,4 +89,4 @@ class CoupledRun {
   } row_;
 };
 
-}  // namespace toryu
+}  // namespace toryu::coupling

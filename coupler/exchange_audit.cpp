@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace toryu {
+namespace toryu::coupling {
 
 namespace {
 
@@ -39,4 +39,4 @@ double ExchangeAudit::compare(const InterfaceLoad& given, const InterfaceLoad& f
   return error;
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

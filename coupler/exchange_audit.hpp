@@ -5,7 +5,7 @@
 
 #include "common/link/participant.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// Sum of vectors that lie one after the other, dim values each.
 Vec sum_of(const std::vector<double>& vectors);
@@ -29,4 +29,4 @@ class ExchangeAudit {
   double largest_ = 0;
 };
 
-}  // namespace toryu
+}  // namespace toryu::coupling

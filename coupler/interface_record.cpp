@@ -2,7 +2,7 @@
 
 #include "common/output/hdf5_series.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 InterfaceRecord::InterfaceRecord(const std::filesystem::path& out, const Interface& interface)
     : file_(std::make_unique<HdfSeriesFile>(out / "interface.h5")) {
@@ -30,4 +30,4 @@ void InterfaceRecord::write(double time, const InterfaceMotion& motion, const In
                  row(load.friction_force)});
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -10,8 +10,10 @@
 #include "common/link/participant.hpp"
 
 namespace toryu {
-
 class HdfSeriesFile;
+}
+
+namespace toryu::coupling {
 
 class InterfaceRecord {
  public:
@@ -25,4 +27,4 @@ class InterfaceRecord {
   std::unique_ptr<HdfSeriesFile> file_;
 };
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -1,25 +1,28 @@
 /// The coupler: brings the fluid and the solid of a case together, gives each its turn, checks and records
 /// what they exchange, and ends the run for all. README.md shows the sequence.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <ctime>
 
+#include "common/error/ending.hpp"
 #include "common/link/coupler_link.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
-#include "common/run/ending.hpp"
+#include "common/run/log.hpp"
+#include "common/run/options.hpp"
 #include "common/run/program.hpp"
+#include "common/run/provenance.hpp"
 #include "common/scene/scene.hpp"
 #include "coupler/coupled_run.hpp"
-#include "coupler/guards.hpp"
 #include "coupler/run_lock.hpp"
+#include "coupler/stability_warnings.hpp"
 #include "coupler/used_case.hpp"
 
 namespace {
 
 using namespace toryu;
+using namespace toryu::coupling;
 
 double processor_time() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -58,20 +61,20 @@ void run_windows(const Options& options, const CaseFile& file, const CoupledRun:
     try {
       finish(ending);
     } catch (const std::exception& failure) {
-      spdlog::error("{}", failure.what());  // what ended the run says more, and is thrown on
+      log::error("{}", failure.what());  // what ended the run says more, and is thrown on
     }
     throw;
   }
   finish({});
-  for (const auto& [name, value] : summary.figures) spdlog::info("{} {:.4g}", name, value);
+  for (const auto& [name, value] : summary.figures) log::info("{} {:.4g}", name, value);
 }
 
 ExitCode couple(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
   const Scene scene = read_scene(file);
-  CouplingParameters coupling;
+  Parameters coupling;
   file.read("coupling", coupling, "how the fluid and the solid exchange their load and motion");
-  file.leave_to_others({"fluid", "solid"});
+  file.ignore_sections({"fluid", "solid"});
   for (const char* section : {"fluid", "solid"})
     if (!file.has(section))
       file.fault("coupling", fmt::format("a coupled case needs a section [{}]", section));
@@ -80,7 +83,7 @@ ExitCode couple(const Options& options) {
     return ExitCode::done;
   }
   file.throw_if_faulty();
-  for (const auto& beyond : beyond_edges(file, coupling)) spdlog::warn("{}", beyond);
+  for (const auto& beyond : stability_warnings(file, coupling)) log::warn("{}", beyond);
   if (options.check) return ExitCode::done;
 
   const RunLock lock(options.out);

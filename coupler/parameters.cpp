@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace toryu {
+namespace toryu::coupling {
 
-bool CouplingParameters::feels(const std::string& load) const {
+bool Parameters::feels(const std::string& load) const {
   return std::find(loads.begin(), loads.end(), load) != loads.end();
 }
 
@@ -29,14 +29,14 @@ void describe(ParameterTable& table, ImplicitParameters& p) {
                 {.minimum = 1, .help = "the run fails after so many windows in a row without convergence"});
 }
 
-void describe(ParameterTable& table, CouplingParameters& p) {
+void describe(ParameterTable& table, Parameters& p) {
   table.choice(
       "scheme", p.scheme, {"serial_explicit", "parallel_explicit", "serial_implicit"},
       {.help = "the fluid, then the solid under its load; both at once, the solid under the load of the "
                "window before; or in turn again and again until the motion settles"});
   table.optional("implicit", p.implicit, "the iteration of 'serial_implicit'");
-  if (p.scheme == CouplingScheme::serial_implicit && !p.implicit) p.implicit.emplace();
-  table.require(p.scheme == CouplingScheme::serial_implicit || !p.implicit, "implicit",
+  if (p.scheme == SchemeKind::serial_implicit && !p.implicit) p.implicit.emplace();
+  table.require(p.scheme == SchemeKind::serial_implicit || !p.implicit, "implicit",
                 "[coupling.implicit] needs scheme = 'serial_implicit'");
   table.integer(
       "extrapolation_order", p.extrapolation_order,
@@ -62,4 +62,4 @@ void describe(ParameterTable& table, CouplingParameters& p) {
                 "'loads' must name 'pressure_and_viscous', 'friction' or both");
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

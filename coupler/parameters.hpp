@@ -7,17 +7,17 @@
 
 #include "common/case/parameter_table.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// In which order both sides compute a window: see schemes.hpp.
-enum class CouplingScheme { serial_explicit, parallel_explicit, serial_implicit };
+enum class SchemeKind { serial_explicit, parallel_explicit, serial_implicit };
 
-/// How an iteration gets to its next guess: see relaxation.hpp.
-enum class RelaxationKind { fixed, aitken, quasi_newton };
+/// How an iteration gets to its next guess: see acceleration.hpp.
+enum class AccelerationKind { fixed, aitken, quasi_newton };
 
 /// `[coupling.implicit]`
 struct ImplicitParameters {
-  RelaxationKind relaxation = RelaxationKind::aitken;
+  AccelerationKind relaxation = AccelerationKind::aitken;
   double relaxation_factor = 0.5;    ///< fixed: of each step, else of the first one of the run
   double tolerance = 1e-3;           ///< of the residual over the interface's displacement in a window
   int largest_iteration_count = 20;  ///< in a window
@@ -26,17 +26,17 @@ struct ImplicitParameters {
 };
 void describe(ParameterTable& table, ImplicitParameters& p);
 
-struct CouplingParameters {
-  CouplingScheme scheme = CouplingScheme::serial_explicit;
+struct Parameters {
+  SchemeKind scheme = SchemeKind::serial_explicit;
   std::optional<ImplicitParameters> implicit;
-  int extrapolation_order = 0;  ///< of the interface's motion: see forecast.hpp
+  int extrapolation_order = 0;  ///< of the interface's motion: see extrapolation.hpp
   int fluid_steps_per_window = 1;
   double time_limit = 30;  ///< [s]
   std::vector<std::string> loads = {"pressure_and_viscous", "friction"};
 
   bool feels(const std::string& load) const;
-  bool windows_repeat() const { return scheme == CouplingScheme::serial_implicit; }
+  bool windows_repeat() const { return scheme == SchemeKind::serial_implicit; }
 };
-void describe(ParameterTable& table, CouplingParameters& p);
+void describe(ParameterTable& table, Parameters& p);
 
-}  // namespace toryu
+}  // namespace toryu::coupling

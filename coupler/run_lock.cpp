@@ -4,9 +4,9 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 RunLock::RunLock(const std::filesystem::path& out)
     : file_(open((out / "coupler.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
@@ -23,4 +23,4 @@ RunLock::~RunLock() {
   close(file_);
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

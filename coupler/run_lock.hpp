@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// Holds `coupler.lock` in the folder while it lives; the system frees it if the process dies. Throws
 /// BadInput if another run holds it.
@@ -18,4 +18,4 @@ class RunLock {
   int file_;
 };
 
-}  // namespace toryu
+}  // namespace toryu::coupling

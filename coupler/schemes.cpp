@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupler/forecast.hpp"
-#include "coupler/relaxation.hpp"
+#include "coupler/acceleration.hpp"
+#include "coupler/extrapolation.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 namespace {
 
@@ -23,7 +23,7 @@ double root_mean_square(const Values& values) {
 }
 
 /// The load that the case lets the solid feel.
-InterfaceLoad felt_of(const InterfaceLoad& given, const CouplingParameters& parameters) {
+InterfaceLoad felt_of(const InterfaceLoad& given, const Parameters& parameters) {
   InterfaceLoad load = given;
   if (!parameters.feels("pressure_and_viscous")) std::fill(load.force.begin(), load.force.end(), 0.0);
   if (!parameters.feels("friction")) load.friction_force.clear();
@@ -32,17 +32,17 @@ InterfaceLoad felt_of(const InterfaceLoad& given, const CouplingParameters& para
 
 class SerialExplicit final : public Scheme {
  public:
-  SerialExplicit(const CouplingParameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
-      : parameters_(parameters), link_(link), forecast_(parameters.extrapolation_order, start.motion) {}
+  SerialExplicit(const Parameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
+      : parameters_(parameters), link_(link), extrapolation_(parameters.extrapolation_order, start.motion) {}
 
   Exchange compute(Window& window) override {
     Exchange done;
-    InterfaceMotion motion = forecast_.over(window.dt);
+    InterfaceMotion motion = extrapolation_.over(window.dt);
     done.fluid = link_.ask_fluid(window, motion);
     done.followed = std::move(motion.position);
     done.given = done.felt = felt_of(done.fluid.load, parameters_);
     done.solid = link_.ask_solid(window, done.felt);
-    forecast_.note(done.solid.motion, window.dt);
+    extrapolation_.note(done.solid.motion, window.dt);
     done.fluid_compute = done.fluid.health.compute_time;
     done.solid_compute = done.solid.health.compute_time;
     done.compute = done.fluid_compute + done.solid_compute;
@@ -50,15 +50,15 @@ class SerialExplicit final : public Scheme {
   }
 
  private:
-  const CouplingParameters& parameters_;
+  const Parameters& parameters_;
   CouplerLink& link_;
-  Forecast forecast_;
+  Extrapolation extrapolation_;
 };
 
 class ParallelExplicit final : public Scheme {
  public:
-  ParallelExplicit(const CouplingParameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
-      : parameters_(parameters), link_(link), forecast_(parameters.extrapolation_order, start.motion) {
+  ParallelExplicit(const Parameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
+      : parameters_(parameters), link_(link), extrapolation_(parameters.extrapolation_order, start.motion) {
     past_.pressure.assign(start.interface.size(), 0.0);
     past_.force.assign(dim * start.interface.size(), 0.0);
   }
@@ -67,12 +67,12 @@ class ParallelExplicit final : public Scheme {
     Exchange done;
     done.felt = past_over(window.dt);
     link_.grant_solid(window, done.felt);
-    InterfaceMotion motion = forecast_.over(window.dt);
+    InterfaceMotion motion = extrapolation_.over(window.dt);
     link_.grant_fluid(window, motion);
     done.followed = std::move(motion.position);
     done.fluid = link_.await_fluid(window);
     done.solid = link_.await_solid(window);
-    forecast_.note(done.solid.motion, window.dt);
+    extrapolation_.note(done.solid.motion, window.dt);
     done.given = past_ = felt_of(done.fluid.load, parameters_);
     past_dt_ = window.dt;
     done.fluid_compute = done.fluid.health.compute_time;
@@ -90,18 +90,18 @@ class ParallelExplicit final : public Scheme {
     return load;
   }
 
-  const CouplingParameters& parameters_;
+  const Parameters& parameters_;
   CouplerLink& link_;
-  Forecast forecast_;
+  Extrapolation extrapolation_;
   InterfaceLoad past_;  // of the last window
   double past_dt_ = 0;  // [s]
 };
 
-std::unique_ptr<Relaxation> make_relaxation(const ImplicitParameters& p) {
+std::unique_ptr<Acceleration> make_acceleration(const ImplicitParameters& p) {
   switch (p.relaxation) {
-    case RelaxationKind::fixed:
+    case AccelerationKind::fixed:
       return std::make_unique<FixedRelaxation>(p.relaxation_factor);
-    case RelaxationKind::aitken:
+    case AccelerationKind::aitken:
       return std::make_unique<AitkenRelaxation>(p.relaxation_factor);
     default:
       return std::make_unique<QuasiNewton>(p.relaxation_factor, p.remembered_windows);
@@ -110,18 +110,18 @@ std::unique_ptr<Relaxation> make_relaxation(const ImplicitParameters& p) {
 
 class SerialImplicit final : public Scheme {
  public:
-  SerialImplicit(const CouplingParameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
+  SerialImplicit(const Parameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
       : parameters_(parameters),
         link_(link),
-        forecast_(std::max(parameters.extrapolation_order, 1), start.motion),
-        relaxation_(make_relaxation(*parameters.implicit)),
+        extrapolation_(std::max(parameters.extrapolation_order, 1), start.motion),
+        acceleration_(make_acceleration(*parameters.implicit)),
         spacing_(start.interface.spacing) {}
 
   Exchange compute(Window& window) override {
     Exchange done;
-    const Values start = values(forecast_.now().position);
-    InterfaceMotion guess = forecast_.over(window.dt);
-    relaxation_->begin_window();
+    const Values start = values(extrapolation_.now().position);
+    InterfaceMotion guess = extrapolation_.over(window.dt);
+    acceleration_->begin_window();
     for (;; ++window.iteration, ++done.iterations) {
       done.fluid = link_.ask_fluid(window, guess);
       done.felt = felt_of(done.fluid.load, parameters_);
@@ -134,13 +134,13 @@ class SerialImplicit final : public Scheme {
       done.residual = root_mean_square(answer - x) / displacement;
       done.converged = done.residual <= parameters_.implicit->tolerance;
       if (done.converged || done.iterations == parameters_.implicit->largest_iteration_count) break;
-      const Values next = x + bounded(relaxation_->next(x, answer - x) - x);
+      const Values next = x + bounded(acceleration_->next(x, answer - x) - x);
       Eigen::Map<Values>(guess.position.data(), next.size()) = next;
       Eigen::Map<Values>(guess.velocity.data(), next.size()) = (next - start) / window.dt;
     }
     done.given = done.felt;
     done.followed = std::move(guess.position);
-    forecast_.note(done.solid.motion, window.dt);
+    extrapolation_.note(done.solid.motion, window.dt);
     done.compute = done.fluid_compute + done.solid_compute;
     return done;
   }
@@ -155,25 +155,25 @@ class SerialImplicit final : public Scheme {
     return step * std::min(1.0, longest_step * spacing_ / longest);
   }
 
-  const CouplingParameters& parameters_;
+  const Parameters& parameters_;
   CouplerLink& link_;
-  Forecast forecast_;
-  std::unique_ptr<Relaxation> relaxation_;
+  Extrapolation extrapolation_;
+  std::unique_ptr<Acceleration> acceleration_;
   double spacing_;  // of the interface's particles [m]
 };
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_scheme(const CouplingParameters& parameters, CouplerLink& link,
+std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, CouplerLink& link,
                                     const CouplerLink::Start& start) {
   switch (parameters.scheme) {
-    case CouplingScheme::serial_explicit:
+    case SchemeKind::serial_explicit:
       return std::make_unique<SerialExplicit>(parameters, link, start);
-    case CouplingScheme::parallel_explicit:
+    case SchemeKind::parallel_explicit:
       return std::make_unique<ParallelExplicit>(parameters, link, start);
     default:
       return std::make_unique<SerialImplicit>(parameters, link, start);
   }
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

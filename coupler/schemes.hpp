@@ -13,7 +13,7 @@
 #include "common/link/coupler_link.hpp"
 #include "coupler/parameters.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// What a window brought.
 struct Exchange {
@@ -36,7 +36,7 @@ class Scheme {
   virtual Exchange compute(Window& window) = 0;
 };
 
-std::unique_ptr<Scheme> make_scheme(const CouplingParameters& parameters, CouplerLink& link,
+std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, CouplerLink& link,
                                     const CouplerLink::Start& start);
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -3,7 +3,7 @@
 #include <set>
 #include <sstream>
 
-namespace toryu {
+namespace toryu::coupling {
 
 namespace {
 
@@ -36,4 +36,4 @@ std::string merge_used_cases(const std::vector<std::string>& texts) {
   return merged;
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

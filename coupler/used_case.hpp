@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// Joins TOML texts; a top-level section comes from the first text that has it.
 std::string merge_used_cases(const std::vector<std::string>& texts);
 
-}  // namespace toryu
+}  // namespace toryu::coupling

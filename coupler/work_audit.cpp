@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace toryu {
+namespace toryu::coupling {
 
 namespace {
 
@@ -33,4 +33,4 @@ void WorkAudit::note(const InterfaceLoad& given, const std::vector<double>& flui
   solid_ = solid;
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

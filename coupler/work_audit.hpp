@@ -9,7 +9,7 @@
 
 #include "common/link/participant.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 class WorkAudit {
  public:
@@ -44,4 +44,4 @@ class WorkAudit {
   int suspicious_ = 0;
 };
 
-}  // namespace toryu
+}  // namespace toryu::coupling

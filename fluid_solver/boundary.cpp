@@ -53,7 +53,7 @@ void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const W&
   const std::size_t first = cluster * lane_count;
   Lanes sum_W = 0.0, sum_p = 0.0;
   VecLanes sum_v = zero_vector(), sum_rho_x = zero_vector();
-  for (const Near& near : boundary.fluid_near.near(cluster)) {
+  for (const ShiftedNeighbours& near : boundary.list_for_wall.near(cluster)) {
     const VecLanes x_w = shifted(load(boundary.x, first), near.shift);
     for (const std::uint32_t i : near.sources) {
       const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
@@ -87,7 +87,7 @@ void extrapolate_viscosity_to_cluster(Boundary& boundary, const Particles& fluid
   const std::size_t first = cluster * lane_count;
   Lanes sum_W = 0.0, sum_eta = 0.0;
   TensorLanes mean = zero_tensor();
-  for (const Near& near : boundary.fluid_near.near(cluster)) {
+  for (const ShiftedNeighbours& near : boundary.list_for_wall.near(cluster)) {
     const VecLanes x_w = shifted(load(boundary.x, first), near.shift);
     for (const std::uint32_t i : near.sources) {
       const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
@@ -108,7 +108,7 @@ void extrapolate_viscosity_to_cluster(Boundary& boundary, const Particles& fluid
 }  // namespace
 
 void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity) {
-  const auto& active = boundary.fluid_near.active();
+  const auto& active = boundary.list_for_wall.active();
   kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k)
@@ -117,7 +117,7 @@ void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kerne
 }
 
 void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel) {
-  const auto& active = boundary.fluid_near.active();
+  const auto& active = boundary.list_for_wall.active();
   kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k)

@@ -35,8 +35,8 @@ struct Boundary {
   Field friction_length;    ///< d_s of (33) [m], see terms/friction.hpp
   VecField friction_force;  ///< on the particle [N per metre depth], where asked for
 
-  ClusterList fluid_near;  ///< for clusters of this boundary: the fluid's particles
-  ClusterList near_fluid;  ///< for clusters of the fluid: this boundary's particles
+  ClusterList list_for_wall;   ///< for clusters of this boundary: the fluid's particles
+  ClusterList list_for_fluid;  ///< for clusters of the fluid: this boundary's particles
   StripOrder strips{1.0};
 
   /// Sets `count` particles at `positions`, each of volume `particle_volume`, at rest.

@@ -17,7 +17,8 @@ struct Sums {
 };
 
 template <class W>
-Sums sums_of(const Particles& f, double mu, const W& kernel, std::size_t first, std::span<const Near> nears) {
+Sums sums_of(const Particles& f, double mu, const W& kernel, std::size_t first,
+             std::span<const ShiftedNeighbours> nears) {
   const VecLanes v_i = load(f.v, first);
   const Lanes p_i = load(f.p, first), p_rho2_i = load(f.p_rho2, first);
   const Lanes two_nu = 2.0 * mu * inverse(load(f.rho, first));
@@ -66,7 +67,7 @@ void make_gradients_consistent(RatesOf wanted, double mu, Particles& fluid, cons
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c) {
       const std::size_t first = c * lane_count;
-      const Lanes rho = load(fluid.rho, first), deep = load(fluid.deep, first);
+      const Lanes rho = load(fluid.rho, first), deep = load(fluid.off_surface_and_walls, first);
       if (sum_of(deep) == 0) continue;
       Sums sums = sums_of(fluid, mu, W, first, neighbours.near(c));
       const Difference more = difference(sums, rho);

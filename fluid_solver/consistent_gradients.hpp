@@ -20,8 +20,8 @@
 
 namespace toryu::fluid {
 
-/// Puts them into the wanted rates a, drho of `fluid`, which hold (18) and (22). Needs `fluid.deep`. `mu` [Pa
-/// s] is the viscosity of a Newtonian medium, else 0.
+/// Puts them into the wanted rates a, drho of `fluid`, which hold (18) and (22). Needs
+/// `fluid.off_surface_and_walls`. `mu` [Pa s] is the viscosity of a Newtonian medium, else 0.
 void make_gradients_consistent(RatesOf wanted, double mu, Particles& fluid, const ClusterList& neighbours,
                                const Kernel& kernel);
 

@@ -15,13 +15,13 @@ Kernel kernel_of(const Parameters& parameters) {
 
 }  // namespace
 
-Vec Given::force() const {
+Vec ForceOnFluid::force() const {
   Vec sum = friction();
   for (const auto& part : by_cluster) sum += part;
   return sum;
 }
 
-Vec Given::friction() const {
+Vec ForceOnFluid::friction() const {
   Vec sum = Vec::Zero();
   for (const auto& part : friction_by_cluster) sum += part;
   return sum;
@@ -72,7 +72,7 @@ void Dynamics::pressures(Particles& fluid) const {
 }
 
 void Dynamics::wall_densities(Boundary& boundary) const {
-  const auto& active = boundary.fluid_near.active();
+  const auto& active = boundary.list_for_wall.active();
 #pragma omp for schedule(static)
   for (std::size_t k = 0; k < active.size(); ++k)
     for (std::size_t w = active[k] * lane_count; w < (active[k] + 1) * lane_count; ++w) {
@@ -109,7 +109,7 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
     VelocityGradient gradient(load(fluid.x, first), load(fluid.v, first));
     gradient.add(sources(fluid), neighbours.near(c), W);
     if (viscous_walls())
-      for (const auto& wall : boundaries) gradient.add(sources(wall), wall.near_fluid.near(c), W);
+      for (const auto& wall : boundaries) gradient.add(sources(wall), wall.list_for_fluid.near(c), W);
     TensorLanes grad_v = gradient.value();
     const Lanes gdot = shear_rate(grad_v), eta = viscosity(law, gdot);
     for (auto& row : grad_v)
@@ -131,7 +131,8 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
 }
 
 void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                        std::vector<Boundary>& boundaries, std::vector<Given>& given, Timers& timers) const {
+                        std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given,
+                        Timers& timers) const {
   const bool density = wanted != RatesOf::velocity, velocity = wanted != RatesOf::density;
   given.resize(boundaries.size());
   for (auto& part : given) part.by_cluster.resize(fluid.clusters());
@@ -167,7 +168,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
 }
 
 void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries,
-                                 std::vector<Given>& given) const {
+                                 std::vector<ForceOnFluid>& given) const {
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].is_work_piece()) {
       friction_->measure_contact(boundaries[b], fluid);

@@ -23,7 +23,7 @@ class Dynamics {
   /// Fills p, V, the boundaries' extrapolated values and the wanted rates a, drho of `fluid` from its state.
   /// `given[b]` becomes the force that boundary b exerted on the fluid, where the velocity's rate is wanted.
   void evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                std::vector<Boundary>& boundaries, std::vector<Given>& given, Timers& timers) const;
+                std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given, Timers& timers) const;
 
   /// Fills `boundary.force`, the exact reaction to what the boundary did to the fluid in the last evaluation,
   /// gathered pair by pair on the boundary's side, and its `friction_force` where there is friction.
@@ -47,7 +47,7 @@ class Dynamics {
   void density_gradients(Particles& fluid, const ClusterList& neighbours) const;
   void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
   void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries,
-                         std::vector<Given>& given) const;
+                         std::vector<ForceOnFluid>& given) const;
   bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
   bool renormalised_diffusion() const {
     return std::holds_alternative<DensityDiffusionTerm<true>>(terms_.diffusion);

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <random>
 
+#include "common/scene/occupancy_index.hpp"
 #include "fluid_solver/fluid_solver.hpp"
 #include "fluid_solver/initial_flow.hpp"
-#include "fluid_solver/taken_places.hpp"
 #include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
@@ -96,7 +96,7 @@ void FluidSolver::fill_walls() {
     wall_start_.push_back(boundary.moves ? points : std::vector<Vec>{});
     if (wall && wall->work_piece) boundary.make_work_piece(lattice_area_vectors(points, parameters_.spacing));
   };
-  TakenPlaces taken(nearest_bodies(parameters_));
+  OccupancyIndex taken(nearest_bodies(parameters_));
   for (const auto& wall : scene_.walls) {
     const auto points = fill({wall.box}, {}, parameters_.spacing);
     const std::string place = fmt::format("[[wall]] '{}'", wall.name);

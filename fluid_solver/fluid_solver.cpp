@@ -1,13 +1,12 @@
 #include "fluid_solver/fluid_solver.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "common/run/remember.hpp"
+#include "common/run/log.hpp"
+#include "common/run/snapshot.hpp"
 #include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
@@ -108,7 +107,7 @@ void FluidSolver::move_back_into_domain() {
 
 /// All that a step changes. The lists are among it: what is summed in another order rounds otherwise.
 void FluidSolver::save() {
-  restore_ = remember(fluid_, boundaries_, neighbours_, given_, impulses_, gravity_impulse_, surface_record_,
+  restore_ = snapshot(fluid_, boundaries_, neighbours_, given_, impulses_, gravity_impulse_, surface_record_,
                       interface_, time_, largest_, density_rate_known_);
 }
 
@@ -136,9 +135,9 @@ void FluidSolver::record(double time) {
 void FluidSolver::watch_suction(double time) {
   const auto suction = suction_watch_->look(fluid_, time);
   if (!suction) return;
-  free_surface_.find_inside(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
+  free_surface_.find_off_surface(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
   if (!is_closed(fluid_)) return suction_watch_->forget();
-  spdlog::warn("{}", *suction);
+  log::warn("{}", *suction);
   suction_watch_.reset();
 }
 

@@ -82,7 +82,7 @@ class FluidSolver : public Solver {
   void step_midpoint(double dt);
   void step_symplectic(double dt);
   void advance_from(const Start& start, double dt);
-  void bear_load(double dt);
+  void accumulate_reaction(double dt);
   void shift(double dt);
   void note_surface(double dt);
   void watch_suction(double time);
@@ -102,7 +102,7 @@ class FluidSolver : public Solver {
   std::vector<Boundary> boundaries_;
   std::vector<const Wall*> moving_walls_;     ///< boundary b's, null where it stands still
   std::vector<std::vector<Vec>> wall_start_;  ///< where moving walls' particles began
-  std::vector<Given> given_;
+  std::vector<ForceOnFluid> given_;
   /// Impulse since the start [N.s per metre] that boundary b gave the fluid, and the friction's share of it.
   struct Impulse {
     Vec total = Vec::Zero(), friction = Vec::Zero();

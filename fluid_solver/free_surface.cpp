@@ -8,8 +8,8 @@ namespace toryu::fluid {
 namespace {
 
 template <class W>
-void add_moment(Moment& moment, const VecLanes& x_i, const Sources& sources, std::span<const Near> nears,
-                const W& kernel) {
+void add_moment(Moment& moment, const VecLanes& x_i, const Sources& sources,
+                std::span<const ShiftedNeighbours> nears, const W& kernel) {
   over_neighbours(kernel, nears, x_i, sources, [&](std::uint32_t, const Neighbour& n) TORYU_INLINE_LAMBDA {
     moment.add(n.x_ij, n.V_grad);
   });
@@ -17,10 +17,10 @@ void add_moment(Moment& moment, const VecLanes& x_i, const Sources& sources, std
 
 /// 1 where particle i of the cluster has none of the `sources` that count within `support`.
 template <class Counts>
-Lanes none_near(const VecLanes& x_i, const Sources& sources, std::span<const Near> nears, double support,
-                Counts&& counts) {
+Lanes none_near(const VecLanes& x_i, const Sources& sources, std::span<const ShiftedNeighbours> nears,
+                double support, Counts&& counts) {
   Lanes none = 1.0;
-  for (const Near& near : nears) {
+  for (const ShiftedNeighbours& near : nears) {
     const VecLanes x = shifted(x_i, near.shift);
     for (const std::uint32_t j : near.sources) {
       if (!counts(j)) continue;
@@ -33,17 +33,18 @@ Lanes none_near(const VecLanes& x_i, const Sources& sources, std::span<const Nea
 
 }  // namespace
 
-void FreeSurface::find_inside(Particles& fluid, const ClusterList& neighbours,
-                              const std::vector<Boundary>& boundaries, const Kernel& kernel) {
+void FreeSurface::find_off_surface(Particles& fluid, const ClusterList& neighbours,
+                                   const std::vector<Boundary>& boundaries, const Kernel& kernel) {
   at_surface_.resize(padded(fluid.count));
-  fluid.inside.resize(padded(fluid.count));
+  fluid.off_surface.resize(padded(fluid.count));
   kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c) {
       const VecLanes x_i = load(fluid.x, c * lane_count);
       Moment moment;
       add_moment(moment, x_i, sources(fluid), neighbours.near(c), W);
-      for (const auto& wall : boundaries) add_moment(moment, x_i, sources(wall), wall.near_fluid.near(c), W);
+      for (const auto& wall : boundaries)
+        add_moment(moment, x_i, sources(wall), wall.list_for_fluid.near(c), W);
       store(select(moment.smaller_eigenvalue() < surface_moment, 1.0, 0.0), at_surface_, c * lane_count);
     }
   });
@@ -51,30 +52,32 @@ void FreeSurface::find_inside(Particles& fluid, const ClusterList& neighbours,
       std::all_of(at_surface_.begin(), at_surface_.begin() + static_cast<std::ptrdiff_t>(fluid.count),
                   [](double is) { return is == 0; });
   if (no_surface) {
-    std::fill(fluid.inside.begin(), fluid.inside.end(), 1.0);
+    std::fill(fluid.off_surface.begin(), fluid.off_surface.end(), 1.0);
     return;
   }
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c)
     store(none_near(load(fluid.x, c * lane_count), sources(fluid), neighbours.near(c), kernel.support(),
                     [&](std::uint32_t j) { return at_surface_[j] != 0; }),
-          fluid.inside, c * lane_count);
+          fluid.off_surface, c * lane_count);
 }
 
 bool is_closed(const Particles& fluid) {
-  return std::all_of(fluid.inside.begin(), fluid.inside.begin() + static_cast<std::ptrdiff_t>(fluid.count),
+  return std::all_of(fluid.off_surface.begin(),
+                     fluid.off_surface.begin() + static_cast<std::ptrdiff_t>(fluid.count),
                      [](double inside) { return inside > 0; });
 }
 
-void find_deep(Particles& fluid, const std::vector<Boundary>& boundaries, const Kernel& kernel) {
-  fluid.deep.resize(padded(fluid.count));
+void find_off_surface_and_walls(Particles& fluid, const std::vector<Boundary>& boundaries,
+                                const Kernel& kernel) {
+  fluid.off_surface_and_walls.resize(padded(fluid.count));
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c) {
-    Lanes deep = load(fluid.inside, c * lane_count);
+    Lanes deep = load(fluid.off_surface, c * lane_count);
     for (const auto& wall : boundaries)
-      deep *= none_near(load(fluid.x, c * lane_count), sources(wall), wall.near_fluid.near(c),
+      deep *= none_near(load(fluid.x, c * lane_count), sources(wall), wall.list_for_fluid.near(c),
                         kernel.support(), [](std::uint32_t) { return true; });
-    store(deep, fluid.deep, c * lane_count);
+    store(deep, fluid.off_surface_and_walls, c * lane_count);
   }
 }
 

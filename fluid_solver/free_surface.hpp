@@ -13,18 +13,19 @@ inline constexpr double surface_moment = 0.75;
 
 class FreeSurface {
  public:
-  /// Fills `fluid.inside`.
-  void find_inside(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
-                   const Kernel& kernel);
+  /// Fills `fluid.off_surface`.
+  void find_off_surface(Particles& fluid, const ClusterList& neighbours,
+                        const std::vector<Boundary>& boundaries, const Kernel& kernel);
 
  private:
   Field at_surface_;  ///< 1 for a particle at the surface, else 0; kept from step to step for its memory
 };
 
-/// Whether all of the fluid is `fluid.inside`.
+/// Whether all of the fluid is `fluid.off_surface`.
 bool is_closed(const Particles& fluid);
 
-/// Fills `fluid.deep` from `fluid.inside` and the walls within the kernel's support.
-void find_deep(Particles& fluid, const std::vector<Boundary>& boundaries, const Kernel& kernel);
+/// Fills `fluid.off_surface_and_walls` from `fluid.off_surface` and the walls within the kernel's support.
+void find_off_surface_and_walls(Particles& fluid, const std::vector<Boundary>& boundaries,
+                                const Kernel& kernel);
 
 }  // namespace toryu::fluid

@@ -16,14 +16,14 @@ void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& f
   auto& d = work_piece.friction_length;
   d.assign(padded(work_piece.count), spacing_);
   if (form_ == FrictionForm::as_printed) return;
-  const auto& active = work_piece.fluid_near.active();
+  const auto& active = work_piece.list_for_wall.active();
   kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k) {
       const std::size_t first = active[k] * lane_count;
       const VecLanes A_s = load(work_piece.area_vector, first);
       Lanes sum = 0.0;
-      for (const Near& near : work_piece.fluid_near.near(active[k])) {
+      for (const ShiftedNeighbours& near : work_piece.list_for_wall.near(active[k])) {
         const VecLanes x_s = shifted(load(work_piece.x, first), near.shift);
         for (const std::uint32_t f : near.sources) {
           const VecLanes x_sf{x_s[0] - fluid.x[0][f], x_s[1] - fluid.x[1][f]};
@@ -38,7 +38,7 @@ void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& f
 void WorkPieceFriction::brake_fluid(Particles& fluid, const Boundary& work_piece,
                                     std::vector<Vec>& by_cluster) const {
   by_cluster.assign(fluid.clusters(), Vec::Zero());
-  const auto& active = work_piece.near_fluid.active();
+  const auto& active = work_piece.list_for_fluid.active();
   kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k)
@@ -53,7 +53,7 @@ Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, const Bo
   const VecLanes v_f = load(fluid.v, first);
   const Lanes p_f = load(fluid.p, first), V_f = load(fluid.V, first);
   VecLanes sum = zero_vector();
-  for (const Near& near : work_piece.near_fluid.near(cluster)) {
+  for (const ShiftedNeighbours& near : work_piece.list_for_fluid.near(cluster)) {
     const VecLanes x_f = shifted(load(fluid.x, first), near.shift);
     for (const std::uint32_t s : near.sources) {
       VecLanes x_fs, v_fs;
@@ -77,7 +77,7 @@ Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, const Bo
 
 void WorkPieceFriction::drag_work_piece(Boundary& work_piece, const Particles& fluid) const {
   for (auto& component : work_piece.friction_force) component.assign(padded(work_piece.count), 0.0);
-  const auto& active = work_piece.fluid_near.active();
+  const auto& active = work_piece.list_for_wall.active();
   kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k) drag_cluster(W, work_piece, fluid, active[k]);
@@ -91,7 +91,7 @@ void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, cons
   const VecLanes v_s = load(work_piece.v, first);
   const Lanes d_s = load(work_piece.friction_length, first);
   VecLanes sum = zero_vector();
-  for (const Near& near : work_piece.fluid_near.near(cluster)) {
+  for (const ShiftedNeighbours& near : work_piece.list_for_wall.near(cluster)) {
     const VecLanes x_s = shifted(load(work_piece.x, first), near.shift);
     for (const std::uint32_t f : near.sources) {
       VecLanes x_fs, v_fs;

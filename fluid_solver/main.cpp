@@ -1,15 +1,18 @@
 /// The fluid participant: computes the fluid of a case, alone or in turn with a solid.
 #include <fmt/format.h>
 #include <omp.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
 #include "common/link/participant.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
+#include "common/run/log.hpp"
+#include "common/run/options.hpp"
+#include "common/run/program.hpp"
+#include "common/run/provenance.hpp"
 #include "fluid_solver/fluid_solver.hpp"
-#include "fluid_solver/guards.hpp"
+#include "fluid_solver/stability_warnings.hpp"
 
 namespace {
 
@@ -47,11 +50,11 @@ void take_turns(FluidLink& link, FluidSolver& solver, RunRecord& record) {
 }
 
 void warn_of_thin_wall(const fluid::Boundary& wall, double spacing, const fluid::Parameters& parameters) {
-  if (const auto thin = fluid::beyond_thinnest(wall, spacing, parameters)) spdlog::warn("{}", *thin);
+  if (const auto thin = fluid::beyond_thinnest(wall, spacing, parameters)) log::warn("{}", *thin);
 }
 
 void warn_of_coarse_work_piece(double spacing, const fluid::Parameters& parameters) {
-  if (const auto coarse = fluid::beyond_coarsest_work_piece(spacing, parameters)) spdlog::warn("{}", *coarse);
+  if (const auto coarse = fluid::beyond_coarsest_work_piece(spacing, parameters)) log::warn("{}", *coarse);
 }
 
 void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene,
@@ -64,8 +67,8 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .used_case = file.used()});
   try {
     const Interface interface = link.join(solver.traits());
-    spdlog::info("the solid's interface has {} particles of spacing {:g} m", interface.size(),
-                 interface.spacing);
+    log::info("the solid's interface has {} particles of spacing {:g} m", interface.size(),
+              interface.spacing);
     solver.attach(interface);
     warn_of_thin_wall(solver.boundaries().back(), interface.spacing, parameters);
     warn_of_coarse_work_piece(interface.spacing, parameters);
@@ -86,7 +89,7 @@ ExitCode solve(const Options& options) {
   const Scene scene = read_scene(file);
   fluid::Parameters parameters;
   file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
-  file.leave_to_others({"solid", "coupling"});
+  file.ignore_sections({"solid", "coupling"});
   const auto is_work_piece = [](const Wall& wall) { return wall.work_piece; };
   const bool no_work_piece =
       !file.has("solid") && std::none_of(scene.walls.begin(), scene.walls.end(), is_work_piece);
@@ -110,11 +113,11 @@ ExitCode solve(const Options& options) {
   const fluid::Start start{.speed = fluid::largest_norm(particles.v, particles.count),
                            .wall_speed = fluid::wall_speed_at_start(scene.walls),
                            .gravity = scene.gravity};
-  for (const auto& beyond : fluid::beyond_edges(parameters, start)) spdlog::warn("{}", beyond);
-  for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) spdlog::warn("{}", face);
+  for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
+  for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
   for (const auto& wall : solver.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
   if (const auto jet = fluid::beyond_thinnest_jet(particles, solver.boundaries(), parameters.spacing))
-    spdlog::warn("{}", *jet);
+    log::warn("{}", *jet);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.number("solid.spacing").value_or(0), parameters);
     return ExitCode::done;

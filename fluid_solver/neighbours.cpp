@@ -65,8 +65,8 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries) {
       boundary.sort();
       built_boundaries_[b] = boundary.x;
     }
-    boundary.near_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, reach, shifts_);
-    boundary.fluid_near.build(boundary.x, boundary.count, fluid.x, strips_, reach, shifts_);
+    boundary.list_for_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, reach, shifts_);
+    boundary.list_for_wall.build(boundary.x, boundary.count, fluid.x, strips_, reach, shifts_);
   }
 }
 

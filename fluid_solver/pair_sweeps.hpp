@@ -36,7 +36,7 @@ struct BodyForce {
 };
 
 /// What a boundary gave the fluid in one evaluation.
-struct Given {
+struct ForceOnFluid {
   std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
   std::vector<Vec> friction_by_cluster;  ///< the same of the friction alone; empty where there is none
   Vec force() const;                     ///< the sum of both
@@ -49,13 +49,13 @@ struct PairSweeps {
   bool viscous_walls;
   bool wall_suction;
   double rest_density;   ///< [kg/m3]
-  bool tensile_control;  ///< needs `deep` of the fluid
+  bool tensile_control;  ///< needs `off_surface_and_walls` of the fluid
 
   /// Fills the rates a, drho of `fluid`, and `given` where the velocity is among them. Opens a parallel
   /// region. Defined for CubicSpline and WendlandC2.
   template <class W>
   void rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-             const std::vector<Boundary>& boundaries, std::vector<Given>& given) const;
+             const std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given) const;
 
   /// Fills `boundary.force`: the forces on the fluid's side gathered pair by pair on the boundary's.
   template <class W>

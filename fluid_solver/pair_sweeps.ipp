@@ -88,9 +88,9 @@ Vec lane_sums(const Lanes& m, const VecLanes& v) {
 
 /// Adds the sums over `sources` near a cluster of targets `i`, which stand at `x_i`, pair by pair.
 template <class W, class Add>
-TORYU_INLINE void over_pairs(const W& kernel, std::span<const Near> nears, Targets& i, const VecLanes& x_i,
-                             const Sources& sources, Add&& add) {
-  for (const Near& near : nears) {
+TORYU_INLINE void over_pairs(const W& kernel, std::span<const ShiftedNeighbours> nears, Targets& i,
+                             const VecLanes& x_i, const Sources& sources, Add&& add) {
+  for (const ShiftedNeighbours& near : nears) {
     i.x = shifted(x_i, near.shift);
     for (const std::uint32_t j : near.sources) add(j, make_pair(kernel, i, sources, j));
   }
@@ -105,13 +105,13 @@ inline constexpr bool of_density = wanted != RatesOf::velocity;
 template <RatesOf wanted, class W, class... Terms>
 void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& fluid,
                       const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
-                      std::vector<Given>& given, std::size_t cluster, const Terms... term) {
+                      std::vector<ForceOnFluid>& given, std::size_t cluster, const Terms... term) {
   const std::size_t first = cluster * lane_count;
   const Sources own = sources(fluid);
   Targets i = load_targets(fluid, first);
   const VecLanes x_i = i.x;
   const Lanes p_rho2_i = i.p_rho2;
-  if (sweeps.tensile_control) i.p_rho2 = without_tension(p_rho2_i, load(fluid.deep, first));
+  if (sweeps.tensile_control) i.p_rho2 = without_tension(p_rho2_i, load(fluid.off_surface_and_walls, first));
   Rates rates;
   over_pairs(kernel, neighbours.near(cluster), i, x_i, own,
              [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
@@ -127,7 +127,7 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
   i.p_rho2 = p_rho2_i;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     if constexpr (of_velocity<wanted>) given[b].by_cluster[cluster].setZero();
-    const auto near = boundaries[b].near_fluid.near(cluster);
+    const auto near = boundaries[b].list_for_fluid.near(cluster);
     if (near.size() == 1 && near[0].sources.empty()) continue;
     const Sources wall = sources(boundaries[b]);
     // Summed apart: where a wall is only grazed, its share of the acceleration is below the rounding of the
@@ -161,7 +161,7 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
   Targets w = load_targets(boundary, first);
   const VecLanes x_w = w.x;
   Rates rates;
-  over_pairs(kernel, boundary.fluid_near.near(cluster), w, x_w, own,
+  over_pairs(kernel, boundary.list_for_wall.near(cluster), w, x_w, own,
              [&](std::size_t i, const Pair& pair) TORYU_INLINE_LAMBDA {
                (add_at_wall(term, w, own, i, pair, rates), ...);
                if (sweeps.viscous_walls) (add_viscous(term, w, own, i, pair, rates), ...);
@@ -171,7 +171,8 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
 
 template <RatesOf wanted, class W, class... Terms>
 void rates_of_all(const PairSweeps& sweeps, const W& kernel, Particles& fluid, const ClusterList& neighbours,
-                  const std::vector<Boundary>& boundaries, std::vector<Given>& given, const Terms... term) {
+                  const std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given,
+                  const Terms... term) {
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c)
     rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, given, c, term...);
@@ -181,7 +182,7 @@ void rates_of_all(const PairSweeps& sweeps, const W& kernel, Particles& fluid, c
 
 template <class W>
 void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                       const std::vector<Boundary>& boundaries, std::vector<Given>& given) const {
+                       const std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given) const {
   // Terms that a sweep does not ask for are not told apart: each combination is compiled once.
   if (wanted == RatesOf::both)
     std::visit(
@@ -210,7 +211,7 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
 template <class W>
 void PairSweeps::reaction(const W& kernel, const Particles& fluid, Boundary& boundary) const {
   for (auto& component : boundary.force) std::fill(component.begin(), component.end(), 0.0);
-  const auto& active = boundary.fluid_near.active();
+  const auto& active = boundary.list_for_wall.active();
   std::visit(
       [&](const auto&... term) {
 #pragma omp parallel for schedule(dynamic, 4)

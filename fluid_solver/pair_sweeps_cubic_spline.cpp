@@ -3,7 +3,7 @@
 namespace toryu::fluid {
 
 template void PairSweeps::rates(const CubicSpline&, RatesOf, Particles&, const ClusterList&,
-                                const std::vector<Boundary>&, std::vector<Given>&) const;
+                                const std::vector<Boundary>&, std::vector<ForceOnFluid>&) const;
 template void PairSweeps::reaction(const CubicSpline&, const Particles&, Boundary&) const;
 
 }  // namespace toryu::fluid

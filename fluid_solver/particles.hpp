@@ -17,8 +17,8 @@ struct Particles {
   // derived at each evaluation
   Field V, p, p_rho2;  ///< m/rho [m2], [Pa], p/rho^2
   VecField grad_rho;   ///< renormalised <grad rho>, only where the density diffusion wants it [kg/m4]
-  Field inside;        ///< 1 where no free surface is in reach, else 0; only where a term asks for it
-  Field deep;          ///< 1 where no wall is in reach either, else 0; only where a term asks for it
+  Field off_surface;   ///< 1 where no free surface is in reach, else 0; only where a term asks for it
+  Field off_surface_and_walls;  ///< 1 where no wall is in reach either, else 0; only where a term asks for it
   // only where the medium is not Newtonian
   Field gdot, eta;         ///< shear rate [1/s], viscosity [Pa s]
   TensorField eta_grad_v;  ///< [a][b]: eta dv_b/dx_a [Pa]

@@ -20,7 +20,7 @@ struct Sums {
 /// `inverse_W_d0` is 1/W(d_0).
 template <bool fluid_sources, class W>
 void add(Sums& sums, const VecLanes& x_i, const VecLanes& v_i, const Lanes& rho_i, const Sources& source,
-         std::span<const Near> nears, const W& kernel, double inverse_W_d0) {
+         std::span<const ShiftedNeighbours> nears, const W& kernel, double inverse_W_d0) {
   over_neighbours(kernel, nears, x_i, source, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
     const Lanes share = kernel.value(n.r) * inverse_W_d0, share_2 = share * share;
     add_product(sums.crowding, 1.0 + R * (share_2 * share_2), n.V_grad);
@@ -48,10 +48,10 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
       Sums sums;
       add<true>(sums, x_i, v_i, rho_i, sources(fluid), neighbours.near(c), W, inverse_W_d0);
       for (const auto& wall : boundaries)
-        add<false>(sums, x_i, v_i, rho_i, sources(wall), wall.near_fluid.near(c), W, inverse_W_d0);
+        add<false>(sums, x_i, v_i, rho_i, sources(wall), wall.list_for_fluid.near(c), W, inverse_W_d0);
       VecLanes dx{factor * sums.crowding[0], factor * sums.crowding[1]};
       const Lanes length = square_root(dot(dx, dx));
-      const Lanes share = load(fluid.inside, first) * min(1.0, longest * inverse(max(length, 1e-300)));
+      const Lanes share = load(fluid.off_surface, first) * min(1.0, longest * inverse(max(length, 1e-300)));
       for (auto& component : dx) component *= share;
       sums.moment.invert();
       moved_[c] = {{x_i[0] + dx[0], x_i[1] + dx[1]},

@@ -5,7 +5,7 @@
 ///
 /// over fluid and walls, so that streamlines do not comb them into rows with gaps between. What is carried
 /// stays in its place to first order: v_i += dx_i . grad v, rho_i += dx_i . grad rho with renormalised
-/// gradients. Near a free surface the sum would push particles out: they are left alone there.
+/// gradients. ShiftedNeighbours a free surface the sum would push particles out: they are left alone there.
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
@@ -18,7 +18,7 @@ class Shifting {
   Shifting(const ParticleShifting& parameters, double spacing, const Kernel& kernel)
       : strength_(parameters.strength), spacing_(spacing), kernel_(kernel) {}
 
-  /// Shifts `fluid`, where it is `inside`, by what belongs to a step of `dt` [s] at a largest speed of
+  /// Shifts `fluid`, where it is `off_surface`, by what belongs to a step of `dt` [s] at a largest speed of
   /// `largest_speed` [m/s].
   void shift(Particles& fluid, const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
              double largest_speed, double dt);

@@ -30,7 +30,9 @@ std::optional<std::string> SuctionWatch::look(const Particles& fluid, double tim
   for (std::size_t i = 0; i < fluid.count; ++i) {
     double& path = path_[fluid.id[i]];
     if (path == 0 && fluid.rho[i] >= rho_without_pressure) continue;  // nearly all of a medium that is well
-    const double p = !fluid.deep.empty() && fluid.deep[i] > 0 ? 0.0 : state_.pressure(fluid.rho[i]);
+    const double p = !fluid.off_surface_and_walls.empty() && fluid.off_surface_and_walls[i] > 0
+                         ? 0.0
+                         : state_.pressure(fluid.rho[i]);
     const double step = std::min(std::sqrt(std::abs(p) / fluid.rho[i]) * dt / spacing_, 1.0);
     path = std::max(path - std::copysign(step, p), 0.0);
     if (path < longest_path) continue;

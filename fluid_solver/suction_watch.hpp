@@ -25,7 +25,7 @@ class SuctionWatch {
 
   /// Looks at the fluid at `time` [s], as often as rows are written: one counts for a spacing at most. A
   /// sentence where enough paths have become too long. What tensile control takes the tension off,
-  /// `fluid.deep`, does not count.
+  /// `fluid.off_surface_and_walls`, does not count.
   std::optional<std::string> look(const Particles& fluid, double time);
   /// All paths begin anew.
   void forget() { path_.clear(); }

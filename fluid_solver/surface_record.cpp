@@ -23,7 +23,7 @@ Contact contact_of(const Boundary& surface, std::size_t k, const Particles& flui
   const Vec v_s = at(surface.v, k);
   Contact mean;
   double sum = 0;
-  for (const Near& near : surface.fluid_near.near(k / lane_count)) {
+  for (const ShiftedNeighbours& near : surface.list_for_wall.near(k / lane_count)) {
     const Vec x_s = at(surface.x, k) + near.shift;
     for (const std::uint32_t f : near.sources) {
       const double r = (at(fluid.x, f) - x_s).norm();

@@ -50,8 +50,8 @@ void FluidSolver::advance(double dt) {
   update_neighbours(dt);
   if (parameters_.seeks_free_surface()) {
     const auto timer = timers_.measure("free surface");
-    free_surface_.find_inside(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
-    if (parameters_.keeps_off_walls()) find_deep(fluid_, boundaries_, dynamics_.kernel());
+    free_surface_.find_off_surface(fluid_, neighbours_.of_fluid(), boundaries_, dynamics_.kernel());
+    if (parameters_.keeps_off_walls()) find_off_surface_and_walls(fluid_, boundaries_, dynamics_.kernel());
   }
   if (parameters_.integrator == Integrator::symplectic)
     step_symplectic(dt);
@@ -74,7 +74,7 @@ void FluidSolver::step_midpoint(double dt) {
   advance_from(start_, 0.5 * dt);
   move_boundaries(time_ + 0.5 * dt);
   dynamics_.evaluate(RatesOf::both, fluid_, neighbours_.of_fluid(), boundaries_, given_, timers_);
-  bear_load(dt);
+  accumulate_reaction(dt);
   const auto timer = timers_.measure("step");
   advance_from(start_, dt);
   time_ += dt;
@@ -92,7 +92,7 @@ void FluidSolver::step_symplectic(double dt) {
   add(fluid_.rho, 0.5 * dt, fluid_.drho, clusters);
   move_boundaries(time_ + 0.5 * dt);
   evaluate(RatesOf::velocity);
-  bear_load(dt);
+  accumulate_reaction(dt);
   add(fluid_.v, dt, fluid_.a, clusters);
   add(fluid_.x, 0.5 * dt, fluid_.v, clusters);
   time_ += dt;
@@ -102,7 +102,7 @@ void FluidSolver::step_symplectic(double dt) {
 }
 
 /// Notes what the forces of the evaluation by which the velocity advances do to others over `dt`.
-void FluidSolver::bear_load(double dt) {
+void FluidSolver::accumulate_reaction(double dt) {
   if (interface_boundary_) {
     const auto timer = timers_.measure("reaction on the interface");
     auto& boundary = boundaries_[*interface_boundary_];

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "fluid_solver/taken_places.hpp"
+#include "common/scene/occupancy_index.hpp"
 
 namespace toryu::fluid {
 
 std::vector<Vec> lattice_area_vectors(const std::vector<Vec>& points, double spacing) {
-  TakenPlaces places(0.5 * spacing);
+  OccupancyIndex places(0.5 * spacing);
   places.take(points, "");
   std::vector<Vec> area_vectors(points.size(), Vec::Zero());
   for (std::size_t k = 0; k < points.size(); ++k)

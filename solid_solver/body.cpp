@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
@@ -41,7 +41,7 @@ class PlaceIndex {
 };
 
 /// Number of cells along a side; 0, told as a fault, if they do not fill it.
-long cells(const SolidRegion& region, int axis, double spacing, const TellFault& tell_fault) {
+long cells(const Region& region, int axis, double spacing, const TellFault& tell_fault) {
   const double side = region.box.max[axis] - region.box.min[axis];
   const long n = std::lround(side / spacing);
   if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit) return n;
@@ -53,9 +53,8 @@ long cells(const SolidRegion& region, int axis, double spacing, const TellFault&
   return 0;
 }
 
-void fill_region(std::size_t index, const SolidParameters& parameters, SolidBody& body,
-                 const TellFault& tell_fault) {
-  const SolidRegion& region = parameters.regions[index];
+void fill_region(std::size_t index, const Parameters& parameters, Body& body, const TellFault& tell_fault) {
+  const Region& region = parameters.regions[index];
   const long n_x = cells(region, 0, parameters.spacing, tell_fault);
   const long n_y = cells(region, 1, parameters.spacing, tell_fault);
   const Vec side = region.box.max - region.box.min;
@@ -75,7 +74,7 @@ void fill_region(std::size_t index, const SolidParameters& parameters, SolidBody
 
 /// Whether regions a and b have more than an edge in common; of round ones, whether a particle of one lies in
 /// the other.
-bool overlap(const SolidParameters& parameters, const SolidBody& body, std::size_t a, std::size_t b) {
+bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std::size_t b) {
   const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
   if (!A.round && !B.round) {
     const double tolerance = 1e-6 * parameters.spacing;
@@ -87,7 +86,7 @@ bool overlap(const SolidParameters& parameters, const SolidBody& body, std::size
   return false;
 }
 
-void find_surface(SolidBody& body) {
+void find_surface(Body& body) {
   const PlaceIndex places(body.X, body.spacing);
   body.area_vector.assign(body.size(), Vec::Zero());
   for (std::size_t i = 0; i < body.size(); ++i)
@@ -104,20 +103,20 @@ void find_surface(SolidBody& body) {
 
 }  // namespace
 
-double SolidBody::total_volume() const {
+double Body::total_volume() const {
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) sum += volume(i);
   return sum;
 }
 
-std::vector<std::uint32_t> SolidBody::inside(const Box& box) const {
+std::vector<std::uint32_t> Body::inside(const Box& box) const {
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < size(); ++i)
     if (box.contains(X[i])) found.push_back(static_cast<std::uint32_t>(i));
   return found;
 }
 
-std::vector<std::uint32_t> SolidBody::near_surface(double reach) const {
+std::vector<std::uint32_t> Body::near_surface(double reach) const {
   // A hair more: where a row lies at the reach itself, rounding must not choose among its particles. A layer
   // that is pushed against water would turn aside.
   reach *= 1 + 1e-9;
@@ -129,8 +128,8 @@ std::vector<std::uint32_t> SolidBody::near_surface(double reach) const {
   return found;
 }
 
-SolidBody build_body(const SolidParameters& parameters, const TellFault& tell_fault) {
-  SolidBody body;
+Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
+  Body body;
   body.spacing = parameters.spacing;
   const auto& regions = parameters.regions;
   std::vector<Box> boxes;
@@ -165,4 +164,4 @@ SolidBody build_body(const SolidParameters& parameters, const TellFault& tell_fa
   return body;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

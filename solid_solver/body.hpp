@@ -9,14 +9,14 @@
 
 #include "solid_solver/parameters.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// Particles numbered region by region, row by row. Each region is filled by a lattice of its own, whose
 /// spacing along each axis is the nearest to the stated one that divides the region's side: the particles are
 /// at (i + 1/2) spacings from its faces, and their volumes sum to its area. A clamp line that is the common
 /// face of two regions therefore lies between rows. Of a round region, or about a round hole, the particles
 /// whose centre is inside are there.
-struct SolidBody {
+struct Body {
   std::vector<Vec> X;                 ///< positions [m]
   std::vector<Vec> cell;              ///< sides of each particle's cell [m]
   std::vector<std::uint32_t> region;  ///< index of each particle's region
@@ -40,6 +40,6 @@ using TellFault = std::function<void(const std::string& key, const std::string& 
 
 /// Tells as faults: a region that cannot be filled (a side shorter than a spacing, or not near a whole number
 /// of them), regions that overlap, a clamp or a load that holds no particle.
-SolidBody build_body(const SolidParameters& parameters, const TellFault& tell_fault);
+Body build_body(const Parameters& parameters, const TellFault& tell_fault);
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -1,14 +1,14 @@
 #include "solid_solver/bonds.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
+#include "common/run/log.hpp"
 #include "common/sph/sorted_points.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
@@ -17,7 +17,7 @@ constexpr double reach_of_adjacent = 1.5;
 
 }  // namespace
 
-Bonds::Bonds(const SolidBody& body, const BondLimits& limits) : limits_(limits) {
+Bonds::Bonds(const Body& body, const BondLimits& limits) : limits_(limits) {
   const double reach = reach_of_adjacent * body.spacing;
   const SortedPoints points(body.X, reach);
   for (std::uint32_t i = 0; i < body.size(); ++i)
@@ -63,7 +63,7 @@ void BondWatch::look(const std::vector<Vec>& x, double time) {
                         std::uint32_t particle) {
     if (count == 0 || count < 2 * told) return;
     told = count;
-    spdlog::warn(
+    log::warn(
         "the solid has {} at t = {:.6g} s: {} bonds are {} than {:g} times their first length, most "
         "that of particle {} at ({:.4g}, {:.4g}) m",
         what, time, count, than, limit, particle, x[particle][0], x[particle][1]);
@@ -78,18 +78,18 @@ void BondWatch::look(const std::vector<Vec>& x, double time) {
 
 void BondWatch::tell_of_stress(const Stretches& found, double time) {
   if (found.turn > edges_.turn && worst_.turn <= edges_.turn)
-    spdlog::warn(
+    log::warn(
         "bonds of the solid have turned by {:.3g} rad at t = {:.6g} s: plain gradients take a turn near a "
         "surface for a strain, beyond the edge at {:g} rad; take gradients = \"renormalised\" or formulation "
         "= "
         "\"total_lagrangian\", see cases/rigid_rotation/turn_map.toml",
         found.turn, time, edges_.turn);
   if (found.strain() > edges_.strain && worst_.strain() <= edges_.strain)
-    spdlog::warn(
+    log::warn(
         "bonds of the solid are strained by {:.3g} at t = {:.6g} s: stress under the Jaumann rate is then 5 "
         "% "
         "short in shear, or more, beyond the edge at {:g}; see cases/patch_test/jaumann_map.toml",
         found.strain(), time, edges_.strain);
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

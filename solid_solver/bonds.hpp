@@ -14,7 +14,7 @@
 
 #include "solid_solver/body.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct Stretches {
   double largest = 1, smallest = 1;
@@ -33,7 +33,7 @@ struct StressEdges {
 
 class Bonds {
  public:
-  Bonds(const SolidBody& body, const BondLimits& limits);
+  Bonds(const Body& body, const BondLimits& limits);
   /// At positions x [m], by number of the particle.
   Stretches stretches(const std::vector<Vec>& x) const;
 
@@ -51,7 +51,7 @@ class Bonds {
 /// number has doubled, and when they are beyond the edges of the stress.
 class BondWatch {
  public:
-  BondWatch(const SolidBody& body, const BondLimits& limits, const StressEdges& edges)
+  BondWatch(const Body& body, const BondLimits& limits, const StressEdges& edges)
       : bonds_(body, limits), limits_(limits), edges_(edges) {}
 
   /// Looks at positions x [m] at `time` [s]. Throws PhysicsFailure where the limits say so.
@@ -70,4 +70,4 @@ class BondWatch {
   long told_torn_ = 0, told_clumped_ = 0;
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -1,11 +1,11 @@
 #include "solid_solver/detached_list.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "common/output/atomic_file.hpp"
+#include "common/run/log.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
@@ -30,14 +30,14 @@ void DetachedList::write(const std::vector<DetachedParticle>& all) {
   write_atomically(path_, table(all));
   for (; told_ < std::min(all.size(), told_one_by_one); ++told_) {
     const auto& p = all[told_];
-    spdlog::warn("particle {} of the solid has come off at t = {:.6g} s: {:.4g} kg/m from ({:.4g}, {:.4g}) m",
-                 p.particle, p.time, p.mass, p.start[0], p.start[1]);
+    log::warn("particle {} of the solid has come off at t = {:.6g} s: {:.4g} kg/m from ({:.4g}, {:.4g}) m",
+              p.particle, p.time, p.mass, p.start[0], p.start[1]);
   }
   if (all.size() >= 2 * told_) {
-    spdlog::warn("{} particles of the solid have come off by t = {:.6g} s; detached.csv lists them",
-                 all.size(), all.back().time);
+    log::warn("{} particles of the solid have come off by t = {:.6g} s; detached.csv lists them", all.size(),
+              all.back().time);
     told_ = all.size();
   }
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

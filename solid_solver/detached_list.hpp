@@ -7,7 +7,7 @@
 
 #include "solid_solver/detachment.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 class DetachedList {
  public:
@@ -21,4 +21,4 @@ class DetachedList {
   std::size_t told_ = 0;
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -4,9 +4,9 @@
 
 #include "common/sph/sorted_points.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
-DetachmentObserver::DetachmentObserver(const SolidBody& body, const SolidParameters& parameters)
+DetachmentObserver::DetachmentObserver(const Body& body, const Parameters& parameters)
     : body_(&body),
       density_(parameters.material.density),
       bond_length_(parameters.detachment->bond_length > 0 ? parameters.detachment->bond_length * body.spacing
@@ -47,4 +47,4 @@ bool DetachmentObserver::look(const std::vector<Vec>& x, double time) {
   return list_.size() > before;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

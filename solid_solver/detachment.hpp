@@ -10,7 +10,7 @@
 
 #include "solid_solver/body.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct DetachedParticle {
   std::uint32_t particle;
@@ -23,7 +23,7 @@ struct DetachedParticle {
 class DetachmentObserver {
  public:
   /// `parameters` are those of a body that has clamps; `body` must outlive the observer.
-  DetachmentObserver(const SolidBody& body, const SolidParameters& parameters);
+  DetachmentObserver(const Body& body, const Parameters& parameters);
 
   /// Whether a look is due at `time` [s].
   bool due(double time) const { return time >= next_; }
@@ -39,11 +39,11 @@ class DetachmentObserver {
  private:
   std::vector<char> reached_from_clamps(const std::vector<Vec>& x);
 
-  const SolidBody* body_;
+  const Body* body_;
   double density_, bond_length_, interval_;
   double next_ = 0;  ///< time of the next look [s]
   std::vector<char> detached_, ever_detached_;
   std::vector<DetachedParticle> list_;
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -1,10 +1,10 @@
 #include "solid_solver/energy_watch.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
-namespace toryu {
+#include "common/run/log.hpp"
+
+namespace toryu::solid {
 
 void EnergyWatch::look(double kinetic, double given, double time) {
   constexpr double gain_to_tell = 0.02;
@@ -14,11 +14,11 @@ void EnergyWatch::look(double kinetic, double given, double time) {
   largest_gain_ = std::max(largest_gain_, gain);
   if (gain < std::max(gain_to_tell, 2 * told_)) return;
   told_ = gain;
-  spdlog::warn(
+  log::warn(
       "the solid has gained energy of motion from nowhere by t = {:.6g} s: {:.2g} of it; artificial stress "
       "or "
       "steps that are too long feed it, see cases/rigid_rotation",
       time, gain);
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

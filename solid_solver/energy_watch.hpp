@@ -3,7 +3,7 @@
 /// whole.
 #pragma once
 
-namespace toryu {
+namespace toryu::solid {
 
 class EnergyWatch {
  public:
@@ -18,4 +18,4 @@ class EnergyWatch {
   double most_ = 0, largest_gain_ = 0, told_ = 0;
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

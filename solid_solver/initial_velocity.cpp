@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace toryu {
+namespace toryu::solid {
 
 Vec InitialVelocity::at(const Vec& X) const {
   if (profile == VelocityProfile::uniform) return velocity;
@@ -46,4 +46,4 @@ void describe(ParameterTable& table, InitialVelocity& v) {
                 "profile = \"linear\" needs 'gradient', a row for v_x and one for v_y");
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -6,7 +6,7 @@
 #include "common/case/parameter_table.hpp"
 #include "common/vector.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 enum class VelocityProfile { uniform, cantilever_mode_1, linear, bar_mode_1, alternating };
 
@@ -31,4 +31,4 @@ struct InitialVelocity {
 };
 void describe(ParameterTable& table, InitialVelocity& v);
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -1,20 +1,24 @@
 /// The solid participant: computes the elastic body of a case, alone or in turn with a fluid.
 #include <fmt/format.h>
 #include <omp.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
 #include "common/link/participant.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
+#include "common/run/log.hpp"
+#include "common/run/options.hpp"
+#include "common/run/program.hpp"
+#include "common/run/provenance.hpp"
 #include "solid_solver/detached_list.hpp"
-#include "solid_solver/guards.hpp"
 #include "solid_solver/make_model.hpp"
+#include "solid_solver/stability_warnings.hpp"
 
 namespace {
 
 using namespace toryu;
+using namespace toryu::solid;
 
 /// So many steps are taken alone before the time-step limit and the state are looked at again.
 constexpr long steps_between_checks = 50;
@@ -29,13 +33,13 @@ RunRecord::Counts particle_counts(const SolidModel& model) {
 }
 
 /// Lists what comes off the solid, if the case asks for it, in the folder of results.
-void list_detached(const Options& options, const SolidParameters& parameters, SolidModel& model) {
+void list_detached(const Options& options, const Parameters& parameters, SolidModel& model) {
   if (!parameters.detachment) return;
   model.tell_detached([list = DetachedList(options.out)](const auto& all) mutable { list.write(all); });
 }
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene,
-                   const SolidParameters& parameters, SolidModel& model) {
+                   const Parameters& parameters, SolidModel& model) {
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
@@ -49,7 +53,7 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
 std::vector<std::uint32_t> join(SolidLink& link, const SolidModel& model) {
   const double reach = link.join();
   const Interface interface = model.interface(reach);
-  spdlog::info("{} particles can be touched by a fluid that sees {:g} m deep", interface.size(), reach);
+  log::info("{} particles can be touched by a fluid that sees {:g} m deep", interface.size(), reach);
   link.register_interface(interface, model.motion(interface.id));
   return interface.id;
 }
@@ -70,7 +74,7 @@ void take_turns(SolidLink& link, SolidModel& model, RunRecord& record,
 }
 
 void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene,
-                     const SolidParameters& parameters, SolidModel& model) {
+                     const Parameters& parameters, SolidModel& model) {
   SolidLink link({.role = "solid_solver",
                   .version = provenance(1).version,
                   .out = options.out,
@@ -96,29 +100,29 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
 ExitCode solve(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
   const Scene scene = read_scene(file);
-  SolidParameters parameters;
+  Parameters parameters;
   file.read("solid", parameters, "an elastic body in plane strain");
-  file.leave_to_others({"fluid", "coupling"});
+  file.ignore_sections({"fluid", "coupling"});
   if (options.describe) {
     fmt::print("{}", file.description());
     return ExitCode::done;
   }
   file.throw_if_faulty();
-  const SolidBody body = build_body(
+  const Body body = build_body(
       parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); });
   file.throw_if_faulty();
   omp_set_num_threads(thread_count(options, body.size(), particles_per_thread));
   const auto model = make_model(parameters, body, scene);
   check_start(*model, "[solid]");
-  for (const auto& beyond : beyond_edges(parameters)) spdlog::warn("{}", beyond);
+  for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
   if (options.check) return ExitCode::done;
-  spdlog::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
+  log::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
   if (!file.has("fluid")) {
     compute_alone(options, file, scene, parameters, *model);
     return ExitCode::done;
   }
   if (!parameters.artificial_viscosity && !parameters.damping)
-    spdlog::warn(
+    log::warn(
         "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
         "it; "
         "give it [solid.artificial_viscosity]");

@@ -3,13 +3,12 @@
 #include "solid_solver/total_lagrangian/total_lagrangian.hpp"
 #include "solid_solver/updated_lagrangian/updated_lagrangian.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
-std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body,
-                                       const Scene& scene) {
+std::unique_ptr<SolidModel> make_model(const Parameters& parameters, const Body& body, const Scene& scene) {
   if (parameters.formulation == Formulation::total_lagrangian)
     return std::make_unique<TotalLagrangian>(parameters, body, scene);
   return std::make_unique<UpdatedLagrangian>(parameters, body, scene);
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

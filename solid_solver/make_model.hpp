@@ -5,9 +5,8 @@
 
 #include "solid_solver/solid_model.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
-std::unique_ptr<SolidModel> make_model(const SolidParameters& parameters, const SolidBody& body,
-                                       const Scene& scene);
+std::unique_ptr<SolidModel> make_model(const Parameters& parameters, const Body& body, const Scene& scene);
 
-}  // namespace toryu
+}  // namespace toryu::solid

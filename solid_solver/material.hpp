@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace toryu {
+namespace toryu::solid {
 
 /// Isotropic and linear; in plane strain the strain across the plane is zero, the stress is not.
 struct ElasticMaterial {
@@ -23,4 +23,4 @@ struct ElasticMaterial {
   }
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -6,7 +6,7 @@
 
 #include "solid_solver/solid_model.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 std::vector<std::pair<std::string, double>> SolidModel::figures() const {
   if (!bonds_) return {};
@@ -178,4 +178,4 @@ std::vector<ActiveTerm> SolidModel::active_terms() const {
   return terms;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

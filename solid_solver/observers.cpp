@@ -7,7 +7,7 @@
 
 #include "common/sph/kernel.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 void describe(ParameterTable& table, PointObserver& observer) {
   table.text("name", observer.name,
@@ -60,4 +60,4 @@ MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double
   for (std::size_t k = 0; k < weights_.size(); ++k) weights_[k] *= solution.dot(bases[k]);
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -8,7 +8,7 @@
 #include "common/case/parameter_table.hpp"
 #include "common/sph/points.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// `name` becomes the columns NAME_displacement_x[m] and NAME_displacement_y[m], with `stress` also
 /// NAME_stress_xx[Pa], NAME_stress_yy[Pa] and NAME_stress_xy[Pa] of Cauchy's.
@@ -58,4 +58,4 @@ class MaterialPoint {
   std::vector<double> weights_;
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

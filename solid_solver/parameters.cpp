@@ -2,14 +2,14 @@
 
 #include <limits>
 
-namespace toryu {
+namespace toryu::solid {
 
 void describe(ParameterTable& table, NamedBox& box) {
   table.text("name", box.name, {.required = true, .help = "as the log calls it"});
   table.group("box", box.box, "its corners");
 }
 
-void describe(ParameterTable& table, SolidRegion& region) {
+void describe(ParameterTable& table, Region& region) {
   table.text("name", region.name, {.required = true, .help = "name of the region", .names_columns = true});
   table.group("box", region.box, "its corners");
   table.optional("initial_velocity", region.initial_velocity,
@@ -37,7 +37,7 @@ void describe(ParameterTable& table, SolidLimits& limits) {
 namespace {
 
 /// The elastic constants, or a law that has constants of its own.
-void describe_material(ParameterTable& table, SolidParameters& p) {
+void describe_material(ParameterTable& table, Parameters& p) {
   table.choice("law", p.law, {"saint_venant_kirchhoff", "neo_hookean"},
                {.help = "total Lagrangian: stress from strain, with E and nu for small strains"});
   table.optional("yeoh", p.yeoh,
@@ -60,7 +60,7 @@ void describe_material(ParameterTable& table, SolidParameters& p) {
   p.material = p.yeoh ? p.yeoh->small_strain(given.density) : given;
 }
 
-void describe_discretisation(ParameterTable& table, SolidParameters& p) {
+void describe_discretisation(ParameterTable& table, Parameters& p) {
   table.number("spacing", p.spacing,
                {.unit = "m",
                 .minimum = 0,
@@ -90,7 +90,7 @@ void describe_discretisation(ParameterTable& table, SolidParameters& p) {
 }
 
 /// Its shape, what holds and loads it, and how it starts.
-void describe_body(ParameterTable& table, SolidParameters& p) {
+void describe_body(ParameterTable& table, Parameters& p) {
   table.list("region", p.regions, "boxes filled with the solid; they may touch but not overlap");
   table.list("hole", p.holes, "boxes cut out of the regions");
   table.list("clamp", p.clamps, "boxes whose particles are held in place");
@@ -99,7 +99,7 @@ void describe_body(ParameterTable& table, SolidParameters& p) {
   table.optional("initial_velocity", p.initial_velocity, "velocity at the start; absent: at rest");
 }
 
-void describe_terms(ParameterTable& table, SolidParameters& p) {
+void describe_terms(ParameterTable& table, Parameters& p) {
   table.optional("hourglass", p.hourglass,
                  "pair penalty on modes the strain does not see (total Lagrangian)");
   table.optional("artificial_viscosity", p.artificial_viscosity, "damps approaching pairs");
@@ -117,7 +117,7 @@ void describe_terms(ParameterTable& table, SolidParameters& p) {
       "at the start");
 }
 
-void require_consistency(ParameterTable& table, const SolidParameters& p) {
+void require_consistency(ParameterTable& table, const Parameters& p) {
   const bool total = p.formulation == Formulation::total_lagrangian;
   table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
   table.require(total || (p.law == ElasticLaw::saint_venant_kirchhoff && !p.yeoh), p.yeoh ? "yeoh" : "law",
@@ -132,7 +132,7 @@ void require_consistency(ParameterTable& table, const SolidParameters& p) {
   table.require(!total || !p.artificial_stress, "artificial_stress",
                 "[solid.artificial_stress] is for formulation = \"updated_lagrangian\" only");
   table.require(
-      !total || p.courant_number == SolidParameters{}.courant_number, "courant_number",
+      !total || p.courant_number == Parameters{}.courant_number, "courant_number",
       "'courant_number' in [solid] is for formulation = \"updated_lagrangian\" only; the other finds its "
       "limit");
   table.require(!p.detachment || !p.clamps.empty(), "detachment",
@@ -148,7 +148,7 @@ void require_consistency(ParameterTable& table, const SolidParameters& p) {
 
 }  // namespace
 
-void describe(ParameterTable& table, SolidParameters& p) {
+void describe(ParameterTable& table, Parameters& p) {
   table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian"},
                {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
                         "right; updated: present neighbours, can tear"});
@@ -160,4 +160,4 @@ void describe(ParameterTable& table, SolidParameters& p) {
   require_consistency(table, p);
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -18,7 +18,7 @@
 #include "solid_solver/terms/wall_contact.hpp"
 #include "solid_solver/terms/yeoh.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 enum class Formulation { total_lagrangian, updated_lagrangian };
 enum class ElasticLaw { saint_venant_kirchhoff, neo_hookean };
@@ -33,13 +33,13 @@ struct NamedBox {
 void describe(ParameterTable& table, NamedBox& box);
 
 /// A box filled with the solid.
-struct SolidRegion {
+struct Region {
   std::string name;
   Box box;
   std::optional<InitialVelocity> initial_velocity = std::nullopt;  ///< absent: that of the whole solid
   bool observed = false;  ///< whether a run reports where its centre of mass is and how fast
 };
-void describe(ParameterTable& table, SolidRegion& region);
+void describe(ParameterTable& table, Region& region);
 
 /// A constant force, shared equally by the particles of a box.
 struct BoxLoad {
@@ -56,7 +56,7 @@ struct SolidLimits {
 };
 void describe(ParameterTable& table, SolidLimits& limits);
 
-struct SolidParameters {
+struct Parameters {
   Formulation formulation = Formulation::total_lagrangian;
   ElasticLaw law = ElasticLaw::saint_venant_kirchhoff;
   std::optional<Yeoh> yeoh;                    ///< in the place of `law`
@@ -67,7 +67,7 @@ struct SolidParameters {
   double courant_number = 0.25;                ///< of the acoustic limit of the updated Lagrangian form
   Gradients gradients = Gradients::plain;
   Integrator integrator = Integrator::midpoint;  ///< of the updated Lagrangian form
-  std::vector<SolidRegion> regions;
+  std::vector<Region> regions;
   std::vector<NamedBox> holes, clamps;
   std::vector<BoxLoad> loads;
   std::vector<PointObserver> observers;
@@ -84,6 +84,6 @@ struct SolidParameters {
 
   double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]
 };
-void describe(ParameterTable& table, SolidParameters& parameters);
+void describe(ParameterTable& table, Parameters& parameters);
 
-}  // namespace toryu
+}  // namespace toryu::solid

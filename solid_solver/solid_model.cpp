@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/run/failure.hpp"
-#include "common/run/remember.hpp"
+#include "common/error/failure.hpp"
+#include "common/run/snapshot.hpp"
 #include "common/sph/strip_order.hpp"
-#include "solid_solver/guards.hpp"
+#include "solid_solver/stability_warnings.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
@@ -25,7 +25,7 @@ double Stress::von_mises() const {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * xy * xy);
 }
 
-SolidModel::SolidModel(const SolidParameters& parameters, const SolidBody& body, const Scene& scene)
+SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Scene& scene)
     : parameters_(parameters), body_(body), gravity_(scene.gravity), domain_(scene.domain) {
   const std::size_t count = body_.size(), size = padded(count);
   for (auto* field : {&X_, &u_, &v_, &a_, &external_, &constant_}) resize(*field, size);
@@ -72,7 +72,7 @@ Vec SolidModel::initial_velocity(std::size_t particle) const {
 
 /// All that a step or a load changes, here and in what a formulation adds.
 void SolidModel::save() {
-  restore_ = remember(time_, number_, slot_, X_, u_, v_, a_, external_, constant_, mobile_, walls_, loaded_,
+  restore_ = snapshot(time_, number_, slot_, X_, u_, v_, a_, external_, constant_, mobile_, walls_, loaded_,
                       load_, u_at_load_, past_work_, load_sum_, push_, impulses_, bodies_, detachment_,
                       bonds_, energy_, steps_);
 }
@@ -271,4 +271,4 @@ void SolidModel::look_at_particles() {
     energy_.look(kinetic_energy(), first_energy_ + interface_work() - potential_energy(), time_);
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -18,7 +18,7 @@
 #include "solid_solver/energy_watch.hpp"
 #include "solid_solver/parameters.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// Stress of plane strain [Pa].
 struct Stress {
@@ -40,7 +40,7 @@ using HearDetached = std::function<void(const std::vector<DetachedParticle>&)>;
 
 class SolidModel : public Solver {
  public:
-  SolidModel(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+  SolidModel(const Parameters& parameters, const Body& body, const Scene& scene);
 
   void save() override;
   void restore() override { restore_(); }
@@ -52,7 +52,7 @@ class SolidModel : public Solver {
   std::vector<std::pair<std::string, double>> figures() const override;
   std::size_t particle_count() const override { return body_.size(); }
 
-  const SolidBody& body() const { return body_; }
+  const Body& body() const { return body_; }
   /// The particles that a fluid which sees `reach` [m] deep can touch, unloaded.
   Interface interface(double reach) const;
   InterfaceMotion motion(const std::vector<std::uint32_t>& particles) const;
@@ -93,8 +93,8 @@ class SolidModel : public Solver {
   void watch_bonds();
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 
-  SolidParameters parameters_;
-  SolidBody body_;
+  Parameters parameters_;
+  Body body_;
   Vec gravity_;
   Box domain_;
   double time_ = 0;                    ///< [s]
@@ -143,4 +143,4 @@ class SolidModel : public Solver {
   std::function<void()> restore_;   ///< what `save` kept
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

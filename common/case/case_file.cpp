@@ -115,7 +115,7 @@ void CaseFile::visit(const std::function<void(ParameterTable&)>& description) {
   content_->sections.push_back({read.known().front(), written.text(), described.text()});
 }
 
-void CaseFile::leave_to_others(const std::vector<std::string>& sections) {
+void CaseFile::ignore_sections(const std::vector<std::string>& sections) {
   content_->left_sections.insert(content_->left_sections.end(), sections.begin(), sections.end());
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/case/parameter_table.hpp"
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
 
 namespace toryu {
 
@@ -44,7 +44,7 @@ class CaseFile {
   }
 
   /// Top-level sections that belong to another participant and are not looked into.
-  void leave_to_others(const std::vector<std::string>& sections);
+  void ignore_sections(const std::vector<std::string>& sections);
   /// A number in a section that belongs to another participant ("fluid.spacing",
   /// "solid.region[0].box.min[1]"), if it is there: for estimates, never for what is computed.
   std::optional<double> number(const std::string& path) const;

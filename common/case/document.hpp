@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
 
 namespace toryu {
 

@@ -11,7 +11,7 @@ namespace toryu {
 
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
@@ -54,11 +54,11 @@ void WriteTable::flag(const std::string& key, bool& value, const std::string& /*
 }
 
 void WriteTable::text(const std::string& key, std::string& value, const TextRule& /*rule*/) {
-  add(key, quoted(value));
+  add(key, in_quotes(value));
 }
 
 void WriteTable::texts(const std::string& key, std::vector<std::string>& value, const TextRule& /*rule*/) {
-  add(key, array_text(value, quoted));
+  add(key, array_text(value, in_quotes));
 }
 
 void WriteTable::vector(const std::string& key, Vec& value, const NumberRule& /*rule*/) {
@@ -73,7 +73,7 @@ void WriteTable::rows(const std::string& key, std::vector<std::vector<double>>& 
 
 void WriteTable::word(const std::string& key, int& index, const std::vector<std::string>& words,
                       const TextRule& /*rule*/) {
-  add(key, quoted(words.at(static_cast<std::size_t>(index))));
+  add(key, in_quotes(words.at(static_cast<std::size_t>(index))));
 }
 
 bool WriteTable::section(const std::string& key, bool present, const std::string& /*help*/,

@@ -1,13 +1,14 @@
 #include "common/link/connection.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 
+#include "common/error/ending.hpp"
+#include "common/error/failure.hpp"
 #include "common/link/process.hpp"
-#include "common/run/ending.hpp"
-#include "common/run/program.hpp"
+#include "common/run/interruption.hpp"
+#include "common/run/log.hpp"
 
 namespace toryu {
 
@@ -24,7 +25,7 @@ Connection::Connection(const LinkSettings& settings, toryu_Role role)
     : settings_(settings),
       role_(role),
       process_(own_process()),
-      node_(dds::meeting_place(settings.out)),
+      node_(dds::rendezvous(settings.out)),
       hello_(node_, wire::hello),
       status_(node_, wire::status),
       sessions_(node_, wire::session),
@@ -75,15 +76,15 @@ void Connection::write_status(toryu_Activity activity, ExitCode code, const std:
 void Connection::join(const FluidTraits& traits) {
   traits_ = traits;
   write_hello();
-  spdlog::info("waiting for the coupler, at most {} s", time_limit_);
+  log::info("waiting for the coupler, at most {} s", time_limit_);
   if (!wait([this] { return running_; })) throw PeerLost("coupler ended the run before it began");
 }
 
-void Connection::heed(const toryu_Session& session) {
+void Connection::handle_session(const toryu_Session& session) {
   const std::uint64_t taken_in = role_ == toryu_FLUID ? session.fluid : session.solid;
   if (session_ != 0 && session.session_id != session_) {
-    spdlog::warn("refused a message of coupler session {:x}: this run is session {:x}", session.session_id,
-                 session_);
+    log::warn("refused a message of coupler session {:x}: this run is session {:x}", session.session_id,
+              session_);
     return;
   }
   if (!coupler_came_ || session.beat != coupler_beat_) coupler_moved_ = Clock::now();
@@ -140,8 +141,8 @@ void Connection::check_coupler() {
 }
 
 /// Hears what the coupler says of the run, and looks after it and after interruptions.
-void Connection::attend() {
-  while (!over_ && sessions_.take([this](const toryu_Session& session) { heed(session); })) {
+void Connection::poll() {
+  while (!over_ && sessions_.take([this](const toryu_Session& session) { handle_session(session); })) {
   }
   if (over_) return;
   throw_if_interrupted();
@@ -152,7 +153,7 @@ bool Connection::wait(const std::function<bool()>& arrived) {
   const auto start = Clock::now();
   bool has_arrived = false;
   while (!(has_arrived = arrived())) {
-    attend();
+    poll();
     if (over_) break;
     if (Clock::now() - status_sent_ > status_interval) write_status(toryu_WAITING);
     node_.wait(longest_sleep);
@@ -165,14 +166,14 @@ bool Connection::wait(const std::function<bool()>& arrived) {
 void Connection::count_step() {
   ++steps_;
   if (over_ || Clock::now() - status_sent_ < status_interval) return;
-  attend();
+  poll();
   if (!over_) write_status(toryu_WORKING);
 }
 
 bool Connection::accept(const toryu_WindowHead& window) {
   if (window.session_id != session_) {
-    spdlog::warn("refused window {} of coupler session {:x}: this run is session {:x}", window.number,
-                 window.session_id, session_);
+    log::warn("refused window {} of coupler session {:x}: this run is session {:x}", window.number,
+              window.session_id, session_);
     return false;
   }
   const bool again = windows_repeat_ && window.number == window_.number;
@@ -194,7 +195,7 @@ void Connection::leave(ExitCode code, const std::string& reason) noexcept {
     write_status(toryu_LEFT, code, reason);
     if (code != ExitCode::peer_lost) status_.flush(1s);
   } catch (const std::exception& failure) {
-    spdlog::warn("the coupler could not be told of the end: {}", failure.what());
+    log::warn("the coupler could not be told of the end: {}", failure.what());
   }
 }
 

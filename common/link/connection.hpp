@@ -40,8 +40,8 @@ class Connection {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void attend();
-  void heed(const toryu_Session& session);
+  void poll();
+  void handle_session(const toryu_Session& session);
   void check_coupler();
   void write_hello();
   void write_status(toryu_Activity activity, ExitCode code = ExitCode::done, const std::string& reason = "");

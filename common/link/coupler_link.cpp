@@ -1,17 +1,18 @@
 #include "common/link/coupler_link.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <cmath>
 #include <functional>
 
+#include "common/error/ending.hpp"
+#include "common/error/failure.hpp"
 #include "common/link/dds.hpp"
 #include "common/link/process.hpp"
 #include "common/link/wire.hpp"
-#include "common/run/ending.hpp"
-#include "common/run/program.hpp"
+#include "common/run/interruption.hpp"
+#include "common/run/log.hpp"
 
 namespace toryu {
 
@@ -22,10 +23,10 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 constexpr auto longest_sleep = 100ms;  // between looks at interruptions and the peers' leases
 constexpr auto beat_interval = 200ms;
-constexpr auto farewell = 3s;  // longest wait for both to hear of the end
+constexpr auto shutdown_timeout = 3s;  // longest wait for both to hear of the end
 
 /// What the coupler knows of a participant.
-struct Guest {
+struct Participant {
   const char* part;  ///< "fluid"
   std::uint64_t id = 0;
   CouplerLink::Partner partner = {};
@@ -46,7 +47,7 @@ struct Guest {
 
 struct CouplerLink::Connection {
   explicit Connection(const LinkSettings& link_settings)
-      : settings(link_settings), node(dds::meeting_place(settings.out)) {}
+      : settings(link_settings), node(dds::rendezvous(settings.out)) {}
 
   LinkSettings settings;
   const std::uint64_t session = dds::random_id();
@@ -62,7 +63,7 @@ struct CouplerLink::Connection {
   dds::Writer<toryu_Load> loads_on{node, wire::load_to_solid};
   dds::Reader<toryu_Motion> motions_back{node, wire::motion_from_solid};
 
-  Guest fluid{.part = "fluid"}, solid{.part = "solid"};
+  Participant fluid{.part = "fluid"}, solid{.part = "solid"};
   toryu_Phase phase = toryu_GATHERING;
   ExitCode code = ExitCode::done;
   std::string reason;
@@ -73,13 +74,13 @@ struct CouplerLink::Connection {
 
   void announce();
   void welcome(const toryu_Hello& hello);
-  void compare(const toryu_Hello& hello, const Guest& guest);
+  void compare(const toryu_Hello& hello, const Participant& guest);
   void note(const toryu_Status& status);
   void listen();
-  void check_lease(Guest& guest, std::uint32_t live_writers);
-  void attend();
-  void wait(const Guest& awaited, const std::string& what, const std::function<bool()>& arrived);
-  bool ours(const toryu_WindowHead& window, const Guest& sender) const;
+  void check_lease(Participant& guest, std::uint32_t live_writers);
+  void poll();
+  void wait(const Participant& awaited, const std::string& what, const std::function<bool()>& arrived);
+  bool ours(const toryu_WindowHead& window, const Participant& sender) const;
 };
 
 void CouplerLink::Connection::announce() {
@@ -100,7 +101,7 @@ void CouplerLink::Connection::announce() {
 }
 
 /// Refuses a participant that computes something else.
-void CouplerLink::Connection::compare(const toryu_Hello& hello, const Guest& guest) {
+void CouplerLink::Connection::compare(const toryu_Hello& hello, const Participant& guest) {
   std::vector<InputError> errors;
   const auto must_agree = [&](const char* what, const auto& theirs, const auto& ours_) {
     if (theirs != ours_)
@@ -117,16 +118,15 @@ void CouplerLink::Connection::compare(const toryu_Hello& hello, const Guest& gue
                       .message = "cannot repeat a window, which the scheme of the case asks for"});
   if (!errors.empty()) throw BadInput(errors);
   if (guest.partner.version != settings.version)
-    spdlog::warn("{} is version {}, the coupler {}", guest.partner.program, guest.partner.version,
-                 settings.version);
+    log::warn("{} is version {}, the coupler {}", guest.partner.program, guest.partner.version,
+              settings.version);
 }
 
 void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
   if (hello.session_id != 0) return;  // taken in already, by this coupler or by one before it
-  Guest& guest = hello.role == toryu_FLUID ? fluid : solid;
+  Participant& guest = hello.role == toryu_FLUID ? fluid : solid;
   if (guest.joined()) {
-    if (guest.id != hello.sender)
-      spdlog::warn("refused a second {} participant: {}", guest.part, hello.program);
+    if (guest.id != hello.sender) log::warn("refused a second {} participant: {}", guest.part, hello.program);
     return;
   }
   guest.partner = {hello.program, hello.version, hello.used_case};
@@ -136,13 +136,13 @@ void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
   guest.moved = Clock::now();
   if (phase == toryu_OVER) return;
   compare(hello, guest);
-  spdlog::info("{} {} joined as the {}", guest.partner.program, guest.partner.version, guest.part);
+  log::info("{} {} joined as the {}", guest.partner.program, guest.partner.version, guest.part);
   if (fluid.joined() && solid.joined()) phase = toryu_RUNNING;
   announce();
 }
 
 void CouplerLink::Connection::note(const toryu_Status& status) {
-  Guest* guest = status.sender == fluid.id ? &fluid : status.sender == solid.id ? &solid : nullptr;
+  Participant* guest = status.sender == fluid.id ? &fluid : status.sender == solid.id ? &solid : nullptr;
   // Of a refused participant, or of another run; 0 is of one that left before it knew ours.
   if (guest == nullptr || (status.session_id != session && status.session_id != 0)) return;
   const bool moved = status.steps != guest->steps || status.window != guest->window;
@@ -164,7 +164,7 @@ void CouplerLink::Connection::listen() {
   }
 }
 
-void CouplerLink::Connection::check_lease(Guest& guest, std::uint32_t live_writers) {
+void CouplerLink::Connection::check_lease(Participant& guest, std::uint32_t live_writers) {
   if (!guest.joined() || live_writers > 0)
     guest.lapsed = {};
   else if (!guest.lapsed)
@@ -172,7 +172,7 @@ void CouplerLink::Connection::check_lease(Guest& guest, std::uint32_t live_write
 }
 
 /// Hears the participants, looks after them and after interruptions, and gives a sign of life.
-void CouplerLink::Connection::attend() {
+void CouplerLink::Connection::poll() {
   listen();
   if (phase != toryu_OVER) throw_if_interrupted();
   const auto now = Clock::now();
@@ -184,27 +184,27 @@ void CouplerLink::Connection::attend() {
   check_lease(solid, motions_back.live_writers());
   if (phase == toryu_OVER) return;
   node.check_quality();
-  for (const Guest* guest : {&fluid, &solid})
+  for (const Participant* guest : {&fluid, &solid})
     if (guest->dead())
       throw PeerLost(fmt::format("{} was killed or stopped: no sign of life in window {}", guest->name(),
                                  guest->window));
 }
 
-void CouplerLink::Connection::wait(const Guest& awaited, const std::string& what,
+void CouplerLink::Connection::wait(const Participant& awaited, const std::string& what,
                                    const std::function<bool()>& arrived) {
   const auto start = Clock::now();
   while (!arrived()) {
-    attend();
+    poll();
     if (Clock::now() - std::max(start, awaited.moved) > Seconds(settings.time_limit))
       throw PeerLost(fmt::format("{} {} within {} s", awaited.name(), what, settings.time_limit));
     node.wait(longest_sleep);
   }
 }
 
-bool CouplerLink::Connection::ours(const toryu_WindowHead& window, const Guest& sender) const {
+bool CouplerLink::Connection::ours(const toryu_WindowHead& window, const Participant& sender) const {
   if (window.session_id == session) return true;
-  spdlog::warn("refused window {} of {}'s session {:x}: this run is session {:x}", window.number,
-               sender.name(), window.session_id, session);
+  log::warn("refused window {} of {}'s session {:x}: this run is session {:x}", window.number, sender.name(),
+            window.session_id, session);
   return false;
 }
 
@@ -219,7 +219,7 @@ CouplerLink::~CouplerLink() {
 CouplerLink::Start CouplerLink::gather(bool windows_repeat) {
   Connection& c = *connection_;
   c.windows_repeat = windows_repeat;
-  for (const Guest* guest : {&c.fluid, &c.solid})
+  for (const Participant* guest : {&c.fluid, &c.solid})
     c.wait(*guest, "did not join", [&] { return guest->joined(); });
   Start start{c.fluid.partner, c.solid.partner, c.fluid.traits, {}, {}};
   c.wait(c.solid, "did not register its interface", [&] {
@@ -298,19 +298,19 @@ void CouplerLink::stop(ExitCode code, const std::string& reason) noexcept {
   try {
     c.announce();
     // Who is late to a run that was refused shall still hear why.
-    const auto gone = [&](const Guest& guest) {
+    const auto gone = [&](const Participant& guest) {
       return guest.joined() ? guest.left || guest.dead() : code != ExitCode::bad_input;
     };
     const auto start = Clock::now();
-    while (!(gone(c.fluid) && gone(c.solid)) && Clock::now() - start < farewell) {
-      c.attend();
+    while (!(gone(c.fluid) && gone(c.solid)) && Clock::now() - start < shutdown_timeout) {
+      c.poll();
       c.node.wait(longest_sleep);
     }
-    for (const Guest* guest : {&c.fluid, &c.solid})
+    for (const Participant* guest : {&c.fluid, &c.solid})
       if (guest->joined() && !gone(*guest))
-        spdlog::warn("{} has not confirmed the end of the run", guest->name());
+        log::warn("{} has not confirmed the end of the run", guest->name());
   } catch (const std::exception& failure) {
-    spdlog::warn("the participants could not be told of the end: {}", failure.what());
+    log::warn("the participants could not be told of the end: {}", failure.what());
   }
 }
 

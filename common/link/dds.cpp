@@ -2,14 +2,14 @@
 
 #include <dds/ddsrt/log.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <map>
 #include <mutex>
 #include <random>
 #include <stdexcept>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
+#include "common/run/log.hpp"
 
 namespace toryu::dds {
 
@@ -46,11 +46,11 @@ void log_sink(void*, const dds_log_data_t* data) {
   std::string text(data->message, data->size);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   const bool error = (data->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0;
-  spdlog::log(error ? spdlog::level::err : spdlog::level::debug, "Cyclone DDS: {}", text);
+  log::write(error ? log::Level::error : log::Level::debug, fmt::format("Cyclone DDS: {}", text));
 }
 
 /// A domain can be made once in a process; the nodes in it share it.
-std::shared_ptr<const dds_entity_t> join_domain(const MeetingPlace& place) {
+std::shared_ptr<const dds_entity_t> join_domain(const Rendezvous& place) {
   static std::mutex mutex;
   static std::map<std::uint32_t, std::weak_ptr<const dds_entity_t>> domains;
   const std::lock_guard lock(mutex);
@@ -92,7 +92,7 @@ void require(dds_return_t code, const std::string& topic) {
   throw std::runtime_error(fmt::format("Cyclone DDS, {}: {}", topic, dds_strretcode(code)));
 }
 
-MeetingPlace meeting_place(const std::filesystem::path& out) {
+Rendezvous rendezvous(const std::filesystem::path& out) {
   const std::uint64_t hash =
       fnv1a(std::filesystem::weakly_canonical(std::filesystem::absolute(out)).string());
   // The ports of domain d start at 7400 + 250 d; from 101 on they would reach into the ephemeral ones.
@@ -104,7 +104,7 @@ std::uint64_t random_id() {
   return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;
 }
 
-Node::Node(const MeetingPlace& place) : domain_(join_domain(place)) {
+Node::Node(const Rendezvous& place) : domain_(join_domain(place)) {
   participant_ = dds_create_participant(place.domain, nullptr, nullptr);
   require(participant_, "participant");
   waitset_ = dds_create_waitset(participant_);

@@ -23,13 +23,13 @@ inline constexpr int lease_ms = 500;
 inline constexpr std::chrono::milliseconds grace{2500};
 
 /// Processes meet if they agree on both: the domain sets the ports, the tag keeps runs apart that share them.
-struct MeetingPlace {
+struct Rendezvous {
   std::uint32_t domain;
   std::string tag;
 };
 
 /// Follows from the absolute path of the results folder, so that programs started by hand find each other.
-MeetingPlace meeting_place(const std::filesystem::path& out);
+Rendezvous rendezvous(const std::filesystem::path& out);
 
 /// Random and never 0: names a process or a run.
 std::uint64_t random_id();
@@ -37,7 +37,7 @@ std::uint64_t random_id();
 /// This process's seat in a run: the DDS participant and all that hangs on it, deleted together.
 class Node {
  public:
-  explicit Node(const MeetingPlace& place);
+  explicit Node(const Rendezvous& place);
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;

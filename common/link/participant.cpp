@@ -1,7 +1,7 @@
 #include "common/link/participant.hpp"
 
+#include "common/error/ending.hpp"
 #include "common/link/connection.hpp"
-#include "common/run/ending.hpp"
 
 namespace toryu {
 

@@ -26,8 +26,8 @@
 #include <string>
 #include <vector>
 
-#include "common/run/failure.hpp"
-#include "common/run/solver.hpp"
+#include "common/error/failure.hpp"
+#include "common/vector.hpp"
 
 namespace toryu {
 

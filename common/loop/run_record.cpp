@@ -1,10 +1,13 @@
 #include "common/loop/run_record.hpp"
 
 #include <omp.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <ctime>
+
+#include "common/run/log.hpp"
+#include "common/run/options.hpp"
+#include "common/run/provenance.hpp"
 
 namespace toryu {
 
@@ -29,11 +32,11 @@ RunRecord::RunRecord(const std::string& participant, const Options& options, con
   summary_.time_step_rule = solver.time_step_rule();
   summary_.smallest_time_step = std::numeric_limits<double>::infinity();
   summary_.particles = counts;
-  for (const auto& [name, count] : counts) spdlog::info("{} has {} particles", name, count);
+  for (const auto& [name, count] : counts) log::info("{} has {} particles", name, count);
   summary_.terms = solver.active_terms();
   for (const auto& term : summary_.terms)
-    spdlog::info("term {}: {}; {} [{}]", term.name, term.formula, term.parameters, term.source);
-  spdlog::info("largest time step {:.4g} s ({} limit)", solver.time_step_limit(), solver.time_step_rule());
+    log::info("term {}: {}; {} [{}]", term.name, term.formula, term.parameters, term.source);
+  log::info("largest time step {:.4g} s ({} limit)", solver.time_step_limit(), solver.time_step_rule());
 }
 
 void RunRecord::check(double time) {
@@ -73,8 +76,8 @@ void RunRecord::finish(ExitCode code, const std::string& last_words, double wait
   summary_.parts = solver_timers_.parts();
   for (const auto& part : timers_.parts()) summary_.parts.push_back(part);
   write_summary(out_, summary_);
-  spdlog::info("{} steps to t = {:g} s in {:.2f} s", summary_.steps, summary_.simulated_time,
-               summary_.wall_time);
+  log::info("{} steps to t = {:g} s in {:.2f} s", summary_.steps, summary_.simulated_time,
+            summary_.wall_time);
 }
 
 }  // namespace toryu

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/output/results.hpp"
+#include "common/run/options.hpp"
 #include "common/run/solver.hpp"
 #include "common/scene/scene.hpp"
 

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 #include <omp.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/run/ending.hpp"
-#include "common/run/program.hpp"
+#include "common/error/ending.hpp"
+#include "common/error/failure.hpp"
+#include "common/run/interruption.hpp"
+#include "common/run/log.hpp"
+#include "common/run/options.hpp"
 #include "common/run/progress.hpp"
 
 namespace toryu {
@@ -93,7 +95,7 @@ void run_recorded(RunRecord& record, const std::function<void()>& body, const st
     try {
       record.finish(ending.code, ending.reason, waited());
     } catch (const std::exception& failure) {
-      spdlog::error("{}", failure.what());  // what ended the run says more, and is thrown on
+      log::error("{}", failure.what());  // what ended the run says more, and is thrown on
     }
     throw;
   }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "common/loop/run_record.hpp"
+#include "common/run/options.hpp"
 
 namespace toryu {
 

@@ -10,6 +10,7 @@
 #include "common/output/atomic_file.hpp"
 #include "common/output/hdf5_file.hpp"
 #include "common/output/results.hpp"
+#include "common/run/provenance.hpp"
 #include "common/vector.hpp"
 
 namespace toryu {

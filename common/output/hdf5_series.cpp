@@ -1,9 +1,9 @@
 #include "common/output/hdf5_series.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <stdexcept>
+
+#include "common/run/log.hpp"
 
 namespace toryu {
 
@@ -48,13 +48,13 @@ HdfSeriesFile::~HdfSeriesFile() {
   const bool whole = whole_ && H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0;
   { const HdfHandle closed = std::move(file_); }
   if (!whole) {
-    spdlog::error("{} could not be completed; what was written bears the name {}.part", path_.string(),
-                  path_.filename().string());
+    log::error("{} could not be completed; what was written bears the name {}.part", path_.string(),
+               path_.filename().string());
     return;
   }
   std::error_code failure;
   std::filesystem::rename(path_.string() + ".part", path_, failure);
-  if (failure) spdlog::error("{}: {}", path_.string(), failure.message());
+  if (failure) log::error("{}: {}", path_.string(), failure.message());
 }
 
 void HdfSeriesFile::constant(const std::string& name, const std::string& unit, const Shape& shape,

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "common/run/program.hpp"
+#include "common/error/failure.hpp"
+#include "common/run/provenance.hpp"
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
+#include "common/run/provenance.hpp"
 
 namespace toryu {
 

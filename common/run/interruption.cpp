@@ -1,6 +1,8 @@
+#include "common/run/interruption.hpp"
+
 #include <csignal>
 
-#include "common/run/program.hpp"
+#include "common/error/failure.hpp"
 
 namespace toryu {
 

@@ -1,3 +1,5 @@
+#include "common/run/log.hpp"
+
 #include <fcntl.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -8,7 +10,7 @@
 #include <mutex>
 #include <system_error>
 
-#include "common/run/program.hpp"
+#include "common/error/failure.hpp"
 
 namespace toryu {
 
@@ -66,6 +68,12 @@ void open_log(const std::string& role, const std::filesystem::path& out, const s
 
 void log_error_to_file(const std::string& message) {
   if (log_file) log_file->log({spdlog::default_logger()->name(), spdlog::level::err, message});
+}
+
+void log::write(Level level, std::string_view line) {
+  constexpr spdlog::level::level_enum of_spdlog[] = {spdlog::level::debug, spdlog::level::info,
+                                                     spdlog::level::warn, spdlog::level::err};
+  spdlog::default_logger_raw()->log(of_spdlog[static_cast<int>(level)], line);
 }
 
 }  // namespace toryu

@@ -1,9 +1,12 @@
+#include "common/run/options.hpp"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 
+#include "common/case/case_file.hpp"
 #include "common/case/nearest_word.hpp"
-#include "common/run/program.hpp"
+#include "common/error/failure.hpp"
 
 namespace toryu {
 

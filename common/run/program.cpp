@@ -1,10 +1,14 @@
 #include "common/run/program.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <new>
+
+#include "common/run/interruption.hpp"
+#include "common/run/log.hpp"
+#include "common/run/options.hpp"
+#include "common/run/provenance.hpp"
 
 namespace toryu {
 
@@ -12,10 +16,10 @@ namespace {
 
 void log_start(const Options& options) {
   const Provenance made = provenance(options.threads);
-  spdlog::info("toryu {} (commit {}, {}, {}) on {}", made.version, made.commit, made.compiler, made.flags,
-               made.cpu);
-  spdlog::info("case {}{}{}", options.case_path.string(), options.overrides.empty() ? "" : " with --set ",
-               fmt::join(options.overrides, " --set "));
+  log::info("toryu {} (commit {}, {}, {}) on {}", made.version, made.commit, made.compiler, made.flags,
+            made.cpu);
+  log::info("case {}{}{}", options.case_path.string(), options.overrides.empty() ? "" : " with --set ",
+            fmt::join(options.overrides, " --set "));
 }
 
 /// Runs the body; what it throws ends in one line and an exit code.
@@ -28,19 +32,19 @@ ExitCode guarded(const std::function<ExitCode()>& body) {
     log_error_to_file(error.what());
     return ExitCode::bad_input;
   } catch (const PhysicsFailure& error) {
-    spdlog::error("physics failed: {}", error.what());
+    log::error("physics failed: {}", error.what());
     return ExitCode::physics_failed;
   } catch (const PeerLost& error) {
-    spdlog::error("peer lost: {}", error.what());
+    log::error("peer lost: {}", error.what());
     return ExitCode::peer_lost;
   } catch (const Interrupted& error) {
-    spdlog::error("{}", error.what());
+    log::error("{}", error.what());
     return ExitCode::interrupted;
   } catch (const std::bad_alloc&) {
-    spdlog::error("not enough memory for this case; a larger spacing needs less");
+    log::error("not enough memory for this case; a larger spacing needs less");
     return ExitCode::bad_input;
   } catch (const std::exception& error) {
-    spdlog::error("unexpected: {}", error.what());
+    log::error("unexpected: {}", error.what());
     return ExitCode::bug;
   }
 }

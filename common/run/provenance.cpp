@@ -1,6 +1,7 @@
+#include "common/run/provenance.hpp"
+
 #include <fstream>
 
-#include "common/run/program.hpp"
 #include "toryu_commit.hpp"
 
 namespace toryu {

@@ -76,7 +76,7 @@ void ClusterList::build(const VecField& targets, std::size_t target_count, const
 std::size_t ClusterList::pairs() const {
   std::size_t sum = 0;
   for (const auto& list : lists_)
-    for (const Near& near : list) sum += near.sources.size();
+    for (const ShiftedNeighbours& near : list) sum += near.sources.size();
   return sum;
 }
 

@@ -14,7 +14,7 @@
 namespace toryu {
 
 /// Sources near a cluster whose targets are moved by `shift` [m]: by a period of space, or not at all.
-struct Near {
+struct ShiftedNeighbours {
   Vec shift = Vec::Zero();
   std::span<const std::uint32_t> sources;
 };
@@ -33,7 +33,7 @@ class ClusterList {
 
   std::size_t clusters() const { return lists_.size(); }
   /// The first is without a shift; of the others those that are not empty.
-  std::span<const Near> near(std::size_t cluster) const { return lists_[cluster]; }
+  std::span<const ShiftedNeighbours> near(std::size_t cluster) const { return lists_[cluster]; }
   /// Those without a shift.
   std::span<const std::uint32_t> sources(std::size_t cluster) const { return lists_[cluster][0].sources; }
   /// Clusters whose list is not empty, in order.
@@ -44,13 +44,13 @@ class ClusterList {
   struct Block {
     std::vector<std::uint32_t> found;
     std::vector<std::size_t> ends;  ///< of each of `near` in `found`
-    std::vector<Near> near;
+    std::vector<ShiftedNeighbours> near;
   };
   void build_block(Block& block, std::size_t begin, std::size_t end, const VecField& targets,
                    const VecField& sources, const StripOrder& strips, double reach,
                    std::span<const Vec> shifts);
 
-  std::vector<std::span<const Near>> lists_;
+  std::vector<std::span<const ShiftedNeighbours>> lists_;
   std::shared_ptr<std::vector<Block>> blocks_;
   std::vector<std::uint32_t> active_;
 };

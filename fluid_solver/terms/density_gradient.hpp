@@ -12,7 +12,7 @@ namespace toryu::fluid {
 
 template <class W>
 VecLanes density_gradient(const Particles& f, const W& kernel, std::size_t first,
-                          std::span<const Near> neighbours) {
+                          std::span<const ShiftedNeighbours> neighbours) {
   const Lanes rho_i = load(f.rho, first);
   Moment moment;
   VecLanes b = zero_vector();

@@ -20,9 +20,9 @@ struct Neighbour {
 
 /// Calls `add(j, neighbour)` for all of `sources` near the particles that stand at `x_i`.
 template <class W, class Add>
-TORYU_INLINE void over_neighbours(const W& kernel, std::span<const Near> nears, const VecLanes& x_i,
-                                  const Sources& sources, Add&& add) {
-  for (const Near& near : nears) {
+TORYU_INLINE void over_neighbours(const W& kernel, std::span<const ShiftedNeighbours> nears,
+                                  const VecLanes& x_i, const Sources& sources, Add&& add) {
+  for (const ShiftedNeighbours& near : nears) {
     const VecLanes x = shifted(x_i, near.shift);
     for (const std::uint32_t j : near.sources) {
       const VecLanes x_ij{x[0] - sources.x[0][j], x[1] - sources.x[1][j]};

@@ -16,7 +16,8 @@ class VelocityGradient {
   VelocityGradient(const VecLanes& x_i, const VecLanes& v_i) : x_i_(x_i), v_i_(v_i) {}
 
   template <class W>
-  TORYU_INLINE void add(const Sources& source, std::span<const Near> neighbours, const W& kernel) {
+  TORYU_INLINE void add(const Sources& source, std::span<const ShiftedNeighbours> neighbours,
+                        const W& kernel) {
     over_neighbours(kernel, neighbours, x_i_, source,
                     [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
                       moment_.add(n.x_ij, n.V_grad);

@@ -18,9 +18,9 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
-#include "solid_solver/terms/tensor.hpp"
+#include "common/sph/tensor.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct ArtificialStress {
   double epsilon = 0.3;
@@ -63,4 +63,4 @@ inline double least_epsilon(double smoothing_ratio, int exponent, double strain 
   return std::max(0.0, plain / weighted);
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

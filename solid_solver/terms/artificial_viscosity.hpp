@@ -10,7 +10,7 @@
 #include "common/sph/lanes.hpp"
 #include "solid_solver/material.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct ArtificialViscosity {
   double alpha = 1.0;
@@ -40,4 +40,4 @@ inline PairViscosity pair_viscosity(const ArtificialViscosity& term, const Elast
   return {term.alpha * material.bulk_sound_speed(), term.beta, h, 1.0 / material.density};
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

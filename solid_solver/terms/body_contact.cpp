@@ -5,7 +5,7 @@
 
 #include "common/sph/sorted_points.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
                                const ElasticMaterial& material, double spacing, double h)
@@ -95,4 +95,4 @@ double TouchingBodies::energy() const {
   return sum;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

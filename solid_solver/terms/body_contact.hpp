@@ -18,7 +18,7 @@
 #include "solid_solver/material.hpp"
 #include "solid_solver/terms/overlap.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 class TouchingBodies {
  public:
@@ -58,4 +58,4 @@ class TouchingBodies {
   Field S_;
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -6,7 +6,7 @@
 
 #include "common/case/parameter_table.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct Damping {
   double rate = 0;  ///< [1/s]
@@ -19,4 +19,4 @@ inline void describe(ParameterTable& table, Damping& p) {
       {.unit = "1/s", .minimum = 0, .required = true, .help = "share of the velocity lost in a second"});
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "solid_solver/terms/tensor.hpp"
+#include "common/sph/tensor.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// Change of volume J - 1, J = det F.
 template <class T>
@@ -57,4 +57,4 @@ PrincipalStretches<T> principal_stretches(const Tensor<T>& H) {
   return {1.0 + mean + spread, 1.0 + mean - spread};
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

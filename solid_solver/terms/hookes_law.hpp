@@ -7,9 +7,9 @@
 /// s_zz = -(s_xx + s_yy) is not stored. In large shear s_xy = G sin(gamma): the law's property.
 #pragma once
 
-#include "solid_solver/terms/tensor.hpp"
+#include "common/sph/tensor.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct HookesLaw {
   double K, G, rho_0;
@@ -51,4 +51,4 @@ struct HookesLaw {
   }
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

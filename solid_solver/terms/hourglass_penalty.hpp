@@ -31,7 +31,7 @@
 #include "common/case/parameter_table.hpp"
 #include "solid_solver/material.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct HourglassPenalty {
   double coefficient = 1.4;  ///< alpha
@@ -53,4 +53,4 @@ inline void describe(ParameterTable& table, HourglassPenalty& p) {
                 .help = "held particles' stress counts so many times, as what holds them is rigid"});
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -9,7 +9,7 @@
 
 #include "solid_solver/terms/deformation.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct NeoHookean {
   double lambda, G;  ///< Lame's constants [Pa]
@@ -40,4 +40,4 @@ struct NeoHookean {
   }
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -7,7 +7,7 @@
 #include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct Contact {
   double stiffness = 1.0;  ///< contact pressure where the overlap has doubled, over the bulk modulus
@@ -37,4 +37,4 @@ inline HalfPlane half_plane(const CubicSpline& W, double spacing, double distanc
   return found;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -10,7 +10,7 @@
 
 #include "solid_solver/terms/deformation.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 struct SaintVenantKirchhoff {
   double lambda, G;  ///< Lame's constants [Pa]
@@ -41,4 +41,4 @@ struct SaintVenantKirchhoff {
   }
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

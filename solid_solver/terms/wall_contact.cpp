@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
@@ -93,4 +93,4 @@ Lanes ContactWalls::energy_density(const VecField& x, std::size_t cluster) const
   return 0.5 * pressure_scale_ * S_0_ * beyond * beyond;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -19,7 +19,7 @@
 #include "solid_solver/material.hpp"
 #include "solid_solver/terms/overlap.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 class ContactWalls {
  public:
@@ -58,4 +58,4 @@ class ContactWalls {
   ClusterList list_;
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -18,7 +18,7 @@
 #include "solid_solver/material.hpp"
 #include "solid_solver/terms/deformation.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// e^a.
 inline double exponential(double a) {
@@ -116,4 +116,4 @@ inline void describe(ParameterTable& table, Yeoh& p) {
                 "'c_20' in [solid.yeoh] must be above -sqrt(3 c_10 c_30): below it the rubber gives way");
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -2,16 +2,16 @@
 
 #include <fmt/format.h>
 
-namespace toryu {
+namespace toryu::solid {
 
-Law law_of(const SolidParameters& parameters) {
+Law law_of(const Parameters& parameters) {
   if (parameters.yeoh) return *parameters.yeoh;
   const double lambda = parameters.material.lame_lambda(), G = parameters.material.shear_modulus();
   if (parameters.law == ElasticLaw::neo_hookean) return NeoHookean{lambda, G};
   return SaintVenantKirchhoff{lambda, G};
 }
 
-ActiveTerm active_law(const SolidParameters& parameters) {
+ActiveTerm active_law(const Parameters& parameters) {
   const auto& material = parameters.material;
   const std::string constants =
       fmt::format("E {:g} Pa, nu {:g}: K {:.4g} Pa, G {:.4g} Pa, c_L {:.4g} m/s", material.youngs_modulus,
@@ -31,4 +31,4 @@ ActiveTerm active_law(const SolidParameters& parameters) {
   return {"St. Venant-Kirchhoff", "S = lambda tr(E) I + 2 G E, plane strain", "", constants};
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -14,11 +14,11 @@
 #include "solid_solver/terms/saint_venant_kirchhoff.hpp"
 #include "solid_solver/terms/yeoh.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 using Law = std::variant<SaintVenantKirchhoff, NeoHookean, Yeoh>;
 
-Law law_of(const SolidParameters& parameters);
-ActiveTerm active_law(const SolidParameters& parameters);
+Law law_of(const Parameters& parameters);
+ActiveTerm active_law(const Parameters& parameters);
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace toryu {
+namespace toryu::solid {
 
 ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h,
                                double strip_width)
@@ -96,4 +96,4 @@ Lanes ReferencePairs::unseen_motion(const VecField& u, const Tensor<Field>& H, s
   return sum;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

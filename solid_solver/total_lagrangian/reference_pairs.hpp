@@ -5,9 +5,9 @@
 #include "common/sph/cluster_list.hpp"
 #include "common/sph/kernel.hpp"
 #include "common/sph/points.hpp"
-#include "solid_solver/terms/tensor.hpp"
+#include "common/sph/tensor.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 class ReferencePairs {
  public:
@@ -59,4 +59,4 @@ VecLanes ReferencePairs::central_force_density(const VecField& u, const VecField
   return f;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

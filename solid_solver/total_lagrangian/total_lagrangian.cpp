@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "common/run/remember.hpp"
+#include "common/run/snapshot.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
-TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene)
+TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
       law_(law_of(parameters)),
       penalty_(parameters.hourglass ? parameters.hourglass->stiffness(parameters.material) : 0.0),
@@ -32,7 +32,7 @@ TotalLagrangian::TotalLagrangian(const SolidParameters& parameters, const SolidB
 
 void TotalLagrangian::save() {
   SolidModel::save();
-  restore_ = remember(H_, T_, inverted_);
+  restore_ = snapshot(H_, T_, inverted_);
 }
 
 void TotalLagrangian::restore() {
@@ -282,4 +282,4 @@ std::vector<ActiveTerm> TotalLagrangian::active_terms() const {
   return terms;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -15,11 +15,11 @@
 #include "solid_solver/total_lagrangian/laws.hpp"
 #include "solid_solver/total_lagrangian/reference_pairs.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 class TotalLagrangian final : public SolidModel {
  public:
-  TotalLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+  TotalLagrangian(const Parameters& parameters, const Body& body, const Scene& scene);
 
   /// The exact limit of the leapfrog, 2/omega with the highest angular frequency of the unloaded body found
   /// by power iteration, less what viscosity takes and what the law's stiffening does: the largest
@@ -70,4 +70,4 @@ class TotalLagrangian final : public SolidModel {
   std::function<void()> restore_;  ///< what `save` kept
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

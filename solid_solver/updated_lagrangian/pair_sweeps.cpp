@@ -1,6 +1,6 @@
 #include "solid_solver/updated_lagrangian/pair_sweeps.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
@@ -24,7 +24,7 @@ Lanes power(const Lanes& a, int n) {
 
 }  // namespace
 
-PairSweeps::PairSweeps(const SolidParameters& parameters)
+PairSweeps::PairSweeps(const Parameters& parameters)
     : W_(parameters.h()),
       tiny_(1e-16 * parameters.h() * parameters.h()),
       law_{parameters.material.bulk_modulus(), parameters.material.shear_modulus(),
@@ -152,4 +152,4 @@ VecLanes PairSweeps::acceleration_of(const UpdatedState& state, const UpdatedRat
   return a;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

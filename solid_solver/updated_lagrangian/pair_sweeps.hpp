@@ -10,7 +10,7 @@
 #include "solid_solver/parameters.hpp"
 #include "solid_solver/terms/hookes_law.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// Particles of the updated form, in storage order, padded to whole lanes.
 struct UpdatedState {
@@ -31,7 +31,7 @@ struct UpdatedRates {
 
 class PairSweeps {
  public:
-  explicit PairSweeps(const SolidParameters& parameters);
+  explicit PairSweeps(const Parameters& parameters);
 
   /// (17) Drho_i/Dt = -rho_i tr(grad v)_i and Ds/Dt of (7), with
   ///
@@ -77,4 +77,4 @@ class PairSweeps {
   double inverse_W_d0_;  ///< 1/W(d0) [m2]
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/run/remember.hpp"
+#include "common/run/snapshot.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
@@ -16,8 +16,7 @@ constexpr double skin_ratio = 0.15;
 
 }  // namespace
 
-UpdatedLagrangian::UpdatedLagrangian(const SolidParameters& parameters, const SolidBody& body,
-                                     const Scene& scene)
+UpdatedLagrangian::UpdatedLagrangian(const Parameters& parameters, const Body& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
       sweeps_(parameters),
       law_{parameters.material.bulk_modulus(), parameters.material.shear_modulus(),
@@ -41,7 +40,7 @@ UpdatedLagrangian::UpdatedLagrangian(const SolidParameters& parameters, const So
 
 void UpdatedLagrangian::save() {
   SolidModel::save();
-  restore_ = remember(state_, x_listed_, strips_, list_);
+  restore_ = snapshot(state_, x_listed_, strips_, list_);
 }
 
 void UpdatedLagrangian::restore() {
@@ -285,4 +284,4 @@ std::vector<ActiveTerm> UpdatedLagrangian::active_terms() const {
   return terms;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -30,11 +30,11 @@
 #include "solid_solver/solid_model.hpp"
 #include "solid_solver/updated_lagrangian/pair_sweeps.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 class UpdatedLagrangian final : public SolidModel {
  public:
-  UpdatedLagrangian(const SolidParameters& parameters, const SolidBody& body, const Scene& scene);
+  UpdatedLagrangian(const Parameters& parameters, const Body& body, const Scene& scene);
 
   /// The smallest of courant_number h/(c_L + |v|) (acoustic), 0.125 h^2/nu with the artificial viscosity's
   /// nu = alpha h c/8 (viscous), and 0.25 sqrt(h/|dv/dt|) (force), times the share.
@@ -85,4 +85,4 @@ class UpdatedLagrangian final : public SolidModel {
   std::function<void()> restore_;  ///< what `save` kept
 };
 
-}  // namespace toryu
+}  // namespace toryu::solid

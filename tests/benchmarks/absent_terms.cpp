@@ -72,7 +72,7 @@ void sweep_by_hand(const CubicSpline& W, Particles& f, const ClusterList& neighb
     const Lanes rho_i = load(f.rho, i), p_rho2_i = load(f.p_rho2, i);
     VecLanes a_i = zero_vector();
     Lanes compression = 0.0;
-    for (const Near& near : neighbours.near(c)) {
+    for (const ShiftedNeighbours& near : neighbours.near(c)) {
       const VecLanes x = shifted(x_i, near.shift);
       for (const std::uint32_t j : near.sources) {
         const VecLanes x_ij{x[0] - f.x[0][j], x[1] - f.x[1][j]}, v_ij{v_i[0] - f.v[0][j], v_i[1] - f.v[1][j]};
@@ -93,7 +93,7 @@ using Sweep = std::function<void(Square&)>;
 Sweep sweep_of(const ChosenTerms& terms) {
   return [terms](Square& square) {
     const BodyForce none;
-    std::vector<Given> given;
+    std::vector<ForceOnFluid> given;
     const PairSweeps sweeps{.terms = terms,
                             .body_force = none,
                             .viscous_walls = false,

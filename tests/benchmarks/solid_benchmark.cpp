@@ -8,13 +8,13 @@
 
 #include "solid_solver/make_model.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 /// A plate of 10 : 1 with about `count` particles in its first mode.
 std::unique_ptr<SolidModel> plate(int count, Formulation formulation) {
   const int rows = static_cast<int>(std::lround(std::sqrt(count / 10.0)));
-  SolidParameters p;
+  Parameters p;
   p.formulation = formulation;
   p.material = {.density = 1000, .youngs_modulus = 2e6, .poissons_ratio = 0.4};
   p.spacing = 0.02 / rows;
@@ -56,4 +56,4 @@ BENCHMARK(total_lagrangian)->Arg(1000)->Arg(4000)->Arg(10000)->Unit(benchmark::k
 BENCHMARK(updated_lagrangian)->Arg(1000)->Arg(4000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

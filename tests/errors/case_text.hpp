@@ -33,7 +33,7 @@ class CaseText {
       CaseFile file(folder_, overrides);
       Medium medium;
       file.read("medium", medium, "what fills the room");
-      file.leave_to_others({"other"});
+      file.ignore_sections({"other"});
       file.throw_if_faulty();
     } catch (const BadInput& error) {
       return shortened(error.what());

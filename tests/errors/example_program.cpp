@@ -1,8 +1,10 @@
 // A program with one section of its own. `medium.label` says how it ends, so that tests see each ending.
-#include <spdlog/spdlog.h>
 
 #include <csignal>
 
+#include "common/run/interruption.hpp"
+#include "common/run/log.hpp"
+#include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "tests/errors/example_section.hpp"
 
@@ -20,7 +22,7 @@ int main(int argc, char** argv) {
     }
     file.throw_if_faulty();
     if (options.check) return ExitCode::done;
-    spdlog::info("runs to {} s with {} threads", scene.end_time, options.threads);
+    log::info("runs to {} s with {} threads", scene.end_time, options.threads);
     if (medium.label == "physics") throw PhysicsFailure("medium", 7, 0.5, "speed", "12 m/s", "10 m/s");
     if (medium.label == "peer") throw PeerLost("solid_solver has not answered for 2 s");
     if (medium.label == "bug") throw std::out_of_range("index 3 of 2");
@@ -28,7 +30,7 @@ int main(int argc, char** argv) {
       std::raise(SIGTERM);
       throw_if_interrupted();
     }
-    if (medium.label == "warning") spdlog::warn("the medium is thin");
+    if (medium.label == "warning") log::warn("the medium is thin");
     return ExitCode::done;
   });
 }

@@ -1,5 +1,4 @@
 // Exit codes, standard output, standard error and log of a real program, for good and bad command lines.
-#include "common/run/program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +7,8 @@
 #include <cstdio>
 #include <fstream>
 #include <sstream>
+
+#include "common/run/provenance.hpp"
 
 namespace toryu {
 namespace {

@@ -11,7 +11,9 @@
 
 #include "common/case/case_file.hpp"
 #include "common/link/participant.hpp"
+#include "common/run/options.hpp"
 #include "common/run/program.hpp"
+#include "common/run/provenance.hpp"
 
 namespace {
 

@@ -7,6 +7,8 @@
 
 #include "common/link/dds.hpp"
 #include "common/link/wire.hpp"
+#include "common/run/interruption.hpp"
+#include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "messages_2.h"
 
@@ -60,7 +62,7 @@ void play_coupler(dds::Node& node) {
 }
 
 ExitCode run(const Options& options) {
-  dds::Node node(dds::meeting_place(options.out));
+  dds::Node node(dds::rendezvous(options.out));
   const char* part = std::getenv("PART");
   if (part != nullptr && part == std::string("coupler")) play_coupler(node);
   play_fluid(node);

@@ -1,7 +1,7 @@
 // Blocks that are strained uniformly, and a bar that turns.
 #include "solid_case.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 const std::vector<std::string> renormalised,
@@ -48,4 +48,4 @@ TEST(TurningBar, KeepsItsEnergyWithRenormalisedGradientsAndTearsItselfWithPlainO
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

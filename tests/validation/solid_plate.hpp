@@ -6,13 +6,13 @@
 
 #include "tests/unit/solid_solver/samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 constexpr double plate_period = 0.2552;  // [s], finite elements, ideal clamp
 
-inline SolidParameters plate(int rows) {
+inline Parameters plate(int rows) {
   const double K = 3.25e6, G = 7.15e5, length = 0.2, half = 0.01;
-  SolidParameters p;
+  Parameters p;
   p.material = {.density = 1000,
                 .youngs_modulus = 9 * K * G / (3 * K + G),
                 .poissons_ratio = (3 * K - 2 * G) / (2 * (3 * K + G))};
@@ -59,4 +59,4 @@ inline Vibration vibrate(SolidModel& model, int periods) {
   return result;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

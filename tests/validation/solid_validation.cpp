@@ -4,14 +4,14 @@
 #include "solid_case.hpp"
 #include "solid_plate.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 class OscillatingPlate : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Rows, OscillatingPlate, testing::Values(4, 5, 10));
 
 TEST_P(OscillatingPlate, TotalLagrangianHasThePeriodAndKeepsTheAmplitude) {
-  SolidParameters p = plate(GetParam());
+  Parameters p = plate(GetParam());
   p.hourglass = HourglassPenalty{};
   const auto model = model_of(p);
   const Vibration vibration = vibrate(*model, 2);
@@ -20,7 +20,7 @@ TEST_P(OscillatingPlate, TotalLagrangianHasThePeriodAndKeepsTheAmplitude) {
 }
 
 TEST(OscillatingPlate, BetweenJawsToo) {
-  SolidParameters p = plate(5);
+  Parameters p = plate(5);
   const double depth = 3 * p.spacing;
   p.regions[1].box.min[0] = -0.05;
   p.regions.push_back({"upper jaw", {Vec(-0.05, 0.01), Vec(0, 0.01 + depth)}});
@@ -32,7 +32,7 @@ TEST(OscillatingPlate, BetweenJawsToo) {
 }
 
 TEST(Patch, UniformStrainHasTheExactStress) {
-  SolidParameters p = plate(5);
+  Parameters p = plate(5);
   p.hourglass = HourglassPenalty{};
   p.clamps.clear();
   const double E = p.material.youngs_modulus, nu = p.material.poissons_ratio, eps = 1e-7, dt = 1e-12;
@@ -61,7 +61,7 @@ TEST(Patch, UniformStrainHasTheExactStress) {
 
 TEST(Bar, VibratesAsTheFormulaSays) {
   const double L = 0.2, E = 2e6, rho = 1000, v_0 = 0.01, c = std::sqrt(E / rho);
-  SolidParameters p = plate(4);
+  Parameters p = plate(4);
   p.material = {.density = rho, .youngs_modulus = E, .poissons_ratio = 0.0};
   p.hourglass = HourglassPenalty{};
   p.initial_velocity = InitialVelocity{VelocityProfile::bar_mode_1, Vec(v_0, 0), Vec(0, 0), L};
@@ -103,7 +103,7 @@ TEST(TurekHronBeam, SwingsAsCsm3Says) {
 }
 
 TEST(OscillatingPlate, UpdatedLagrangianOfFiveRowsIsTooSoft) {
-  SolidParameters p = plate(5);
+  Parameters p = plate(5);
   p.formulation = Formulation::updated_lagrangian;
   p.artificial_viscosity = ArtificialViscosity{};
   p.artificial_stress = ArtificialStress{};
@@ -140,4 +140,4 @@ TEST(Cantilever, BendsUnderALoadAtItsEnd) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -1,11 +1,11 @@
 /// The updated Lagrangian solid at ten rows, as in the thesis: minutes.
 #include "solid_plate.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 Vibration updated_plate(Gradients gradients) {
-  SolidParameters p = plate(10);
+  Parameters p = plate(10);
   p.formulation = Formulation::updated_lagrangian;
   p.gradients = gradients;
   p.artificial_viscosity = ArtificialViscosity{};  // A = B = 1
@@ -26,4 +26,4 @@ TEST(OscillatingPlate, UpdatedLagrangianWithRenormalisedGradients) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -1,8 +1,8 @@
 // Solids under tension, at the smallest resolution of their cases: what tears by itself, and what does not.
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
 #include "solid_case.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 const std::vector<std::string> total_lagrangian = {
@@ -64,4 +64,4 @@ TEST(StretchedBar, StaysWholeWithArtificialStressAndTearsWithout) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

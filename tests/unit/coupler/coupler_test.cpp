@@ -10,12 +10,12 @@
 #include "common/output/hdf5_file.hpp"
 #include "coupler/coupled_run.hpp"
 #include "coupler/exchange_audit.hpp"
-#include "coupler/guards.hpp"
 #include "coupler/interface_record.hpp"
 #include "coupler/run_lock.hpp"
+#include "coupler/stability_warnings.hpp"
 #include "coupler/used_case.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,31 +85,31 @@ TEST(ExchangeAudit, ImpulseFromNowhereIsInfinite) {
 }
 
 /// Reads `[coupling]` with the given lines.
-CouplingParameters read_coupling(const std::string& lines) {
+Parameters read_coupling(const std::string& lines) {
   const Folder folder;
   std::ofstream(folder.path / "case.toml") << "[coupling]\n" << lines;
   CaseFile file(folder.path, {});
-  CouplingParameters parameters;
+  Parameters parameters;
   file.read("coupling", parameters, "");
   file.throw_if_faulty();
   return parameters;
 }
 
-TEST(CouplingParameters, AllLoadsAreFeltByDefault) {
+TEST(Parameters, AllLoadsAreFeltByDefault) {
   const auto parameters = read_coupling("");
   EXPECT_TRUE(parameters.feels("pressure_and_viscous"));
   EXPECT_TRUE(parameters.feels("friction"));
   EXPECT_EQ(parameters.fluid_steps_per_window, 1);
 }
 
-TEST(CouplingParameters, FrictionAloneCanBeFelt) {
+TEST(Parameters, FrictionAloneCanBeFelt) {
   const auto parameters = read_coupling("loads = ['friction']\nfluid_steps_per_window = 4");
   EXPECT_FALSE(parameters.feels("pressure_and_viscous"));
   EXPECT_TRUE(parameters.feels("friction"));
   EXPECT_EQ(parameters.fluid_steps_per_window, 4);
 }
 
-TEST(CouplingParameters, AnUnknownLoadIsAFault) {
+TEST(Parameters, AnUnknownLoadIsAFault) {
   EXPECT_THAT([] { read_coupling("loads = ['presure']"); },
               testing::ThrowsMessage<BadInput>(testing::HasSubstr(
                   "case.toml:2:1: error: 'loads' must name 'pressure_and_viscous', 'friction' or both")));
@@ -117,7 +117,7 @@ TEST(CouplingParameters, AnUnknownLoadIsAFault) {
 
 /// What is said of a layer of 20 mm and `density` [kg/m3] in water of 10 mm with more lines, and of
 /// `coupling`.
-std::vector<std::string> said_of(double density, const CouplingParameters& coupling,
+std::vector<std::string> said_of(double density, const Parameters& coupling,
                                  const std::string& of_fluid = "") {
   const Folder folder;
   std::ofstream(folder.path / "case.toml") << fmt::format(
@@ -125,18 +125,18 @@ std::vector<std::string> said_of(double density, const CouplingParameters& coupl
       "[[solid.region]]\nbox = {{ min = [0, 0], max = [1, 0.5] }}\n"
       "[[solid.region]]\nbox = {{ min = [0, 0.5], max = [1, 0.52] }}\n",
       of_fluid, density);
-  return beyond_edges(CaseFile(folder.path, {}), coupling);
+  return stability_warnings(CaseFile(folder.path, {}), coupling);
 }
 
 TEST(Guards, ForeseeALayerThatIsTooLight) {
-  CouplingParameters coupling;
+  Parameters coupling;
   EXPECT_TRUE(said_of(200, coupling).empty());  // 0.4 of a row of fluid
   EXPECT_THAT(
       said_of(180, coupling),
       testing::ElementsAre(testing::HasSubstr("weighs 0.36 of a row of fluid, the scheme bears 0.385")));
-  coupling.scheme = CouplingScheme::parallel_explicit;
+  coupling.scheme = SchemeKind::parallel_explicit;
   EXPECT_THAT(said_of(200, coupling), testing::SizeIs(1));
-  coupling.scheme = CouplingScheme::serial_implicit;
+  coupling.scheme = SchemeKind::serial_implicit;
   EXPECT_TRUE(said_of(180, coupling).empty());
 }
 
@@ -145,7 +145,7 @@ TEST(Guards, CountAWindowAsLongAsTheFluidsSteps) {
   const auto bears = testing::ElementsAre(testing::HasSubstr("the scheme bears 0.66"));
   EXPECT_TRUE(said_of(300, {}).empty());  // 0.6 of a row
   EXPECT_THAT(said_of(300, {}, "time_step_share = 5"), bears);
-  CouplingParameters two_steps;
+  Parameters two_steps;
   two_steps.fluid_steps_per_window = 2;
   EXPECT_THAT(said_of(300, two_steps, "time_step_share = 2.5"), bears);
   // of viscosity the window is shorter: 0.125 h^2/nu is a tenth of 0.25 h/c_0 at nu = 5 h c_0 = 1.3 m2/s
@@ -163,17 +163,17 @@ TEST(Guards, SeeNoDeeperThanTheKernel) {
   std::ofstream(folder.path / "case.toml")
       << "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\nsmoothing_ratio = 1.25\n"
          "[solid]\ndensity = 140\n[[solid.region]]\nbox = { min = [0, 0], max = [1, 1] }\n";
-  EXPECT_THAT(beyond_edges(CaseFile(folder.path, {}), {}),
+  EXPECT_THAT(stability_warnings(CaseFile(folder.path, {}), {}),
               testing::ElementsAre(
                   testing::HasSubstr("weighs 0.28 of a row")));  // 140 x 2 rows: from half a spacing off
 }
 
 TEST(Guards, SayNothingOfWhatTheyDoNotKnow) {
-  CouplingParameters coupling;
+  Parameters coupling;
   coupling.fluid_steps_per_window = 4;
   const Folder folder;
   std::ofstream(folder.path / "case.toml") << "[fluid]\nviscosity = 1\n[solid]\nmass = 1\n";
-  EXPECT_THAT(beyond_edges(CaseFile(folder.path, {}), coupling),
+  EXPECT_THAT(stability_warnings(CaseFile(folder.path, {}), coupling),
               testing::ElementsAre(testing::HasSubstr("cases/pushed_column/window_map.toml")));
 }
 
@@ -219,4 +219,4 @@ TEST(InterfaceRecord, GrowsByRowsAndGetsItsNameAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -4,11 +4,11 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "coupler/acceleration.hpp"
 #include "coupler/added_mass.hpp"
-#include "coupler/forecast.hpp"
-#include "coupler/relaxation.hpp"
+#include "coupler/extrapolation.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 namespace {
 
 /// One particle that moves along x: position, velocity.
@@ -16,8 +16,8 @@ InterfaceMotion one(double x, double v) {
   return {{x, 0}, {v, 0}};
 }
 
-TEST(Forecast, FollowsOneWindowLateAtOrderZero) {
-  Forecast forecast(0, one(1, 4));
+TEST(Extrapolation, FollowsOneWindowLateAtOrderZero) {
+  Extrapolation forecast(0, one(1, 4));
   EXPECT_EQ(forecast.over(0.5).position[0], 1);
   EXPECT_EQ(forecast.over(0.5).velocity[0], 4);
   forecast.note(one(3, 4), 0.5);
@@ -28,14 +28,14 @@ TEST(Forecast, FollowsOneWindowLateAtOrderZero) {
   EXPECT_EQ(forecast.over(0.75).position[0], 4);
 }
 
-TEST(Forecast, GoesOnWithTheVelocityAtOrderOne) {
-  Forecast forecast(1, one(1, 4));
+TEST(Extrapolation, GoesOnWithTheVelocityAtOrderOne) {
+  Extrapolation forecast(1, one(1, 4));
   EXPECT_EQ(forecast.over(0.5).position[0], 3);
   EXPECT_EQ(forecast.over(0.5).velocity[0], 4);
 }
 
-TEST(Forecast, GoesOnWithTheAccelerationAtOrderTwo) {
-  Forecast forecast(2, one(0, 0));
+TEST(Extrapolation, GoesOnWithTheAccelerationAtOrderTwo) {
+  Extrapolation forecast(2, one(0, 0));
   EXPECT_EQ(forecast.over(0.5).position[0], 0);  // nothing is known of an acceleration yet
   forecast.note(one(0.25, 1), 0.5);              // x = t^2
   EXPECT_EQ(forecast.over(1.0).position[0], 2.25);
@@ -50,13 +50,13 @@ struct Answer {
 };
 
 /// Iterates from 0; returns how many steps bring the residual below 1e-7.
-int steps(Relaxation& relaxation, const Answer& answer, int most = 50) {
-  relaxation.begin_window();
+int steps(Acceleration& acceleration, const Answer& answer, int most = 50) {
+  acceleration.begin_window();
   Values x = Values::Zero(answer.b.size());
   for (int k = 0; k < most; ++k) {
     const Values r = answer.residual(x);
     if (r.norm() < 1e-7) return k;
-    x = relaxation.next(x, r);
+    x = acceleration.next(x, r);
   }
   return most;
 }
@@ -165,13 +165,13 @@ TEST(AddedMass, IsOfWhatLiesBehindTheFaceAndNotBeside) {
 
 TEST(AddedMass, HasALimitByScheme) {
   FluidTraits water{.density = 1000, .sound_speed = 20, .spacing = 0.01};
-  EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::serial_explicit, water, 1e-4), 0.37);
-  EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::serial_explicit, water, 1e-3), 1);  // C = 2
-  EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::parallel_explicit, water, 1e-4), 0.9);
-  EXPECT_EQ(least_mass_ratio(CouplingScheme::serial_implicit, water, 1e-3), 0);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, water, 1e-4), 0.37);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, water, 1e-3), 1);  // C = 2
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, water, 1e-4), 0.9);
+  EXPECT_EQ(least_mass_ratio(SchemeKind::serial_implicit, water, 1e-3), 0);
   water.reach = 0.05;  // twice as far as that with which they were measured
-  EXPECT_DOUBLE_EQ(least_mass_ratio(CouplingScheme::parallel_explicit, water, 1e-4), 1.8);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, water, 1e-4), 1.8);
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::coupling

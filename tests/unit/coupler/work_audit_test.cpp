@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace toryu {
+namespace toryu::coupling {
 namespace {
 
 InterfaceLoad force(double x, double friction = 0) {
@@ -56,4 +56,4 @@ TEST(WorkAudit, TellsThatTheLagFeedsAMode) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -47,7 +47,7 @@ Taken extrapolated(const std::vector<Vec>& places, const Fluid& fluid, const Vec
   boundary.place(places, std::vector<double>(places.size(), d_0 * d_0), 1000, 0.3);
   boundary.move([&](std::uint32_t k) { return Kinematics{places[k], v_w, a_w}; });
   const auto [particles, strips] = in_order(fluid);
-  boundary.fluid_near.build(boundary.x, boundary.count, particles.x, strips, 1.1 * kernel.support());
+  boundary.list_for_wall.build(boundary.x, boundary.count, particles.x, strips, 1.1 * kernel.support());
 #pragma omp parallel
   extrapolate(boundary, particles, kernel, g);
   Taken taken{std::vector<double>(places.size()), std::vector<Vec>(places.size())};

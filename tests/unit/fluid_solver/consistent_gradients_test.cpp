@@ -36,7 +36,7 @@ struct Block {
       fluid.p_rho2[i] = fluid.p[i] / (rho * rho);
       fluid.V[i] = d_0 * d_0;
     }
-    fluid.deep.assign(padded(fluid.count), 1.0);
+    fluid.off_surface_and_walls.assign(padded(fluid.count), 1.0);
     for (std::size_t i = 0; i < fluid.count; ++i) sum_plainly(i);
   }
   void sum_plainly(std::size_t i) {
@@ -97,7 +97,7 @@ TEST(ConsistentGradients, LeaveAloneWhatIsNotAskedFor) {
   Block block(linear);
   const std::size_t i = block.middle();
   const Particles before = block.fluid;
-  block.fluid.deep[i] = 0;
+  block.fluid.off_surface_and_walls[i] = 0;
   make_gradients_consistent(RatesOf::density, mu, block.fluid, block.lists.of_fluid(), kernel);
   EXPECT_EQ(block.fluid.drho[i], before.drho[i]);  // with a free surface in reach
   EXPECT_EQ(block.fluid.a, before.a);

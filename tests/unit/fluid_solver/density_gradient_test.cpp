@@ -51,7 +51,7 @@ Particles particles_of(const Patch& patch, const std::function<double(const Vec&
 Vec gradient(const Patch& patch, const std::function<double(const Vec&)>& density) {
   std::vector<std::uint32_t> all(patch.x.size());
   std::iota(all.begin(), all.end(), 0u);
-  const Near near{Vec::Zero(), all};
+  const ShiftedNeighbours near{Vec::Zero(), all};
   return first_lane(density_gradient(particles_of(patch, density), kernel, 0, std::span(&near, 1)));
 }
 

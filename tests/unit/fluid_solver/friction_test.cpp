@@ -58,8 +58,8 @@ Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& poi
   boundary.place(places, std::vector<double>(piece.size(), d_0 * d_0), 1000, 0.3);
   boundary.make_work_piece(area_vectors);
   boundary.move([&](std::uint32_t k) { return Kinematics{piece[k].x, piece[k].v, Vec::Zero()}; });
-  boundary.fluid_near.build(boundary.x, boundary.count, fluid.x, strips, 1.1 * kernel.support());
-  boundary.near_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, 1.1 * kernel.support());
+  boundary.list_for_wall.build(boundary.x, boundary.count, fluid.x, strips, 1.1 * kernel.support());
+  boundary.list_for_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, 1.1 * kernel.support());
 
   const WorkPieceFriction term = friction(form);
   std::vector<Vec> by_cluster;

@@ -76,7 +76,7 @@ TensorLanes gradient(const std::vector<Point>& points) {
   std::vector<std::uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0u);
   VelocityGradient grad_v({Lanes(0), Lanes(0)}, {Lanes(5), Lanes(-7)});
-  const Near near{Vec::Zero(), all};
+  const ShiftedNeighbours near{Vec::Zero(), all};
   grad_v.add(sources.view(), std::span(&near, 1), kernel);
   return grad_v.value();
 }
@@ -131,7 +131,7 @@ TEST(WallViscosity, IsTheKernelMeanOfTheFluids) {
   f.eta_grad_v[0][1][0] = 5;
   StripOrder strips(0.3);
   strips.index(f.x[0], f.count);
-  wall.fluid_near.build(wall.x, wall.count, f.x, strips, 1.1 * kernel.support());
+  wall.list_for_wall.build(wall.x, wall.count, f.x, strips, 1.1 * kernel.support());
 #pragma omp parallel
   extrapolate_viscosity(wall, f, kernel);
   const std::size_t k = wall.id[0] == 0 ? 0 : 1;

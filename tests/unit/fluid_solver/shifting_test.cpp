@@ -41,16 +41,16 @@ Sorted sorted(const WendlandC2& kernel) {
 TEST(FreeSurface, IsInReachOfTheOuterRowsAlone) {
   const WendlandC2 kernel(1.5 * d_0);
   Sorted s = sorted(kernel);
-  FreeSurface().find_inside(s.fluid, s.lists.of_fluid(), {}, kernel);
+  FreeSurface().find_off_surface(s.fluid, s.lists.of_fluid(), {}, kernel);
   int inside = 0;
   for (std::size_t i = 0; i < s.fluid.count; ++i) {
     const Vec x = at(s.fluid.x, i);
     const double depth = std::min(std::min(x[0], 0.8 - x[0]), std::min(x[1], 0.7 - x[1]));
     const bool near = depth<kernel.support() - 0.5 * d_0, far = depth> kernel.support() + 2 * d_0;
     if (near || far) {
-      EXPECT_EQ(s.fluid.inside[i], far ? 1 : 0) << x.transpose();
+      EXPECT_EQ(s.fluid.off_surface[i], far ? 1 : 0) << x.transpose();
     }
-    inside += s.fluid.inside[i] == 1;
+    inside += s.fluid.off_surface[i] == 1;
   }
   EXPECT_GT(inside, 10);
 }
@@ -64,8 +64,8 @@ TEST(Shifting, IsTheSumOfItsFormulaAndLeavesLinearFieldsInPlace) {
     set(s.fluid.v, i, v(at(s.fluid.x, i)));
     s.fluid.rho[i] = rho(at(s.fluid.x, i));
   }
-  s.fluid.inside.assign(padded(s.fluid.count), 1.0);
-  s.fluid.inside[7] = 0;
+  s.fluid.off_surface.assign(padded(s.fluid.count), 1.0);
+  s.fluid.off_surface[7] = 0;
   const Particles before = s.fluid;
   const double speed = 0.3, dt = 1e-3, A = 1.7;
   Shifting(ParticleShifting{A}, d_0, kernel).shift(s.fluid, s.lists.of_fluid(), {}, speed, dt);
@@ -147,15 +147,16 @@ TEST(TensileControl, DoesNotDependOnTheNeighbourLists) {
 TEST(FreeSurface, IsNoBetterThanAWallForWhatKeepsOffBoth) {
   const WendlandC2 kernel(1.5 * d_0);
   Sorted s = sorted(kernel);
-  s.fluid.inside.assign(padded(s.fluid.count), 1.0);
-  s.fluid.inside[7] = 0;
+  s.fluid.off_surface.assign(padded(s.fluid.count), 1.0);
+  s.fluid.off_surface[7] = 0;
   Boundary wall;
   wall.place({Vec(0, 0.35)}, {d_0 * d_0}, 1000, 0.1);
   std::vector<Boundary> walls{wall};
   s.lists.build(s.fluid, walls);
-  find_deep(s.fluid, walls, kernel);
+  find_off_surface_and_walls(s.fluid, walls, kernel);
   for (std::size_t i = 0; i < s.fluid.count; ++i)
-    EXPECT_EQ(s.fluid.deep[i], i != 7 && (at(s.fluid.x, i) - Vec(0, 0.35)).norm() >= kernel.support());
+    EXPECT_EQ(s.fluid.off_surface_and_walls[i],
+              i != 7 && (at(s.fluid.x, i) - Vec(0, 0.35)).norm() >= kernel.support());
 }
 
 }  // namespace

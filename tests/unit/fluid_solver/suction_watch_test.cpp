@@ -67,7 +67,7 @@ TEST(SuctionWatch, IsNotAfterAFewParticles) {
 
 TEST(SuctionWatch, LeavesOutWhatTensileControlHelps) {
   Medium medium;
-  medium.fluid.deep.assign(40, 1.0);
+  medium.fluid.off_surface_and_walls.assign(40, 1.0);
   EXPECT_FALSE(medium.after(20, -10));
 }
 

@@ -46,7 +46,7 @@ struct Contacting {
     }
     StripOrder strips(10);
     strips.index(fluid.x[0], fluid.count);
-    body.fluid_near.build(body.x, body.count, fluid.x, strips, 2 * h);
+    body.list_for_wall.build(body.x, body.count, fluid.x, strips, 2 * h);
   }
   std::map<std::string, double> after(const Removal& removal, int steps = 1) {
     SurfaceRecord record(removal);

@@ -4,12 +4,12 @@
 
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 /// Two blocks of 4 x 4 particles, 5 mm apart, `gap` between their faces, that move towards each other.
-SolidParameters two_blocks(double gap, double speed) {
-  SolidParameters p = free_plate(4);
+Parameters two_blocks(double gap, double speed) {
+  Parameters p = free_plate(4);
   const auto moving = [](double v) { return InitialVelocity{.velocity = Vec(v, 0)}; };
   p.regions = {{.name = "left",
                 .box = {Vec(-0.02, 0), Vec(0, 0.02)},
@@ -24,8 +24,8 @@ SolidParameters two_blocks(double gap, double speed) {
 }
 
 TEST(BodyContact, PushesByTheGradientOfItsEnergyEqualAndOpposite) {
-  const SolidParameters p = two_blocks(0.009, 0);
-  const SolidBody body = body_of(p);
+  const Parameters p = two_blocks(0.009, 0);
+  const Body body = body_of(p);
   const std::size_t count = body.size(), size = padded(count);
   VecField x, a;
   Field V(size, body.volume(0));
@@ -73,4 +73,4 @@ TEST(BodyContact, BodiesBounceAndKeepMomentumAndEnergy) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

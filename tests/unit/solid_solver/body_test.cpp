@@ -4,13 +4,13 @@
 
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 using testing::ElementsAre;
 using testing::Pair;
 
-std::vector<std::string> faults_of(const SolidParameters& parameters) {
+std::vector<std::string> faults_of(const Parameters& parameters) {
   std::vector<std::string> faults;
   build_body(parameters, [&](const std::string& key, const std::string& message) {
     faults.push_back(key + ": " + message);
@@ -18,37 +18,37 @@ std::vector<std::string> faults_of(const SolidParameters& parameters) {
   return faults;
 }
 
-TEST(SolidBody, FillsItsRegionWithRowsHalfASpacingFromTheFaces) {
-  const SolidBody body = body_of(free_plate(4));
+TEST(Body, FillsItsRegionWithRowsHalfASpacingFromTheFaces) {
+  const Body body = body_of(free_plate(4));
   ASSERT_EQ(body.size(), 64u);
   EXPECT_NEAR((body.X.front() - Vec(0.0025, 0.0025)).norm(), 0, 1e-15);
   EXPECT_NEAR((body.X.back() - Vec(0.0775, 0.0175)).norm(), 0, 1e-15);
   EXPECT_NEAR(body.total_volume(), 0.08 * 0.02, 1e-15);
 }
 
-TEST(SolidBody, FitsTheSpacingToTheSidesSoThatMassIsDensityTimesArea) {
-  SolidParameters p = free_plate(4);
+TEST(Body, FitsTheSpacingToTheSidesSoThatMassIsDensityTimesArea) {
+  Parameters p = free_plate(4);
   p.spacing = 0.000625;
   p.regions = {{"gate", {Vec(0.1, 0), Vec(0.105, 0.079)}}};  // 126.4 spacings high
-  const SolidBody body = body_of(p);
+  const Body body = body_of(p);
   EXPECT_EQ(body.size(), 8u * 126u);
   EXPECT_NEAR(body.total_volume(), 0.005 * 0.079, 1e-15);
   EXPECT_NEAR(body.X.back()[1], 0.079 - 0.5 * 0.079 / 126, 1e-15);
 }
 
-TEST(SolidBody, CountsTheParticlesOfRegionsAndClamps) {
-  SolidParameters p = free_plate(4);
+TEST(Body, CountsTheParticlesOfRegionsAndClamps) {
+  Parameters p = free_plate(4);
   p.clamps = {{"root", {Vec(-1, -1), Vec(0.01, 1)}}};  // a clamp line between rows 2 and 3
-  const SolidBody body = body_of(p);
+  const Body body = body_of(p);
   EXPECT_THAT(body.counts, ElementsAre(Pair("region plate", 64), Pair("clamp root", 8)));
   EXPECT_EQ(std::count(body.held.begin(), body.held.end(), 1), 8);
 }
 
-TEST(SolidBody, SurfaceIsClosedAndAsLongAsItsSides) {
-  SolidParameters p = free_plate(8);
+TEST(Body, SurfaceIsClosedAndAsLongAsItsSides) {
+  Parameters p = free_plate(8);
   p.regions.push_back({"neighbour", {Vec(0.08, 0), Vec(0.1, 0.02)}});
   p.holes = {{"hole", {Vec(0.03, 0.005), Vec(0.05, 0.015)}}};
-  const SolidBody body = body_of(p);
+  const Body body = body_of(p);
   Vec sum = Vec::Zero();
   double length = 0;
   for (const Vec& area : body.area_vector) {
@@ -60,13 +60,13 @@ TEST(SolidBody, SurfaceIsClosedAndAsLongAsItsSides) {
   EXPECT_NEAR((body.area_vector.front() - Vec(-0.0025, -0.0025)).norm(), 0, 1e-15) << "outward at the corner";
 }
 
-TEST(SolidBody, ARingIsADiscWithADiscCutOut) {
-  SolidParameters p = free_plate(4);
+TEST(Body, ARingIsADiscWithADiscCutOut) {
+  Parameters p = free_plate(4);
   p.spacing = 0.001;
   p.regions = {{"left", {Vec(-0.05, -0.02), Vec(-0.01, 0.02), true}},
                {"right", {Vec(-0.01, -0.02), Vec(0.03, 0.02), true}}};
   p.holes = {{"hole", {Vec(-0.045, -0.015), Vec(-0.015, 0.015), true}}};
-  const SolidBody body = body_of(p);
+  const Body body = body_of(p);
   double area[2] = {0, 0};
   for (std::size_t i = 0; i < body.size(); ++i) area[body.region[i]] += body.volume(i);
   EXPECT_NEAR(area[0] / (M_PI * (0.02 * 0.02 - 0.015 * 0.015)), 1.0, 0.01);
@@ -77,15 +77,15 @@ TEST(SolidBody, ARingIsADiscWithADiscCutOut) {
               ElementsAre("solid.region: region 'inside' overlaps region 'right'; regions may touch only"));
 }
 
-TEST(SolidBody, InterfaceIsWhatAFluidCanReachFromOutside) {
-  const SolidBody body = body_of(free_plate(10));  // spacing 2 mm, 40 x 10
+TEST(Body, InterfaceIsWhatAFluidCanReachFromOutside) {
+  const Body body = body_of(free_plate(10));  // spacing 2 mm, 40 x 10
   EXPECT_EQ(body.near_surface(0.0021).size(), 400u - 38u * 8u) << "one layer";
   EXPECT_EQ(body.near_surface(0.0041).size(), 400u - 36u * 6u) << "two layers";
   EXPECT_EQ(body.near_surface(0.004).size(), 400u - 36u * 6u) << "just so: all of a layer or none";
 }
 
-TEST(SolidBody, TellsWhatIsWrongWithTheGeometry) {
-  SolidParameters p = free_plate(4);
+TEST(Body, TellsWhatIsWrongWithTheGeometry) {
+  Parameters p = free_plate(4);
   p.regions.push_back({"lid", {Vec(0, 0.015), Vec(0.08, 0.0225)}});
   p.clamps = {{"nowhere", {Vec(2, 2), Vec(3, 3)}}};
   p.loads = {{"push", {Vec(2, 2), Vec(3, 3)}, Vec(1, 0)}};
@@ -103,7 +103,7 @@ TEST(SolidBody, TellsWhatIsWrongWithTheGeometry) {
 }
 
 TEST(MaterialPoint, IsExactForLinearFieldsAlsoInACorner) {
-  const SolidBody body = body_of(free_plate(4));
+  const Body body = body_of(free_plate(4));
   for (const Vec& point : {Vec(0, 0), Vec(0.08, 0.02), Vec(0.04, 0.01), Vec(0.013, 0.0)}) {
     const MaterialPoint observer(point, body.X, 0.013);
     const auto linear = [](const Vec& X) { return Vec(1 + 2 * X[0] - X[1], 3 * X[1]); };
@@ -135,4 +135,4 @@ TEST(InitialVelocity, AlternatesFromSquareToSquare) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 Mat turned_by(double angle) {
@@ -28,8 +28,8 @@ std::vector<Vec> moved(std::vector<Vec> x, const Mat& F) {
 }
 
 TEST(Bonds, AreSidesAndDiagonalsOfTheLatticeAndKnowHowFarTheyStretch) {
-  const SolidParameters p = free_plate(4);  // 16 x 4 particles, 5 mm apart
-  const SolidBody body = body_of(p);
+  const Parameters p = free_plate(4);  // 16 x 4 particles, 5 mm apart
+  const Body body = body_of(p);
   const Bonds bonds(body, {});
   auto x = body.X;
   for (std::size_t i = 0; i < body.size(); ++i)
@@ -48,7 +48,7 @@ TEST(Bonds, AreSidesAndDiagonalsOfTheLatticeAndKnowHowFarTheyStretch) {
 }
 
 TEST(Bonds, KnowHowFarTheyTurn) {
-  const SolidBody body = body_of(free_plate(4));
+  const Body body = body_of(free_plate(4));
   const Bonds bonds(body, {});
   for (const double angle : {0.3, -2.5}) {
     const Stretches found = bonds.stretches(moved(body.X, turned_by(angle)));
@@ -62,7 +62,7 @@ TEST(Bonds, KnowHowFarTheyTurn) {
 }
 
 TEST(BondWatch, SaysOnceThatTheStressIsBeyondAnEdge) {
-  const SolidBody body = body_of(free_plate(4));
+  const Body body = body_of(free_plate(4));
   std::ostringstream said;
   const auto logger = spdlog::default_logger();
   spdlog::set_default_logger(
@@ -85,8 +85,8 @@ TEST(BondWatch, SaysOnceThatTheStressIsBeyondAnEdge) {
 }
 
 TEST(BondWatch, KeepsTheWorstAndStopsWhereAsked) {
-  const SolidParameters p = free_plate(4);
-  const SolidBody body = body_of(p);
+  const Parameters p = free_plate(4);
+  const Body body = body_of(p);
   auto torn = body.X;
   torn[15] += Vec(0.1, 0);  // the corner: two sides and a diagonal
   BondWatch watch(body, {}, {});
@@ -106,7 +106,7 @@ TEST(BondWatch, KeepsTheWorstAndStopsWhereAsked) {
 }
 
 TEST(UpdatedLagrangian, WatchesItsBondsUnasked) {
-  SolidParameters p = free_plate(4);
+  Parameters p = free_plate(4);
   p.formulation = Formulation::updated_lagrangian;
   p.hourglass.reset();
   const auto model = model_of(p);
@@ -117,4 +117,4 @@ TEST(UpdatedLagrangian, WatchesItsBondsUnasked) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -4,12 +4,12 @@
 
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 /// 16 x 4 particles, 5 mm apart, the first column held.
-SolidParameters held_plate() {
-  SolidParameters p = free_plate(4);
+Parameters held_plate() {
+  Parameters p = free_plate(4);
   p.clamps = {{"root", {Vec(-1, -1), Vec(p.spacing, 1)}}};
   p.detachment = Detachment{};
   return p;
@@ -20,8 +20,8 @@ double count(const std::vector<char>& flags) {
 }
 
 TEST(DetachmentObserver, FindsAllThatNoChainJoinsToAClamp) {
-  const SolidParameters p = held_plate();
-  const SolidBody body = body_of(p);
+  const Parameters p = held_plate();
+  const Body body = body_of(p);
   DetachmentObserver observer(body, p);
   EXPECT_FALSE(observer.look(body.X, 0));
   EXPECT_EQ(count(observer.detached()), 0);
@@ -54,12 +54,12 @@ TEST(DetachmentObserver, FindsAllThatNoChainJoinsToAClamp) {
 }
 
 TEST(DetachmentObserver, AChainOfSingleParticlesHolds) {
-  SolidParameters p = held_plate();
+  Parameters p = held_plate();
   p.detachment->bond_length = 1.1;
   p.regions = {{"root", {Vec(0, 0), Vec(0.02, 0.02)}},
                {"bridge", {Vec(0.02, 0.005), Vec(0.04, 0.01)}},
                {"block", {Vec(0.04, 0), Vec(0.06, 0.02)}}};
-  const SolidBody body = body_of(p);
+  const Body body = body_of(p);
   DetachmentObserver observer(body, p);
   observer.look(body.X, 0);
   EXPECT_EQ(count(observer.detached()), 0);
@@ -70,8 +70,8 @@ TEST(DetachmentObserver, AChainOfSingleParticlesHolds) {
 }
 
 TEST(DetachmentObserver, LooksAtWholeIntervals) {
-  const SolidParameters p = held_plate();
-  const SolidBody body = body_of(p);
+  const Parameters p = held_plate();
+  const Body body = body_of(p);
   DetachmentObserver observer(body, p);
   EXPECT_TRUE(observer.due(0));
   observer.look(body.X, 0);
@@ -83,7 +83,7 @@ TEST(DetachmentObserver, LooksAtWholeIntervals) {
 }
 
 TEST(Detachment, AStruckPlateTearsAndTheModelTellsWhatCameOff) {
-  SolidParameters p = held_plate();
+  Parameters p = held_plate();
   p.formulation = Formulation::updated_lagrangian;
   p.hourglass.reset();
   p.artificial_viscosity = ArtificialViscosity{};
@@ -111,4 +111,4 @@ TEST(Detachment, AStruckPlateTearsAndTheModelTellsWhatCameOff) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -8,7 +8,7 @@
 
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 /// What the log is told as long as this lives.
@@ -46,7 +46,7 @@ TEST(EnergyWatch, TellsOfTwoPercentOfTheMostAndOfEachDoubling) {
 
 /// Largest gain of a free bar that swings along its length, in updated form, by steps of `courant_number`.
 double gain(double courant_number) {
-  SolidParameters p = free_plate(5);
+  Parameters p = free_plate(5);
   p.hourglass.reset();
   p.formulation = Formulation::updated_lagrangian;
   p.courant_number = courant_number;
@@ -68,4 +68,4 @@ TEST(EnergyWatch, SeesWhatMidpointStepsThatAreTooLongFeedASolid) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

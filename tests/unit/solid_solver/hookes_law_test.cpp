@@ -8,7 +8,7 @@
 
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 using Stress2 = Symmetric<double>;
@@ -64,7 +64,7 @@ TEST(HookesLaw, LargeShearIsASineOfTheAngle) {
 
 /// Stress over strain of a free plate in renormalised updated form, strained at a constant rate for one step.
 Stress patch(Integrator integrator, const Mat& strain) {
-  SolidParameters p = free_plate(4);
+  Parameters p = free_plate(4);
   p.formulation = Formulation::updated_lagrangian;
   p.gradients = Gradients::renormalised;
   p.integrator = integrator;
@@ -103,4 +103,4 @@ TEST(PatchTest, UniaxialIsotropicAndShearedPlatesHaveTheStressOfHookesLaw) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

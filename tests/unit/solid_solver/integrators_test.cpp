@@ -6,14 +6,14 @@
 #include "common/sph/kernel.hpp"
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 /// Two particles side by side, part from each other with a small velocity. Along x it is an oscillator: with
 /// e_xx = V |W'| w, w the velocity of parting, sigma_xx grows by rho c_L^2 e_xx, and dw/dt = -4 m |W'|
 /// sigma_xx/rho^2, so omega = 2 c_L V |W'|.
 struct Oscillator {
-  SolidParameters p;
+  Parameters p;
   double omega;
   explicit Oscillator(Integrator integrator) {
     const double d = 0.005;
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Order,
 
 /// A plate that bends, stretches and turns: where its particles are after 0.4 ms in so many steps.
 std::vector<Vec> end_of(std::tuple<Integrator, Gradients> form, int steps) {
-  SolidParameters p = free_plate(4);
+  Parameters p = free_plate(4);
   p.formulation = Formulation::updated_lagrangian;
   p.integrator = std::get<0>(form);
   p.gradients = std::get<1>(form);
@@ -111,4 +111,4 @@ TEST_P(Order, ErrorFallsWithTheSquareOfTheStep) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

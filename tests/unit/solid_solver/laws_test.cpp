@@ -7,7 +7,7 @@
 #include "samples.hpp"
 #include "solid_solver/total_lagrangian/total_lagrangian.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 constexpr double lambda = 3e6, G = 1e6;
@@ -135,8 +135,8 @@ TEST(Yeoh, ForSmallStrainsItHasTheModulusOfItsConstants) {
 }
 
 /// A bar of 0.08 x 0.02 m held at one end; a load pulls at the other.
-SolidParameters loaded_bar(ElasticLaw law, bool yeoh, double force) {
-  SolidParameters p = moving_cantilever(4, 0.0);
+Parameters loaded_bar(ElasticLaw law, bool yeoh, double force) {
+  Parameters p = moving_cantilever(4, 0.0);
   p.law = law;
   if (yeoh) {
     p.yeoh = Yeoh{.c_10 = 0.36e6, .c_20 = -0.05e6, .c_30 = 0.1e6, .bulk_modulus = 3.3e6};
@@ -155,7 +155,7 @@ TEST(TotalLagrangian, TimeStepLimitHoldsForTheStretchedBodyWhateverTheLaw) {
   };
   for (const auto& [law, yeoh] : {Sample{ElasticLaw::saint_venant_kirchhoff, false},
                                   Sample{ElasticLaw::neo_hookean, false}, Sample{{}, true}}) {
-    SolidParameters p = loaded_bar(law, yeoh, 1.5e4);
+    Parameters p = loaded_bar(law, yeoh, 1.5e4);
     TotalLagrangian model(p, body_of(p), empty_scene());
     const double unloaded = model.time_step_limit();
     EXPECT_NEAR(unloaded * model.find_highest_frequency(), 0.8 * 2.0, 1e-6);
@@ -170,7 +170,7 @@ TEST(TotalLagrangian, TimeStepLimitHoldsForTheStretchedBodyWhateverTheLaw) {
 }
 
 TEST(TotalLagrangian, StopsWhereAVolumeIsNoLongerPositive) {
-  SolidParameters p = loaded_bar(ElasticLaw::saint_venant_kirchhoff, false, -3e5);
+  Parameters p = loaded_bar(ElasticLaw::saint_venant_kirchhoff, false, -3e5);
   TotalLagrangian model(p, body_of(p), empty_scene());
   std::string message;
   for (int n = 0; n < 2000 && message.empty(); ++n) try {
@@ -183,4 +183,4 @@ TEST(TotalLagrangian, StopsWhereAVolumeIsNoLongerPositive) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -7,13 +7,13 @@
 
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 /// Five particles typed by hand; h = 1.
 struct Five {
   static constexpr std::size_t count = 5;
-  SolidParameters parameters;
+  Parameters parameters;
   UpdatedState state;
   ClusterList list;
   StripOrder strips{10.0};
@@ -166,4 +166,4 @@ TEST(PairSweeps, ALoneParticleKeepsUnitGradients) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

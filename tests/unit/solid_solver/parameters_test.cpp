@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 const std::string plate = R"([solid]
@@ -28,10 +28,10 @@ class SolidSection : public testing::Test {
   }
   ~SolidSection() override { std::filesystem::remove_all(folder_); }
 
-  SolidParameters read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  Parameters read(const std::string& text, const std::vector<std::string>& overrides = {}) {
     std::ofstream(folder_ / "case.toml") << text;
     CaseFile file(folder_, overrides);
-    SolidParameters parameters;
+    Parameters parameters;
     file.read("solid", parameters, "an elastic body");
     file.throw_if_faulty();
     used_ = file.used();
@@ -53,7 +53,7 @@ class SolidSection : public testing::Test {
 };
 
 TEST_F(SolidSection, TakesDefaultsAndLeavesModelsOff) {
-  const SolidParameters p = read(plate);
+  const Parameters p = read(plate);
   EXPECT_EQ(p.formulation, Formulation::total_lagrangian);
   EXPECT_DOUBLE_EQ(p.h(), 1.3 * 0.005);
   EXPECT_FALSE(p.hourglass || p.artificial_viscosity || p.artificial_stress || p.damping || p.wall_contact);
@@ -64,7 +64,7 @@ TEST_F(SolidSection, TakesDefaultsAndLeavesModelsOff) {
 TEST_F(SolidSection, IsTheSameWhenReadFromWhatWasUsed) {
   read(plate, {"solid.hourglass.coefficient=1.2", "solid.artificial_viscosity.alpha=0.3"});
   const std::string used = used_;
-  const SolidParameters again = read(used);
+  const Parameters again = read(used);
   EXPECT_EQ(again.hourglass->coefficient, 1.2);
   EXPECT_EQ(again.artificial_viscosity->alpha, 0.3);
   EXPECT_EQ(used_, used);
@@ -93,7 +93,7 @@ TEST_F(SolidSection, ARubberTakesThePlaceOfTheElasticConstants) {
   for (const std::string line : {"youngs_modulus = 2e6\n", "poissons_ratio = 0.4\n"})
     bare.erase(bare.find(line), line.size());
   for (const std::string& text : {plate + rubber, bare}) {
-    const SolidParameters p = read(text);
+    const Parameters p = read(text);
     EXPECT_NEAR(p.material.shear_modulus() / 1e6, 1.0, 1e-14);
     EXPECT_NEAR(p.material.bulk_modulus() / 20e6, 1.0, 1e-14);
     EXPECT_EQ(used_.find("youngs_modulus"), std::string::npos) << "only what is used stands in the used case";
@@ -120,7 +120,7 @@ TEST_F(SolidSection, LooksForWhatIsDetachedFromAClampOnly) {
       faults(plate + "[solid.detachment]\n"),
       "case.toml:9:8: error: [solid.detachment] needs a [[solid.clamp]]: detached is what no chain joins "
       "to one");
-  const SolidParameters p =
+  const Parameters p =
       read(plate +
            "[solid.detachment]\n[[solid.clamp]]\nname = \"root\"\nbox = { min = [0, 0], max = [0.01, 1] }\n");
   EXPECT_EQ(p.detachment->interval, 1e-3);
@@ -135,4 +135,4 @@ TEST_F(SolidSection, NeedsARegionAndAPositiveDensity) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

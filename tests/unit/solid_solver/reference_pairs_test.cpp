@@ -7,7 +7,7 @@
 
 #include "solid_solver/terms/saint_venant_kirchhoff.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 constexpr double h = 1.0;
@@ -139,4 +139,4 @@ TEST(SaintVenantKirchhoff, PassesThePatchTests) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

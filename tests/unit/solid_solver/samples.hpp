@@ -5,18 +5,18 @@
 
 #include "solid_solver/make_model.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// Geometry that the test knows to be right.
-inline SolidBody body_of(const SolidParameters& parameters) {
+inline Body body_of(const Parameters& parameters) {
   return build_body(parameters, [](const std::string& key, const std::string& message) {
     ADD_FAILURE() << key << ": " << message;
   });
 }
 
 /// A plate of `rows` rows, 0.02 m thick and 0.08 m long, rubber-like: E = 2 MPa, nu = 0.4, held nowhere.
-inline SolidParameters free_plate(int rows) {
-  SolidParameters p;
+inline Parameters free_plate(int rows) {
+  Parameters p;
   p.material = {.density = 1000, .youngs_modulus = 2e6, .poissons_ratio = 0.4};
   p.spacing = 0.02 / rows;
   p.regions = {{"plate", {Vec(0, 0), Vec(0.08, 0.02)}}};
@@ -25,8 +25,8 @@ inline SolidParameters free_plate(int rows) {
 }
 
 /// The same, moving in its first mode and held in its first row of cells.
-inline SolidParameters moving_cantilever(int rows, double tip_speed) {
-  SolidParameters p = free_plate(rows);
+inline Parameters moving_cantilever(int rows, double tip_speed) {
+  Parameters p = free_plate(rows);
   p.clamps = {{"root", {Vec(-1, -1), Vec(p.spacing, 1)}}};
   p.initial_velocity = InitialVelocity{VelocityProfile::cantilever_mode_1, Vec(0, tip_speed),
                                        Vec(p.spacing, 0), 0.08 - p.spacing};
@@ -39,7 +39,7 @@ inline Scene empty_scene() {
   return scene;
 }
 
-inline std::unique_ptr<SolidModel> model_of(const SolidParameters& parameters,
+inline std::unique_ptr<SolidModel> model_of(const Parameters& parameters,
                                             const Scene& scene = empty_scene()) {
   return make_model(parameters, body_of(parameters), scene);
 }
@@ -71,4 +71,4 @@ inline void run_to(SolidModel& model, double time) {
   }
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

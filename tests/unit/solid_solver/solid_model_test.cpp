@@ -8,10 +8,10 @@
 #include "samples.hpp"
 #include "solid_solver/total_lagrangian/total_lagrangian.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
-SolidParameters in_form(SolidParameters p, Formulation formulation) {
+Parameters in_form(Parameters p, Formulation formulation) {
   p.formulation = formulation;
   if (formulation == Formulation::updated_lagrangian) {
     p.hourglass.reset();
@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Solid, BothForms,
                          });
 
 TEST_P(BothForms, KeepsMomentumOfAFreeBody) {
-  SolidParameters p = in_form(moving_cantilever(4, 3.0), GetParam());
+  Parameters p = in_form(moving_cantilever(4, 3.0), GetParam());
   p.clamps.clear();
   const auto model = model_of(p);
   const double x = observed(*model, "momentum_x"), y = observed(*model, "momentum_y");
@@ -47,7 +47,7 @@ TEST_P(BothForms, KeepsMomentumOfAFreeBody) {
 
 TEST_P(BothForms, RepeatsAWindowBitByBit) {
   omp_set_num_threads(1);
-  SolidParameters p = in_form(moving_cantilever(4, 20.0), GetParam());
+  Parameters p = in_form(moving_cantilever(4, 20.0), GetParam());
   p.wall_contact = Contact{};
   p.detachment = Detachment{.interval = 1e-4};
   Scene scene = empty_scene();
@@ -90,7 +90,7 @@ TEST_P(BothForms, IsBitwiseTheSameForOneAndTwoThreads) {
 }
 
 TEST_P(BothForms, HoldsTheClampedAndTakesTheirLoad) {
-  SolidParameters p = in_form(moving_cantilever(4, 1.0), GetParam());
+  Parameters p = in_form(moving_cantilever(4, 1.0), GetParam());
   const auto model = model_of(p);
   const Interface interface = model->interface(0.011);
   InterfaceLoad load;
@@ -107,7 +107,7 @@ TEST_P(BothForms, HoldsTheClampedAndTakesTheirLoad) {
 }
 
 TEST_P(BothForms, ImpulsesOfLoadsWallsAndClampsSumToTheChangeOfMomentum) {
-  SolidParameters p = in_form(moving_cantilever(4, 2.0), GetParam());
+  Parameters p = in_form(moving_cantilever(4, 2.0), GetParam());
   p.loads = {{"tip", {Vec(0.06, -1), Vec(1, 1)}, Vec(-30.0, -50.0)}};
   p.wall_contact = Contact{};
   Scene scene = empty_scene();
@@ -149,7 +149,7 @@ TEST_P(BothForms, FallsFreelyUnderGravity) {
 }
 
 TEST_P(BothForms, StopsWhereAValueLeavesPhysics) {
-  SolidParameters p = in_form(free_plate(4), GetParam());
+  Parameters p = in_form(free_plate(4), GetParam());
   p.initial_velocity = InitialVelocity{.velocity = Vec(3, 4)};
   p.limits.speed = 4.9;
   const auto failure = [](const SolidModel& model) -> std::string {
@@ -173,7 +173,7 @@ TEST_P(BothForms, StopsWhereAValueLeavesPhysics) {
 }
 
 TEST_P(BothForms, BouncesOffAWallAndDoesNotStick) {
-  SolidParameters p = in_form(free_plate(4), GetParam());
+  Parameters p = in_form(free_plate(4), GetParam());
   p.initial_velocity = InitialVelocity{.velocity = Vec(0, -1)};
   p.wall_contact = Contact{};
   p.time_step_share =
@@ -209,7 +209,7 @@ TEST(TotalLagrangian, KeepsTheEnergyOfALargeVibration) {
 }
 
 TEST(TotalLagrangian, ViscosityTakesEnergyAndNoMomentum) {
-  SolidParameters p = moving_cantilever(4, 3.0);
+  Parameters p = moving_cantilever(4, 3.0);
   p.clamps.clear();
   p.artificial_viscosity = ArtificialViscosity{.alpha = 0.5, .beta = 0.0};
   const auto model = model_of(p);
@@ -221,7 +221,7 @@ TEST(TotalLagrangian, ViscosityTakesEnergyAndNoMomentum) {
 }
 
 TEST(TotalLagrangian, HighestFrequencyIsThatOfTheStabilityLimit) {
-  SolidParameters p = moving_cantilever(4, 1e-6);
+  Parameters p = moving_cantilever(4, 1e-6);
   const auto energy_after = [&](double share) {
     auto parameters = p;
     parameters.time_step_share = share;
@@ -235,7 +235,7 @@ TEST(TotalLagrangian, HighestFrequencyIsThatOfTheStabilityLimit) {
 }
 
 TEST(SolidModel, ConstantLoadsAreSharedByTheParticlesOfTheirBox) {
-  SolidParameters p = free_plate(4);
+  Parameters p = free_plate(4);
   p.loads = {{"pull", {Vec(0.06, -1), Vec(1, 1)}, Vec(8.0, 0)}};
   const auto model = model_of(p);
   EXPECT_NEAR(model->acceleration(15)[0], 8.0 / (16 * model->mass(15)), 1e-12);
@@ -245,7 +245,7 @@ TEST(SolidModel, ConstantLoadsAreSharedByTheParticlesOfTheirBox) {
 }
 
 TEST(SolidModel, RegionsHaveVelocitiesOfTheirOwnAndTellThem) {
-  SolidParameters p = free_plate(4);
+  Parameters p = free_plate(4);
   p.initial_velocity = InitialVelocity{.velocity = Vec(1, 2)};
   p.regions.push_back({.name = "other",
                        .box = {Vec(0.2, 0), Vec(0.24, 0.02)},
@@ -282,4 +282,4 @@ TEST(Stress, VonMisesOfPureShearIsRootThreeTimesIt) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

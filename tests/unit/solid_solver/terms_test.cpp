@@ -8,7 +8,7 @@
 #include "solid_solver/terms/hookes_law.hpp"
 #include "solid_solver/terms/hourglass_penalty.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 TEST(ArtificialViscosity, PushesOnlyPairsThatApproach) {
@@ -100,4 +100,4 @@ TEST_F(HookesLawTest, LargeShearOscillatesUnderTheJaumannRate) {
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

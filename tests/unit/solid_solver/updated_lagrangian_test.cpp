@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
 #include "samples.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 namespace {
 
 /// A block held on one side whose other particles start with the same velocity: all modes are struck.
-SolidParameters struck_block(double courant_number) {
-  SolidParameters p = free_plate(4);
+Parameters struck_block(double courant_number) {
+  Parameters p = free_plate(4);
   p.formulation = Formulation::updated_lagrangian;
   p.hourglass.reset();
   p.artificial_viscosity = ArtificialViscosity{};
@@ -31,11 +31,11 @@ TEST(UpdatedLagrangian, ComesToRestWithTheLongestStepsThatMayBeAskedFor) {
 }
 
 TEST(UpdatedLagrangian, AStateGoneWildIsNamedAndNotSearchedForNeighbours) {
-  SolidParameters p = struck_block(1.0);
+  Parameters p = struck_block(1.0);
   p.artificial_viscosity.reset();
   const auto model = model_of(p);
   EXPECT_THROW(for (int n = 0; n < 4000; ++n) model->advance(model->time_step_limit()), PhysicsFailure);
 }
 
 }  // namespace
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -99,7 +99,7 @@ TEST(CaseFile, KeepsDefaultsWhereTheCaseSaysNothing) {
 TEST(CaseFile, UsedCaseReadsBackToTheSameParameters) {
   const CaseText text(sound_medium());
   CaseFile file(text.folder(), {"medium.steps=7"});
-  file.leave_to_others({"other"});
+  file.ignore_sections({"other"});
   const Medium medium = read_medium(file);
   const std::string used = file.used();
   const CaseText again_text(used);
@@ -225,7 +225,7 @@ TEST(CaseFile, SaysOnlyInWhatItDiffersFromItsBase) {
       "box.max = [0.5, 1]\n[[medium.region]]\nname = 'far'\nbox = {min=[1,1], max=[2,2]}\n");
   text.add("base.toml", sound_medium() + "[other]\nanything = 1\n");
   CaseFile file(text.folder(), {"medium.steps=7"});
-  file.leave_to_others({"other"});
+  file.ignore_sections({"other"});
   const Medium medium = read_medium(file);
   EXPECT_EQ(medium.density, 1000);
   EXPECT_EQ(medium.ratio, 2);

@@ -42,7 +42,7 @@ class RawFluid {
  public:
   std::string process = own_process();
 
-  explicit RawFluid(const std::filesystem::path& out) : node_(dds::meeting_place(out)) {}
+  explicit RawFluid(const std::filesystem::path& out) : node_(dds::rendezvous(out)) {}
 
   void say_hello(std::uint32_t protocol = wire::protocol, std::string units = wire::units,
                  std::uint32_t dimension = dim) {
@@ -121,7 +121,7 @@ class LinkTest : public testing::Test {
   /// one folder in 25 has the same, and there a test would find the coupler.
   LinkSettings impatient_elsewhere(const std::string& role) const {
     LinkSettings settings = settings_for(role);
-    const auto domain = [](const auto& out) { return dds::meeting_place(out).domain; };
+    const auto domain = [](const auto& out) { return dds::rendezvous(out).domain; };
     do settings.out += "_elsewhere";
     while (domain(settings.out) == domain(settings_.out));
     settings.time_limit = 0.3;
@@ -145,7 +145,7 @@ class LinkTest : public testing::Test {
 
 TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
   const auto out = std::filesystem::temp_directory_path() / fmt::format("toryu_node_{}", getpid());
-  dds::Node node(dds::meeting_place(out));
+  dds::Node node(dds::rendezvous(out));
   dds::Reader<toryu_Status> reader(node, wire::status);
   dds::Writer<toryu_Status> writer(node, wire::status);
   std::string nothing;

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "common/run/ending.hpp"
+#include "common/error/ending.hpp"
 
 namespace toryu {
 namespace {
@@ -93,11 +93,11 @@ TEST(Ending, OfABugElsewhereIsALostPeer) {
   EXPECT_THROW(throw_ending({ExitCode::bug, "why"}), PeerLost);
 }
 
-TEST(MeetingPlace, FollowsFromTheFolder) {
-  const auto a = dds::meeting_place("out/a"), b = dds::meeting_place("out/b");
+TEST(Rendezvous, FollowsFromTheFolder) {
+  const auto a = dds::rendezvous("out/a"), b = dds::rendezvous("out/b");
   EXPECT_NE(a.tag, b.tag);
-  EXPECT_EQ(a.tag, dds::meeting_place("out/../out/./a").tag);
-  EXPECT_EQ(a.domain, dds::meeting_place(std::filesystem::absolute("out/a")).domain);
+  EXPECT_EQ(a.tag, dds::rendezvous("out/../out/./a").tag);
+  EXPECT_EQ(a.domain, dds::rendezvous(std::filesystem::absolute("out/a")).domain);
   for (const auto& place : {a, b}) {
     EXPECT_GE(place.domain, 1u);
     EXPECT_LE(place.domain, 100u);

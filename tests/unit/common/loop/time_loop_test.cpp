@@ -7,6 +7,8 @@
 
 #include <filesystem>
 
+#include "common/run/options.hpp"
+
 namespace toryu {
 namespace {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/output/results.hpp"
+#include "common/run/provenance.hpp"
 
 namespace toryu::sample {
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/output/hdf5_file.hpp"
+#include "common/run/provenance.hpp"
 #include "tests/unit/common/output/sample_results.hpp"
 
 namespace toryu {

@@ -1,4 +1,5 @@
 // Writes sample results into the folder given as the only argument, for test_results_are_readable.py.
+#include "common/run/provenance.hpp"
 #include "tests/unit/common/output/sample_results.hpp"
 
 int main(int, char** argv) {

@@ -1,3 +1,5 @@
+#include "common/run/log.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
@@ -6,8 +8,6 @@
 
 #include <fstream>
 #include <map>
-
-#include "common/run/program.hpp"
 
 namespace toryu {
 namespace {

@@ -1,9 +1,13 @@
 // The parts of a program's frame; whole programs are tested in tests/errors.
-#include "common/run/program.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
+
+#include "common/error/failure.hpp"
+#include "common/run/interruption.hpp"
+#include "common/run/options.hpp"
+#include "common/run/provenance.hpp"
 
 namespace toryu {
 namespace {

@@ -71,7 +71,7 @@ TEST(ClusterList, HoldsWhatIsNearTheTargetsMovedByAPeriod) {
       for (std::uint32_t j = 0; j < count; ++j)
         for (const Vec& shift : shifts)
           if ((at(x, i) + shift - at(x, j)).norm() < reach) expected.insert({shift[0], j});
-    for (const Near& near : list.near(c))
+    for (const ShiftedNeighbours& near : list.near(c))
       for (const std::uint32_t j : near.sources) {
         EXPECT_TRUE(found.insert({near.shift[0], j}).second) << "no source twice";
         across += near.shift[0] != 0;

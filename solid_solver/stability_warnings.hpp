@@ -8,7 +8,7 @@
 #include "solid_solver/bonds.hpp"
 #include "solid_solver/parameters.hpp"
 
-namespace toryu {
+namespace toryu::solid {
 
 /// Largest courant_number, times the share, that the steps of an updated Lagrangian solid bear:
 ///
@@ -16,7 +16,7 @@ namespace toryu {
 ///               omega = 1.07 c_L/h for h = 1.1 to 1.5 d_0
 ///   midpoint    1.1 alpha^(1/3): what artificial viscosity damps, omega alpha a share of a step,
 ///               outweighs the growth (omega dt)^4/8; nothing without viscosity
-double courant_edge(const SolidParameters& parameters);
+double courant_edge(const Parameters& parameters);
 
 /// Beyond which motions the stress of an updated Lagrangian solid is wrong while the body looks whole:
 ///
@@ -24,9 +24,9 @@ double courant_edge(const SolidParameters& parameters);
 ///             rows (cases/rigid_rotation/turn_map.toml); renormalised ones bear any turn
 ///     strain  0.30, of a diagonal bond in a shear of gamma = 0.55, where G sin(gamma) of the Jaumann rate is
 ///             5 % short of G gamma (cases/patch_test/jaumann_map.toml)
-StressEdges stress_edges(const SolidParameters& parameters);
+StressEdges stress_edges(const Parameters& parameters);
 
 /// A sentence for each edge that `parameters` lie beyond.
-std::vector<std::string> beyond_edges(const SolidParameters& parameters);
+std::vector<std::string> stability_warnings(const Parameters& parameters);
 
-}  // namespace toryu
+}  // namespace toryu::solid

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/run/failure.hpp"
+#include "common/error/failure.hpp"
 
 namespace toryu {
 

@@ -11,12 +11,12 @@
 
 #include "common/link/participant.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
-class Forecast {
+class Extrapolation {
  public:
   /// `order` is 0, 1 or 2; `at_start` the solid's motion at the start of the run.
-  Forecast(int order, const InterfaceMotion& at_start) : order_(order), now_(at_start) {}
+  Extrapolation(int order, const InterfaceMotion& at_start) : order_(order), now_(at_start) {}
 
   /// The motion that the fluid is to follow over a window of `dt` [s]. Its velocity is that of the way from
   /// the solid's present position (at order 0 the solid's own).
@@ -33,4 +33,4 @@ class Forecast {
   double first_dt_ = 0, last_dt_ = 0;  // [s]
 };
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -8,7 +8,7 @@ namespace toryu {
 
 /// Copies `variables`; the function returned puts the copies back into them, as often as it is called.
 template <class... T>
-std::function<void()> remember(T&... variables) {
+std::function<void()> snapshot(T&... variables) {
   return
       [present = std::tie(variables...), kept = std::tuple<T...>(variables...)]() mutable { present = kept; };
 }

@@ -1,4 +1,4 @@
-#include "fluid_solver/guards.hpp"
+#include "fluid_solver/stability_warnings.hpp"
 
 #include <gmock/gmock.h>
 
@@ -18,12 +18,13 @@ Parameters water(double time_step_share, Integrator integrator) {
 }
 
 TEST(FluidGuards, NameTheMapBeyondWhoseEdgeACaseLies) {
-  EXPECT_THAT(beyond_edges(water(2.5, Integrator::midpoint), {1, 0}), ElementsAre());
+  EXPECT_THAT(stability_warnings(water(2.5, Integrator::midpoint), {1, 0}), ElementsAre());
   EXPECT_THAT(
-      beyond_edges(water(2.7, Integrator::midpoint), {1, 0}),
+      stability_warnings(water(2.7, Integrator::midpoint), {1, 0}),
       ElementsAre(HasSubstr("2.7 is beyond the edge of stability at 2.6; see cases/hydrostatic_tank")));
-  EXPECT_THAT(beyond_edges(water(6.6, Integrator::symplectic), {1, 0}), ElementsAre());
-  EXPECT_THAT(beyond_edges(water(6.8, Integrator::symplectic), {1, 0}), ElementsAre(HasSubstr("at 6.7")));
+  EXPECT_THAT(stability_warnings(water(6.6, Integrator::symplectic), {1, 0}), ElementsAre());
+  EXPECT_THAT(stability_warnings(water(6.8, Integrator::symplectic), {1, 0}),
+              ElementsAre(HasSubstr("at 6.7")));
 }
 
 TEST(FluidGuards, KnowWhatDensityDiffusionBears) {
@@ -31,7 +32,7 @@ TEST(FluidGuards, KnowWhatDensityDiffusionBears) {
   p.density_diffusion->delta = 0.0125;  // an eighth: half the step
   EXPECT_DOUBLE_EQ(time_step_edge(p), 1.3);
   p.density_diffusion.reset();
-  EXPECT_THAT(beyond_edges(p, {1, 0}), ElementsAre(HasSubstr("at 0.8")));
+  EXPECT_THAT(stability_warnings(p, {1, 0}), ElementsAre(HasSubstr("at 0.8")));
 }
 
 TEST(FluidGuards, WantWorkPiecesAsFineAsTheFluid) {
@@ -44,7 +45,7 @@ TEST(FluidGuards, WantWorkPiecesAsFineAsTheFluid) {
 }
 
 TEST(FluidGuards, WantTenTimesTheSpeed) {
-  EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {2.1, 0}),
+  EXPECT_THAT(stability_warnings(water(1, Integrator::midpoint), {2.1, 0}),
               ElementsAre(HasSubstr("sound_speed 20 m/s is below")));
 }
 
@@ -91,8 +92,8 @@ TEST(FluidGuards, KnowWhatIsTooNarrowForAJet) {
 }
 
 TEST(FluidGuards, WantNoWallToStartAtOnceFasterThanAShareOfSound) {
-  EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {0, 1.4}), ElementsAre());
-  EXPECT_THAT(beyond_edges(water(1, Integrator::midpoint), {0, 1.6}),
+  EXPECT_THAT(stability_warnings(water(1, Integrator::midpoint), {0, 1.4}), ElementsAre());
+  EXPECT_THAT(stability_warnings(water(1, Integrator::midpoint), {0, 1.6}),
               ElementsAre(HasSubstr("a wall starts at once at 1.6 m/s, 0.08 of the sound speed")));
 }
 
@@ -123,13 +124,14 @@ TEST(FluidGuards, WantSoundFasterThanDeepWaterFalls) {
   Parameters p = water(1, Integrator::midpoint);
   p.regions = {{"water", {Vec(0, 0), Vec(5, 1)}}};
   const Start start{.gravity = Vec(0, -9)};  // sqrt(g H) = 3 m/s
-  EXPECT_THAT(beyond_edges(p, start), ElementsAre(HasSubstr("below the edge of 20.7 m/s")));
-  EXPECT_THAT(beyond_edges(p, {.gravity = Vec(1, -4)}), ElementsAre(HasSubstr("below the edge of 20.7 m/s")))
+  EXPECT_THAT(stability_warnings(p, start), ElementsAre(HasSubstr("below the edge of 20.7 m/s")));
+  EXPECT_THAT(stability_warnings(p, {.gravity = Vec(1, -4)}),
+              ElementsAre(HasSubstr("below the edge of 20.7 m/s")))
       << "from corner to corner";
   p.hydrostatic_start = HydrostaticStart{1};
-  EXPECT_THAT(beyond_edges(p, start), ElementsAre());
+  EXPECT_THAT(stability_warnings(p, start), ElementsAre());
   p.sound_speed = 6;
-  EXPECT_THAT(beyond_edges(p, start),
+  EXPECT_THAT(stability_warnings(p, start),
               ElementsAre(HasSubstr("below the edge of 6.3 m/s for fluid that deep;")));
 }
 

@@ -16,7 +16,7 @@
 #include <memory>
 #include <optional>
 
-namespace toryu {
+namespace toryu::coupling {
 
 /// Positions of all interface particles [m].
 using Values = Eigen::VectorXd;
@@ -26,15 +26,15 @@ struct Iterate {
   Values r, x;
 };
 
-class Relaxation {
+class Acceleration {
  public:
-  virtual ~Relaxation() = default;
+  virtual ~Acceleration() = default;
   virtual void begin_window() {}
   /// The guess after `x`, whose residual is `r`.
   virtual Values next(const Values& x, const Values& r) = 0;
 };
 
-class FixedRelaxation final : public Relaxation {
+class FixedRelaxation final : public Acceleration {
  public:
   explicit FixedRelaxation(double factor) : omega_(factor) {}
   Values next(const Values& x, const Values& r) override { return x + omega_ * r; }
@@ -44,7 +44,7 @@ class FixedRelaxation final : public Relaxation {
 };
 
 /// A window starts with the last omega of the one before, the first with `factor`.
-class AitkenRelaxation final : public Relaxation {
+class AitkenRelaxation final : public Acceleration {
  public:
   explicit AitkenRelaxation(double factor) : omega_(factor) {}
   void begin_window() override { past_.reset(); }
@@ -58,7 +58,7 @@ class AitkenRelaxation final : public Relaxation {
 
 /// Columns that are nearly a combination of newer ones are filtered out, newest first: an older one that says
 /// nearly the same in another way would spoil what the newer ones have learned.
-class QuasiNewton final : public Relaxation {
+class QuasiNewton final : public Acceleration {
  public:
   /// `remembered_windows`: how many earlier windows' differences are used too.
   QuasiNewton(double factor, int remembered_windows) : omega_(factor), remembered_(remembered_windows) {}
@@ -75,4 +75,4 @@ class QuasiNewton final : public Relaxation {
   Eigen::Index rank_ = 0;
 };
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -1,4 +1,4 @@
-#include "solid_solver/guards.hpp"
+#include "solid_solver/stability_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -6,14 +6,14 @@
 #include <cmath>
 #include <limits>
 
-namespace toryu {
+namespace toryu::solid {
 
 namespace {
 
 /// Artificial stress above this feeds the sliding of rows more than viscosity stops it.
 constexpr double most_epsilon = 0.5;
 
-void guard_artificial_stress(const SolidParameters& p, std::vector<std::string>& said) {
+void guard_artificial_stress(const Parameters& p, std::vector<std::string>& said) {
   const double epsilon = p.artificial_stress ? p.artificial_stress->epsilon : 0.0;
   const int exponent = p.artificial_stress ? p.artificial_stress->exponent : 4;
   const double least = least_epsilon(p.smoothing_ratio, exponent);
@@ -30,7 +30,7 @@ void guard_artificial_stress(const SolidParameters& p, std::vector<std::string>&
 }
 
 /// Rows of the thinnest region that no clamp holds as a whole; round ones have none.
-double fewest_rows(const SolidParameters& p) {
+double fewest_rows(const Parameters& p) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const auto& region : p.regions) {
     const bool held = std::any_of(p.clamps.begin(), p.clamps.end(), [&](const NamedBox& clamp) {
@@ -43,7 +43,7 @@ double fewest_rows(const SolidParameters& p) {
   return std::round(fewest);
 }
 
-void guard_thin_plates(const SolidParameters& p, std::vector<std::string>& said) {
+void guard_thin_plates(const Parameters& p, std::vector<std::string>& said) {
   const double rows = fewest_rows(p), nu = p.material.poissons_ratio;
   if (rows < (p.hourglass ? 3 : 12))
     said.push_back(
@@ -59,19 +59,19 @@ void guard_thin_plates(const SolidParameters& p, std::vector<std::string>& said)
 
 }  // namespace
 
-double courant_edge(const SolidParameters& p) {
+double courant_edge(const Parameters& p) {
   if (p.integrator == Integrator::symplectic) return 1.84;
   return p.artificial_viscosity ? 1.1 * std::cbrt(p.artificial_viscosity->alpha) : 0.0;
 }
 
-StressEdges stress_edges(const SolidParameters& p) {
+StressEdges stress_edges(const Parameters& p) {
   if (p.formulation == Formulation::total_lagrangian) return {};
   StressEdges edges{.strain = 0.30};
   if (p.gradients == Gradients::plain) edges.turn = 0.2;
   return edges;
 }
 
-std::vector<std::string> beyond_edges(const SolidParameters& p) {
+std::vector<std::string> stability_warnings(const Parameters& p) {
   std::vector<std::string> said;
   if (p.formulation == Formulation::total_lagrangian) {
     guard_thin_plates(p, said);
@@ -80,10 +80,10 @@ std::vector<std::string> beyond_edges(const SolidParameters& p) {
   guard_artificial_stress(p, said);
   const double edge = courant_edge(p), courant = p.time_step_share * p.courant_number;
   if (edge == 0 && !p.damping)
-    said.push_back(
+    said.push_back(fmt::format(
         "nothing damps the solid, and midpoint steps amplify what is not damped by (omega dt)^4/8 each: give "
         "it [solid.artificial_viscosity] or integrator = \"symplectic\"; see "
-        "cases/oscillating_plate/time_step_map.toml");
+        "cases/oscillating_plate/time_step_map.toml"));
   else if (courant > edge && !p.damping)
     said.push_back(
         fmt::format("courant_number times time_step_share is {:.3g}, beyond the edge of stability at {:.3g}; "
@@ -92,4 +92,4 @@ std::vector<std::string> beyond_edges(const SolidParameters& p) {
   return said;
 }
 
-}  // namespace toryu
+}  // namespace toryu::solid

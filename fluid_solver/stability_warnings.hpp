@@ -62,6 +62,6 @@ struct Start {
 double wall_speed_at_start(const std::vector<Wall>& walls);
 
 /// A sentence for each edge that a fluid lies beyond.
-std::vector<std::string> beyond_edges(const Parameters& parameters, const Start& start);
+std::vector<std::string> stability_warnings(const Parameters& parameters, const Start& start);
 
 }  // namespace toryu::fluid

@@ -1,8 +1,8 @@
-#include "coupler/forecast.hpp"
+#include "coupler/extrapolation.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
-InterfaceMotion Forecast::over(double dt) const {
+InterfaceMotion Extrapolation::over(double dt) const {
   const double tau = order_ > 0 ? dt : first_dt_ > 0 ? dt - first_dt_ : 0.0;
   const bool curved = order_ > 1 && !past_velocity_.empty();
   InterfaceMotion motion = now_;
@@ -15,11 +15,11 @@ InterfaceMotion Forecast::over(double dt) const {
   return motion;
 }
 
-void Forecast::note(const InterfaceMotion& at_end, double dt) {
+void Extrapolation::note(const InterfaceMotion& at_end, double dt) {
   past_velocity_ = now_.velocity;
   now_ = at_end;
   if (first_dt_ == 0) first_dt_ = dt;
   last_dt_ = dt;
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

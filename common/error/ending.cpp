@@ -1,4 +1,4 @@
-#include "common/run/ending.hpp"
+#include "common/error/ending.hpp"
 
 namespace toryu {
 

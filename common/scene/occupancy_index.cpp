@@ -1,17 +1,17 @@
-#include "fluid_solver/taken_places.hpp"
+#include "common/scene/occupancy_index.hpp"
 
 #include <cmath>
 
-namespace toryu::fluid {
+namespace toryu {
 
-TakenPlaces::Cell TakenPlaces::cell_of(const Vec& x) const {
+OccupancyIndex::Cell OccupancyIndex::cell_of(const Vec& x) const {
   const auto index = [&](double coordinate) {
     return static_cast<std::int64_t>(std::floor(coordinate / distance_));
   };
   return {index(x[0]), index(x[1])};
 }
 
-const TakenPlaces::Taken* TakenPlaces::near(const Vec& x) const {
+const OccupancyIndex::Taken* OccupancyIndex::near(const Vec& x) const {
   const auto [column, row] = cell_of(x);
   for (auto c = column - 1; c <= column + 1; ++c)
     for (auto r = row - 1; r <= row + 1; ++r) {
@@ -22,7 +22,7 @@ const TakenPlaces::Taken* TakenPlaces::near(const Vec& x) const {
   return nullptr;
 }
 
-std::optional<Overlap> TakenPlaces::take(const std::vector<Vec>& points, const std::string& body) {
+std::optional<Overlap> OccupancyIndex::take(const std::vector<Vec>& points, const std::string& body) {
   for (const Vec& x : points)
     if (const Taken* other = near(x)) return Overlap{x, bodies_[other->body]};
   bodies_.push_back(body);
@@ -30,4 +30,4 @@ std::optional<Overlap> TakenPlaces::take(const std::vector<Vec>& points, const s
   return {};
 }
 
-}  // namespace toryu::fluid
+}  // namespace toryu

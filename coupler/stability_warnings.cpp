@@ -1,4 +1,4 @@
-#include "coupler/guards.hpp"
+#include "coupler/stability_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "coupler/added_mass.hpp"
 
-namespace toryu {
+namespace toryu::coupling {
 
 namespace {
 
@@ -58,7 +58,7 @@ double foreseen_window(const CaseFile& file, const FluidTraits& fluid, int steps
 
 }  // namespace
 
-std::vector<std::string> beyond_edges(const CaseFile& file, const CouplingParameters& coupling) {
+std::vector<std::string> stability_warnings(const CaseFile& file, const Parameters& coupling) {
   std::vector<std::string> said;
   if (coupling.fluid_steps_per_window > largest_calm_window)
     said.push_back(fmt::format(
@@ -79,4 +79,4 @@ std::vector<std::string> beyond_edges(const CaseFile& file, const CouplingParame
   return said;
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

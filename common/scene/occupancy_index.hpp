@@ -9,17 +9,17 @@
 
 #include "common/vector.hpp"
 
-namespace toryu::fluid {
+namespace toryu {
 
 struct Overlap {
   Vec place;         ///< of the particle that is too near to another [m]
   std::string with;  ///< the body that was there first
 };
 
-class TakenPlaces {
+class OccupancyIndex {
  public:
   /// Particles of two bodies must be `distance` [m] apart.
-  explicit TakenPlaces(double distance) : distance_(distance) {}
+  explicit OccupancyIndex(double distance) : distance_(distance) {}
 
   /// The first of the points that is too near to a body that came before, if any. Takes the points for
   /// `body`.
@@ -47,4 +47,4 @@ class TakenPlaces {
   std::vector<std::string> bodies_;
 };
 
-}  // namespace toryu::fluid
+}  // namespace toryu

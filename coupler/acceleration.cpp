@@ -1,10 +1,10 @@
-#include "coupler/relaxation.hpp"
+#include "coupler/acceleration.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <vector>
 
-namespace toryu {
+namespace toryu::coupling {
 
 namespace {
 
@@ -61,4 +61,4 @@ Values QuasiNewton::next(const Values& x, const Values& r) {
   return x + omega * r + (X + omega * R) * c;
 }
 
-}  // namespace toryu
+}  // namespace toryu::coupling

@@ -1,4 +1,4 @@
-#include "fluid_solver/guards.hpp"
+#include "fluid_solver/stability_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fluid_solver/taken_places.hpp"
+#include "common/scene/occupancy_index.hpp"
 
 namespace toryu::fluid {
 
@@ -58,7 +58,7 @@ class Bodies {
 
   std::vector<Vec> places_;
   double spacing_;
-  std::vector<TakenPlaces>
+  std::vector<OccupancyIndex>
       taken_;  // one a body: bodies may stand nearer to each other than their own particles
 };
 
@@ -156,7 +156,7 @@ double wall_speed_at_start(const std::vector<Wall>& walls) {
   return fastest;
 }
 
-std::vector<std::string> beyond_edges(const Parameters& p, const Start& start) {
+std::vector<std::string> stability_warnings(const Parameters& p, const Start& start) {
   std::vector<std::string> said;
   if (p.time_step_share > time_step_edge(p))
     said.push_back(

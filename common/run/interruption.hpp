@@ -1,0 +1,13 @@
+/// SIGINT and SIGTERM as a wish that a program fulfils at its next step.
+#pragma once
+
+namespace toryu {
+
+/// From now on SIGINT and SIGTERM only ask to stop.
+void catch_interruptions();
+/// True once SIGINT or SIGTERM came.
+bool interruption_requested();
+/// Throws Interrupted if so; call it once a step.
+void throw_if_interrupted();
+
+}  // namespace toryu

@@ -1,0 +1,26 @@
+/// The options that the three programs share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace toryu {
+
+struct Options {
+  std::filesystem::path case_path;     ///< the case file; empty for `describe` without a case
+  std::filesystem::path out;           ///< default: out/<case name>
+  std::vector<std::string> overrides;  ///< --set section.key=value, and --end-time as one of them
+  int threads = 0;                     ///< 0: all cores
+  std::string log_level = "info";
+  bool check = false;     ///< read and check the case, then end
+  bool describe = false;  ///< print the parameters, then end
+};
+
+/// Parses a command line without the program's name; `--version` and `--help` are not among them. Throws
+/// BadInput with all that is wrong.
+Options parse_options(const std::string& role, const std::vector<std::string>& arguments);
+/// The text of `--help`.
+std::string help_text(const std::string& role);
+
+}  // namespace toryu

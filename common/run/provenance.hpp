@@ -1,0 +1,15 @@
+/// What made the numbers of a run.
+#pragma once
+
+#include <string>
+
+namespace toryu {
+
+/// Version, commit, compiler, flags, processor.
+struct Provenance {
+  std::string version, commit, compiler, flags, cpu;
+  int threads = 1;
+};
+Provenance provenance(int threads);
+
+}  // namespace toryu
