@@ -35,6 +35,8 @@ class FluidSolver : public Solver {
   void advance(double dt) override;
   void save() override;
   void restore() override { restore_(); }
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;

@@ -271,4 +271,12 @@ void SolidModel::look_at_particles() {
     energy_.look(kinetic_energy(), first_energy_ + interface_work() - potential_energy(), time_);
 }
 
+void SolidModel::write_state(std::ostream&) const {
+  throw std::logic_error("not yet");
+}
+
+void SolidModel::read_state(std::istream&) {
+  throw std::logic_error("not yet");
+}
+
 }  // namespace toryu::solid

@@ -45,6 +45,8 @@ class SolidModel : public Solver {
   void save() override;
   void restore() override { restore_(); }
   void accept() override;
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;

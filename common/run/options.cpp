@@ -18,7 +18,7 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 struct Typed {
   std::string case_path, out, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
-  bool check = false, describe = false, version = false, help = false;
+  bool check = false, describe = false, restart = false, overwrite = false, version = false, help = false;
 };
 
 void declare(CLI::App& app, Typed& typed) {
@@ -39,6 +39,8 @@ void declare(CLI::App& app, Typed& typed) {
   app.add_flag("--check", typed.check, "Check the case, compute nothing");
   app.add_flag("--describe", typed.describe,
                "Print the parameters of a case with units, defaults and ranges");
+  app.add_flag("--restart", typed.restart, "Go on from the newest checkpoint in the folder of the results");
+  app.add_flag("--overwrite", typed.overwrite, "Replace the results that the folder holds");
   app.add_flag("--version", typed.version, "Print the version and the commit");
   app.add_flag("--help", typed.help, "Print this help");
 }
@@ -92,11 +94,16 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
   options.log_level = typed.log_level;
   options.check = typed.check;
   options.describe = typed.describe;
+  options.restart = typed.restart;
+  options.overwrite = typed.overwrite;
   std::vector<InputError> faults = extra_faults(app);
   if (const auto threads = thread_count(typed.threads))
     options.threads = *threads;
   else
     faults.push_back({.place = "--threads " + typed.threads, .message = "must be an integer of at least 0"});
+  if (options.restart && options.overwrite)
+    faults.push_back(
+        {.place = "--restart", .message = "goes on with results that --overwrite would replace"});
   if (std::find(log_levels.begin(), log_levels.end(), typed.log_level) == log_levels.end())
     faults.push_back(
         {.place = "--log-level " + typed.log_level,

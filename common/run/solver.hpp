@@ -2,6 +2,7 @@
 /// particle.
 #pragma once
 
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,6 +56,11 @@ class Solver {
   /// repeated.
   virtual void save() = 0;
   virtual void restore() = 0;
+  /// Writes all that the next step depends on, and takes it back: from there on every bit is as if the
+  /// program had never ended. `read_state` is called once, before the first step, on a solver made from the
+  /// same case and with the same interface.
+  virtual void write_state(std::ostream& stream) const = 0;
+  virtual void read_state(std::istream& stream) = 0;
   /// The present state is final: no window that led to it will be repeated.
   virtual void accept() {}
   /// Throws PhysicsFailure if a value has left physics at `time`.

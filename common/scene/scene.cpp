@@ -51,6 +51,12 @@ void describe(ParameterTable& table, Scene& scene) {
                {.unit = "s", .minimum = 0, .help = "time between frames; 0: no frames"});
   table.number("series_interval", scene.series_interval,
                {.unit = "s", .minimum = 0, .help = "time between rows of a series; 0: every step"});
+  table.number("checkpoint_interval", scene.checkpoint_interval,
+               {.unit = "s", .minimum = 0, .help = "simulated time between checkpoints; 0: none by it"});
+  table.number("checkpoint_every", scene.checkpoint_every,
+               {.unit = "s",
+                .minimum = 0,
+                .help = "wall time between checkpoints, of which the newest two are kept; 0: none by it"});
   // Beyond it an interval is lost in the rounding of the time. A run may be endless, so this is no small
   // number.
   table.require(!(scene.end_time / scene.frame_interval > 1e12) || scene.frame_interval == 0,

@@ -65,9 +65,11 @@ struct Scene {
   std::string title;
   Vec gravity = Vec::Zero();
   double end_time = 0;
-  double frame_interval = 0;   ///< 0: no frames
-  double series_interval = 0;  ///< 0: every step
-  Box domain;                  ///< a particle outside it is a failure
+  double frame_interval = 0;       ///< 0: no frames
+  double series_interval = 0;      ///< 0: every step
+  double checkpoint_interval = 0;  ///< of simulated time; 0: none [s]
+  double checkpoint_every = 600;   ///< of wall time; 0: none [s]
+  Box domain;                      ///< a particle outside it is a failure
   Periodic periodic = Periodic::none;
   std::vector<Wall> walls;
   std::vector<Reference> references;

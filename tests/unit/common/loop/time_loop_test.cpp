@@ -22,6 +22,8 @@ class LimitedSolver : public Solver {
   void advance(double dt) override { steps.push_back(dt); }
   void save() override {}
   void restore() override {}
+  void write_state(std::ostream&) const override {}
+  void read_state(std::istream&) override {}
   void check(double) const override {}
   Frame frame() const override { return {}; }
   std::vector<Observation> observe() const override { return {}; }

@@ -1,0 +1,290 @@
+#include "common/state/checkpoint.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <toml++/toml.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/error/failure.hpp"
+#include "common/output/atomic_file.hpp"
+#include "common/run/provenance.hpp"
+#include "common/sph/lanes.hpp"
+
+namespace toryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t kept_checkpoints = 2;
+constexpr const char* folder_name = "checkpoint";
+constexpr const char* manifest_name = "manifest.toml";
+
+using Properties = std::vector<std::pair<std::string, std::string>>;
+
+/// The instruction set, which decides how many lanes there are and whether products are fused.
+std::string target() {
+  return fmt::format("{} lanes{}{}", lane_count,
+#if defined(__AVX512F__)
+                     ", AVX-512",
+#elif defined(__AVX2__)
+                     ", AVX2",
+#else
+                     "",
+#endif
+#if defined(__FMA__)
+                     ", FMA"
+#else
+                     ""
+#endif
+  );
+}
+
+/// All that must be alike for the same bits to come out.
+Properties properties_of(const std::string& role) {
+  const Provenance made = provenance(1);
+  return {{"program", role},
+          {"version", made.version},
+          {"commit", made.commit},
+          {"compiler", made.compiler},
+          {"instruction set", target()},
+          {"precision", fmt::format("{} bytes a number", sizeof(double))}};
+}
+
+constexpr const char* first_line = "toryu checkpoint part 1";
+
+std::string header_of(const std::string& role) {
+  std::string text = std::string(first_line) + '\n';
+  for (const auto& [name, value] : properties_of(role)) text += fmt::format("{}: {}\n", name, value);
+  return text + '\n';
+}
+
+std::string checksum(const std::string& bytes) {
+  uLong sum = crc32(0, nullptr, 0);
+  constexpr std::size_t most = 1u << 30;
+  for (std::size_t start = 0; start < bytes.size(); start += most)
+    sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + start),
+                static_cast<uInt>(std::min(most, bytes.size() - start)));
+  return fmt::format("{:08x}", sum);
+}
+
+[[noreturn]] void fail_to_write(const fs::path& path) {
+  throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
+}
+
+/// Brings a file or folder to the disk.
+void synchronise(const fs::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = descriptor >= 0 && fsync(descriptor) == 0;
+  if (descriptor >= 0) close(descriptor);
+  if (!done) fail_to_write(path);
+}
+
+[[noreturn]] void refuse(const fs::path& place, const std::string& message) {
+  throw BadInput({{.place = place.string(), .message = message}});
+}
+
+/// Numbers of the whole checkpoints, in ascending order.
+std::vector<std::pair<long, fs::path>> checkpoints(const fs::path& out, bool whole) {
+  std::vector<std::pair<long, fs::path>> found;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(out / folder_name, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.empty() || name.find_first_not_of("0123456789") != std::string::npos || name.size() > 9)
+      continue;
+    if (whole && !fs::exists(entry.path() / manifest_name)) continue;
+    found.emplace_back(std::stol(name), entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Every value of a case by its dotted key.
+void flatten(const toml::node& node, const std::string& key, std::map<std::string, std::string>& found) {
+  if (const auto* table = node.as_table()) {
+    for (const auto& [name, value] : *table)
+      flatten(value, key.empty() ? std::string(name.str()) : key + "." + std::string(name.str()), found);
+  } else if (const auto* array = node.as_array(); array && array->is_array_of_tables()) {
+    for (std::size_t k = 0; k < array->size(); ++k)
+      flatten(*array->get(k), fmt::format("{}.{}", key, k), found);
+  } else {
+    std::ostringstream text;
+    node.visit([&](const auto& value) {
+      if constexpr (toml::is_array<decltype(value)> || toml::is_value<decltype(value)>) text << value;
+    });
+    found[key] = text.str();
+  }
+}
+
+/// What a restart may change.
+bool may_change(const std::string& key) {
+  for (const char* free : {"case.end_time", "case.frame_interval", "case.series_interval", "case.title",
+                           "case.checkpoint_interval", "case.checkpoint_every", "coupling.time_limit"})
+    if (key == free) return true;
+  for (const char* free : {"fluid.observer.", "solid.observer.", "reference."})
+    if (key.starts_with(free)) return true;
+  return false;
+}
+
+}  // namespace
+
+std::optional<Checkpoint> newest_checkpoint(const fs::path& out) {
+  const auto whole = checkpoints(out, true);
+  if (whole.empty()) return {};
+  const auto& [number, folder] = whole.back();
+  const fs::path path = folder / manifest_name;
+  try {
+    const toml::table manifest = toml::parse_file(path.string());
+    Checkpoint found{folder, {number, manifest["time"].value<double>().value(), {}}};
+    for (const auto& part : *manifest["parts"].as_array())
+      found.manifest.parts.push_back(part.value<std::string>().value());
+    return found;
+  } catch (const std::exception& failure) {
+    refuse(path, fmt::format("is no manifest of a checkpoint: {}", failure.what()));
+  }
+}
+
+Checkpoint checkpoint_to_restart(const fs::path& out) {
+  if (auto found = newest_checkpoint(out)) return *found;
+  if (!fs::exists(out)) refuse("--restart", fmt::format("there is no folder {}", out.string()));
+  if (!checkpoints(out, false).empty())
+    refuse("--restart",
+           fmt::format("{} holds no whole checkpoint, only one that was never completed", out.string()));
+  refuse("--restart", fmt::format("{} holds no checkpoint", out.string()));
+}
+
+fs::path open_checkpoint(const fs::path& out) {
+  const auto present = checkpoints(out, false);
+  const long number = present.empty() ? 1 : present.back().first + 1;
+  const fs::path folder = out / folder_name / fmt::format("{:06}", number);
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure)
+    throw std::runtime_error(fmt::format("cannot make '{}': {}", folder.string(), failure.message()));
+  return folder;
+}
+
+void complete_checkpoint(const fs::path& folder, double time, const std::string& case_text,
+                         const std::vector<std::string>& parts) {
+  write_atomically(folder / "case.toml", case_text);
+  synchronise(folder / "case.toml");
+  std::string names;
+  for (const auto& part : parts) {
+    if (!fs::exists(folder / (part + ".state")))
+      throw std::runtime_error(fmt::format("'{}' is missing", (folder / (part + ".state")).string()));
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", part);
+  }
+  const fs::path manifest = folder / manifest_name, temporary = folder / "manifest.toml.part";
+  const std::string text = fmt::format(
+      "time = {}  # s\nparts = [{}]\n",
+      [&] {
+        std::string number = fmt::format("{}", time);
+        return number.find_first_of(".e") == std::string::npos ? number + ".0" : number;
+      }(),
+      names);
+  {
+    std::ofstream file(temporary, std::ios::trunc);
+    file << text;
+    file.close();
+    if (!file) fail_to_write(temporary);
+  }
+  synchronise(temporary);
+  fs::rename(temporary, manifest);
+  synchronise(folder);
+  const auto whole = checkpoints(folder.parent_path().parent_path(), true);
+  for (const auto& [number, old] : checkpoints(folder.parent_path().parent_path(), false))
+    if (whole.size() > kept_checkpoints && number < whole[whole.size() - kept_checkpoints].first)
+      abandon_checkpoint(old);
+}
+
+void abandon_checkpoint(const fs::path& folder) noexcept {
+  std::error_code ignored;  // the manifest first: what is half removed must not look whole
+  fs::remove(folder / manifest_name, ignored);
+  fs::remove_all(folder, ignored);
+}
+
+void write_part(const fs::path& folder, const std::string& name, const std::string& role,
+                const std::function<void(std::ostream&)>& write) {
+  std::ostringstream stream(std::ios::binary);
+  write(stream);
+  const std::string payload = std::move(stream).str();
+  const fs::path path = folder / (name + ".state"), temporary = folder / (name + ".state.part");
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  file << header_of(role) << fmt::format("{} {}\n", payload.size(), checksum(payload));
+  file.write(payload.data(), static_cast<std::streamsize>(payload.size()));
+  file.close();
+  if (!file) fail_to_write(temporary);
+  synchronise(temporary);
+  fs::rename(temporary, path);
+}
+
+void read_part(const fs::path& folder, const std::string& name, const std::string& role,
+               const std::function<void(std::istream&)>& read) {
+  const fs::path path = folder / (name + ".state");
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  if (!file) refuse(path, fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (!std::getline(file, line) || line != first_line) refuse(path, "is no part of a checkpoint");
+  std::vector<InputError> errors;
+  for (const auto& [property, ours] : properties_of(role)) {
+    std::getline(file, line);
+    const std::string prefix = property + ": ";
+    if (!line.starts_with(prefix)) refuse(path, "is damaged: its head is not whole");
+    if (const std::string theirs = line.substr(prefix.size()); theirs != ours)
+      errors.push_back({.place = path.string(),
+                        .message = fmt::format("cannot go on: its {} is {}, that of this program {}",
+                                               property, theirs, ours)});
+  }
+  if (!errors.empty()) throw BadInput(errors);
+  std::getline(file, line);
+  std::size_t size = 0;
+  std::string sum;
+  file >> size >> sum;
+  file.get();
+  const auto rest = fs::file_size(path) - static_cast<std::uintmax_t>(file.tellg());
+  if (!file || rest != size) refuse(path, fmt::format("is damaged: it holds {} bytes of {}", rest, size));
+  std::string payload(size, '\0');
+  file.read(payload.data(), static_cast<std::streamsize>(size));
+  if (!file || checksum(payload) != sum) refuse(path, "is damaged: its checksum is another");
+  std::istringstream stream(std::move(payload), std::ios::binary);
+  read(stream);
+}
+
+void check_same_case(const Checkpoint& checkpoint, const std::string& case_text) {
+  std::map<std::string, std::string> then, now;
+  flatten(toml::parse_file((checkpoint.folder / "case.toml").string()), "", then);
+  flatten(toml::parse(case_text), "", now);
+  std::vector<InputError> errors;
+  const auto differ = [&](const std::string& key, const std::string& message) {
+    if (!may_change(key))
+      errors.push_back({.place = key, .message = message + ": a restart goes on with the same case"});
+  };
+  for (const auto& [key, value] : now)
+    if (const auto old = then.find(key); old == then.end())
+      differ(key, fmt::format("is {}, and was not there in the checkpoint", value));
+    else if (old->second != value)
+      differ(key, fmt::format("is {}, and was {} in the checkpoint", value, old->second));
+  for (const auto& [key, value] : then)
+    if (!now.contains(key)) differ(key, fmt::format("was {} in the checkpoint, and is not there", value));
+  if (!errors.empty()) throw BadInput(errors);
+}
+
+bool CheckpointSchedule::due(double time, double wall_time) const {
+  return (interval_ > 0 && time >= last_ + interval_ * (1 - 1e-9)) ||
+         (every_ > 0 && wall_time >= last_wall_ + every_);
+}
+
+void CheckpointSchedule::note(double time, double wall_time) {
+  if (interval_ > 0) last_ = interval_ * std::floor(time / interval_ * (1 + 1e-12) + 1e-9);
+  last_wall_ = wall_time;
+}
+
+}  // namespace toryu
