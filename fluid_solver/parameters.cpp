@@ -80,8 +80,9 @@ void describe(ParameterTable& table, BackgroundPressure& background) {
 }
 
 void describe(ParameterTable& table, DensityDiffusion& diffusion) {
-  table.number("delta", diffusion.delta,
-               {.minimum = 0, .maximum = 1, .help = "coefficient of (18); Marrone et al. 2011 take 0.1"});
+  table.number(
+      "delta", diffusion.delta,
+      {.minimum = 0, .maximum = 1, .help = "coefficient of the diffusion; Marrone et al. 2011 take 0.1"});
   table.choice(
       "gradient", diffusion.gradient, {"renormalised", "none"},
       {.help =
@@ -102,14 +103,14 @@ void describe(ParameterTable& table, ArtificialViscosity& viscosity) {
   table.number("alpha", viscosity.alpha,
                {.minimum = 0,
                 .maximum = 10,
-                .help = "linear coefficient A of (23); 0.02 in delta-SPH, 1 in the thesis"});
+                .help = "linear coefficient (Monaghan 1992); 0.02 in delta-SPH, 1 in Kato's thesis"});
   table.number("beta", viscosity.beta,
-               {.minimum = 0, .maximum = 10, .help = "quadratic coefficient B of (23)"});
+               {.minimum = 0, .maximum = 10, .help = "quadratic coefficient (Monaghan 1992)"});
 }
 
 void describe(ParameterTable& table, LaminarViscosity& viscosity) {
   table.number("dynamic_viscosity", viscosity.dynamic_viscosity,
-               {.unit = "Pa.s", .minimum = 0, .required = true, .help = "mu of (4)"});
+               {.unit = "Pa.s", .minimum = 0, .required = true, .help = "mu (Morris, Fox & Zhu 1997)"});
 }
 
 void describe(ParameterTable& table, PowerLaw& law) {
@@ -155,10 +156,10 @@ void describe(ParameterTable& table, Carreau& law) {
 
 void describe(ParameterTable& table, Friction& friction) {
   table.number("coefficient", friction.coefficient,
-               {.minimum = 0, .required = true, .help = "mu_A of (33), traction over pressure"});
+               {.minimum = 0, .required = true, .help = "mu_A, traction over pressure (Kato's thesis)"});
   table.choice(
       "form", friction.form, {"normalised", "as_printed"},
-      {.help = "normalised: a plane interface transmits mu_A p; as_printed: (33) with d_f = d_0, which "
+      {.help = "normalised: a plane interface transmits mu_A p; as_printed: with d_f = d_0, which "
                "transmits only about 0.22 mu_A p at h = 1.2 d_0 (0.16 at 1.0, 0.25 at 1.3, 0.30 at 1.5)"});
   table.number("regularisation_speed", friction.regularisation_speed,
                {.unit = "m/s",
@@ -207,10 +208,10 @@ void describe(ParameterTable& table, Removal& removal) {
 
 void describe(ParameterTable& table, WallModel& model) {
   table.choice("slip", model.slip, {"no_slip", "free_slip"},
-               {.help = "whether viscous terms act at walls (28)"});
-  table.choice(
-      "density", model.density, {"rest", "from_pressure"},
-      {.help = "density of wall particles: the rest density (thesis), or (3) inverted (Adami et al. 2012)"});
+               {.help = "whether viscous terms act at walls (Adami, Hu & Adams 2012)"});
+  table.choice("density", model.density, {"rest", "from_pressure"},
+               {.help = "density of wall particles: the rest density, or that of their pressure (Adami, Hu & "
+                        "Adams 2012)"});
   table.flag("suction", model.suction,
              "whether walls hold a fluid whose pressure is negative; false where air can come between them");
 }
@@ -260,9 +261,9 @@ void describe_medium(ParameterTable& table, Parameters& p) {
                 .minimum = 0,
                 .above_minimum = true,
                 .required = true,
-                .help = "c_0 of (3), at least ten times the largest speed"});
+                .help = "c_0 at rest density (Monaghan 1994), at least ten times the largest speed"});
   table.integer("stiffness_exponent", p.stiffness_exponent,
-                {.minimum = 1, .maximum = 7, .help = "gamma of (3)"});
+                {.minimum = 1, .maximum = 7, .help = "gamma of the equation of state (Monaghan 1994)"});
 }
 
 void describe_discretisation(ParameterTable& table, Parameters& p) {
@@ -273,7 +274,7 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
                {.help = "cubic spline (Monaghan & Lattanzio 1985) or Wendland C2 (1995), support 2h"});
   table.number("smoothing_ratio", p.smoothing_ratio, {.minimum = 1.0, .maximum = 2.0, .help = "h/d_0"});
   table.choice("integrator", p.integrator, {"midpoint", "symplectic"},
-               {.help = "midpoint (31)-(32), or a leapfrog that finds each rate once a step"});
+               {.help = "the midpoint rule, or a leapfrog that finds each rate once a step"});
   table.number("time_step_share", p.time_step_share,
                {.minimum = 0,
                 .maximum = 10,
@@ -300,20 +301,20 @@ void describe_start(ParameterTable& table, Parameters& p) {
 void describe_terms(ParameterTable& table, Parameters& p) {
   table.optional("central_force", p.central_force, "pulls the fluid towards a point");
   table.optional("background_pressure", p.background_pressure,
-                 "shifts (3); for a medium enclosed on all sides, a free surface would burst");
-  table.optional("density_diffusion", p.density_diffusion, "delta-SPH, (18)-(21)");
+                 "added to the pressure; for a medium enclosed on all sides, a free surface would burst");
+  table.optional("density_diffusion", p.density_diffusion, "delta-SPH (Marrone et al. 2011)");
   table.optional("particle_shifting", p.particle_shifting, "spreads particles evenly (Sun et al. 2017)");
   table.optional("tensile_control", p.tensile_control, "no pairing under suction (Sun et al. 2018)");
   table.optional("consistent_gradients", p.consistent_gradients,
                  "divergence and pressure gradient exact in linear fields (Randles & Libersky 1996)");
-  table.optional("artificial_viscosity", p.artificial_viscosity, "(23)-(24)");
+  table.optional("artificial_viscosity", p.artificial_viscosity, "between approaching pairs (Monaghan 1992)");
   table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of a Newtonian medium");
   table.optional("power_law", p.power_law, "viscosity of a medium that thins or thickens under shear");
   table.optional("carreau", p.carreau, "the same between two plateaus (Carreau 1972)");
-  table.optional("friction", p.friction, "of the abrasive on the work pieces, (33)");
+  table.optional("friction", p.friction, "of the abrasive on the work pieces (Kato's thesis)");
   table.optional("wall_repulsion", p.wall_repulsion, "keeps particles off the sharp corners of walls");
   table.optional("removal", p.removal, "what comes off the work pieces; writes surface.h5");
-  table.group("wall_model", p.wall_model, "how walls act on the fluid, (27)-(29)");
+  table.group("wall_model", p.wall_model, "how walls act on the fluid (Adami, Hu & Adams 2012)");
 }
 
 void require_consistency(ParameterTable& table, const Parameters& p) {

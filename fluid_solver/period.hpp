@@ -1,6 +1,6 @@
 /// Space that repeats itself: `[case] periodic`. Pairs meet across the sides of the domain by lists of
 /// neighbours that are near targets moved by a period (ClusterList), so that there are no copies of particles
-/// and each pair is as equal and opposite as any other.
+/// and each pair is as equal and opposite as any other. Solids know no periods.
 #pragma once
 
 #include <vector>

@@ -2,8 +2,8 @@
 /// length, tells whether the body has torn or its particles have clumped. The updated Lagrangian form can do
 /// both by itself, by its tensile instability, while no value of any particle leaves physics: so it always
 /// watches its bonds, and says in the log and in the summary what it sees. [solid.bonds] adds columns to
-/// solid.csv, and can make it end the run. The bonds also tell when the body has turned or been sheared so
-/// far that the form's stress is wrong without a sign of it.
+/// solid.csv, and can make it end the run (`stop`). They are looked at every 50 steps. The bonds also tell
+/// when the body has turned or been sheared so far that the form's stress is wrong without a sign of it.
 #pragma once
 
 #include <algorithm>

@@ -83,10 +83,9 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
       "gradients", p.gradients, {"plain", "renormalised"},
       {.help = "updated Lagrangian: whether velocity gradient and stress divergence are renormalised; "
                "total Lagrangian always does"});
-  table.choice(
-      "integrator", p.integrator, {"midpoint", "symplectic"},
-      {.help = "updated Lagrangian: two evaluations a step as in the thesis, or one and no growth of "
-               "undamped modes; the total Lagrangian form's is symplectic"});
+  table.choice("integrator", p.integrator, {"midpoint", "symplectic"},
+               {.help = "updated Lagrangian: two evaluations a step, or one and no growth of undamped "
+                        "modes; the total Lagrangian form's is symplectic"});
 }
 
 /// Its shape, what holds and loads it, and how it starts.

@@ -2,7 +2,7 @@
 /// and `used_case.toml`. A module describes its parameters once, as
 ///
 ///     void describe(ParameterTable& table, ArtificialViscosity& p) {
-///       table.number("alpha", p.alpha, {.unit = "1", .minimum = 0, .help = "linear coefficient A of (23)"});
+///       table.number("alpha", p.alpha, {.unit = "1", .minimum = 0, .help = "linear coefficient"});
 ///     }
 ///
 /// The value that the struct holds before the call is the default; `required` says that there is none.

@@ -9,7 +9,8 @@
 /// differentiated again: a sum over pairs more, blind to a velocity that alternates from particle to
 /// particle, and one-sided at walls, where this form sees v_w-f (28). It is equal and opposite pair by pair,
 /// so momentum is kept; angular momentum only as far as it converges. tests/validation/couette_test.cpp finds
-/// the nominal viscosity within 2 % at 20 particles across.
+/// the nominal viscosity within 2 % at 20 particles across. At a free surface it damps half as much as a
+/// Newtonian liquid (cases/standing_wave).
 #pragma once
 
 #include "fluid_solver/terms/pair.hpp"

@@ -5,7 +5,8 @@
 ///
 /// (Rabczuk, Belytschko & Xiao 2004; Ganzenmueller 2015.) The force is the exact gradient of the energies, so
 /// that with the leapfrog (kick, drift, kick; one evaluation a step) energy is kept but for oscillations of
-/// order dt^2, and momentum and angular momentum to rounding. It cannot tear.
+/// order dt^2, and momentum and angular momentum to rounding. It cannot tear. A particle whose volume is no
+/// longer positive ends the run, in whichever step it was.
 #pragma once
 
 #include <memory>

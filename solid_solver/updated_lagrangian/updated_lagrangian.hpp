@@ -16,7 +16,8 @@
 ///     v^(n+1) = v^(n+1/2) + dt/2 a(x^(n+1), rho^(n+1), s^(n+1))
 ///
 /// Neutral for undamped modes up to w dt = 2. Renormalised gradients need L at both places, half an
-/// evaluation more.
+/// evaluation more. A step takes 0.55 of the processor time of a midpoint step, 0.70 with renormalised
+/// gradients (colliding rings, three runs of each in turn).
 ///
 /// With artificial viscosity midpoint
 /// steps may be longer than the usual 0.25 h/c_L. Largest courant_number at which a struck block came to rest

@@ -1,6 +1,6 @@
 /// Time of one evaluation of the fluid's rates: delta-SPH with renormalised gradient, artificial viscosity,
 /// walls. `ns_per_particle` is of elapsed time, `cpu_ns_per_particle` of processor time summed over the
-/// threads, which other programs on the machine disturb less: what fluid_solver/README.md quotes.
+/// threads, which other programs on the machine disturb less: what VALIDATION.md quotes.
 
 #include <benchmark/benchmark.h>
 #include <omp.h>

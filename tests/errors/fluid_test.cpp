@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
               "[fluid.artificial_viscosity]; known are 'alpha', 'beta'"},
         Fault{"MissingKeyOfATerm", "fluid.laminar_viscosity={}",
               "--set fluid.laminar_viscosity={}: error: missing key 'dynamic_viscosity' in "
-              "[fluid.laminar_viscosity]: a number [Pa.s] of at least 0, mu of (4)"},
+              "[fluid.laminar_viscosity]: a number [Pa.s] of at least 0, mu (Morris, Fox & Zhu 1997)"},
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},
