@@ -30,11 +30,14 @@ RunRecord::Counts particle_counts(const FluidSolver& solver) {
 }
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
+  claim_folder(options, "fluid");
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
   solver.record_surface(options.out);
   RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
-  run_recorded(record, [&] { run_alone(scene, solver, record, 1); });
+  CheckpointsAlone checkpoints(options, scene, file.used());
+  checkpoints.resume(record);
+  run_recorded(record, [&] { run_alone(scene, solver, record, 1, checkpoints); });
 }
 
 /// Takes turns with the solid until the coupler ends the run.

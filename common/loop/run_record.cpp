@@ -8,18 +8,23 @@
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
 #include "common/run/provenance.hpp"
+#include "common/state/checkpoint.hpp"
+#include "common/state/serialize.hpp"
 
 namespace toryu {
 
-bool Schedule::reached(double time) {
-  if (time < next() - 1e-9 * interval_) return false;
-  count_ = static_cast<long>(std::floor(time / interval_ + 1e-9)) + 1;
-  return true;
+namespace {
+
+double processor_time() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
+
+}  // namespace
 
 RunRecord::RunRecord(const std::string& participant, const Options& options, const Scene& scene,
                      Solver& solver, const Counts& counts, const Timers& timers)
-    : solver_(solver),
+    : participant_(participant),
+      solver_(solver),
       solver_timers_(timers),
       out_(options.out),
       frames_(options.out, participant, provenance(omp_get_max_threads())),
@@ -30,7 +35,6 @@ RunRecord::RunRecord(const std::string& participant, const Options& options, con
   summary_.participant = participant;
   summary_.provenance = provenance(omp_get_max_threads());
   summary_.time_step_rule = solver.time_step_rule();
-  summary_.smallest_time_step = std::numeric_limits<double>::infinity();
   summary_.particles = counts;
   for (const auto& [name, count] : counts) log::info("{} has {} particles", name, count);
   summary_.terms = solver.active_terms();
@@ -46,7 +50,7 @@ void RunRecord::check(double time) {
 
 void RunRecord::write(double time) {
   solver_.accept();
-  summary_.simulated_time = time;
+  state_.time = time;
   if (series_due_.reached(time) || every_step_) {
     const auto scope = timers_.measure("series");
     series_.write(time, solver_.observe());
@@ -59,25 +63,59 @@ void RunRecord::write(double time) {
 }
 
 void RunRecord::count_steps(long steps, double dt) {
-  summary_.steps += steps;
-  summary_.smallest_time_step = std::min(summary_.smallest_time_step, dt);
-  summary_.largest_time_step = std::max(summary_.largest_time_step, dt);
+  state_.steps += steps;
+  state_.smallest_time_step = std::min(state_.smallest_time_step, dt);
+  state_.largest_time_step = std::max(state_.largest_time_step, dt);
 }
 
 void RunRecord::finish(ExitCode code, const std::string& last_words, double waiting_time) {
   summary_.exit_code = code;
   summary_.last_words = last_words;
-  summary_.waiting_time = waiting_time;
-  summary_.wall_time = std::chrono::duration<double>(Clock::now() - start_).count();
-  summary_.processor_time = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  summary_.simulated_time = state_.time;
+  summary_.steps = state_.steps;
+  summary_.smallest_time_step = state_.steps > 0 ? state_.smallest_time_step : 0;
+  summary_.largest_time_step = state_.largest_time_step;
+  summary_.waiting_time = state_.waiting_time + waiting_time;
+  summary_.wall_time = wall_time();
+  summary_.processor_time = state_.processor_time + processor_time();
   summary_.time_step_rule = solver_.time_step_rule();
-  if (summary_.steps == 0) summary_.smallest_time_step = 0;
   summary_.figures = solver_.figures();
   summary_.parts = solver_timers_.parts();
   for (const auto& part : timers_.parts()) summary_.parts.push_back(part);
   write_summary(out_, summary_);
   log::info("{} steps to t = {:g} s in {:.2f} s", summary_.steps, summary_.simulated_time,
             summary_.wall_time);
+}
+
+double RunRecord::wall_time() const {
+  return state_.wall_time + std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void RunRecord::write_checkpoint(const std::filesystem::path& folder) {
+  const auto scope = timers_.measure("checkpoints");
+  State now = state_;
+  now.wall_time = wall_time();
+  now.processor_time += processor_time();
+  now.frames_due = frames_due_.state();
+  now.series_due = series_due_.state();
+  now.series = series_.state();
+  now.frames = frames_.state();
+  write_part(folder, participant_, role(), [&](std::ostream& stream) {
+    write_states(stream, now);
+    solver_.write_state(stream);
+  });
+}
+
+void RunRecord::read_checkpoint(const std::filesystem::path& folder) {
+  read_part(folder, participant_, role(), [&](std::istream& stream) {
+    read_states(stream, state_);
+    solver_.read_state(stream);
+  });
+  frames_due_.resume(state_.frames_due, state_.time);
+  series_due_.resume(state_.series_due, state_.time);
+  frames_.resume(state_.frames);
+  series_.resume(state_.series);
+  log::info("goes on at t = {:g} s from {}", state_.time, folder.string());
 }
 
 }  // namespace toryu

@@ -1,5 +1,6 @@
 /// What a run of a solver leaves behind, alone or coupled: frames and series at their intervals, and at the
-/// end a summary, whatever the end is.
+/// end a summary, whatever the end is. It also writes the participant's part of a checkpoint and goes on from
+/// one.
 #pragma once
 
 #include <algorithm>
@@ -7,27 +8,13 @@
 #include <limits>
 #include <string>
 
+#include "common/loop/schedule.hpp"
 #include "common/output/results.hpp"
 #include "common/run/options.hpp"
 #include "common/run/solver.hpp"
 #include "common/scene/scene.hpp"
 
 namespace toryu {
-
-/// Times k * interval, k = 0, 1, ...; never if the interval is 0.
-class Schedule {
- public:
-  explicit Schedule(double interval) : interval_(interval) {}
-  double next() const {
-    return interval_ > 0 ? static_cast<double>(count_) * interval_ : std::numeric_limits<double>::infinity();
-  }
-  /// Whether `time` has reached the next time; goes on to the one after it.
-  bool reached(double time);
-
- private:
-  double interval_;
-  long count_ = 0;
-};
 
 class RunRecord {
  public:
@@ -49,12 +36,43 @@ class RunRecord {
   void count_steps(long steps, double dt);
   /// The next time at which something is due [s].
   double next_output() const { return std::min(frames_due_.next(), series_due_.next()); }
-  long steps() const { return summary_.steps; }
+  long steps() const { return state_.steps; }
+  double wall_time() const;  ///< since the start of the run, the time before a restart included [s]
+
+  /// Writes this participant's part of a checkpoint, `participant`.state in `folder`, for the state that was
+  /// written last. Throws std::runtime_error if that fails.
+  void write_checkpoint(const std::filesystem::path& folder);
+  /// Goes on from that part: solver, series, frames and counts. To be called before anything is written.
+  /// Throws BadInput if the part is of another program or damaged, or if results are missing.
+  void read_checkpoint(const std::filesystem::path& folder);
+  const std::string& participant() const { return participant_; }
+  /// Time of the state that was written last [s].
+  double time() const { return state_.time; }
+
   /// Writes the summary.
   void finish(ExitCode code, const std::string& last_words, double waiting_time);
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// What a restart takes over.
+  struct State {
+    double time = 0;  ///< of the last state that was written [s]
+    long steps = 0;
+    double smallest_time_step = std::numeric_limits<double>::infinity(), largest_time_step = 0;  ///< [s]
+    double wall_time = 0, processor_time = 0, waiting_time = 0;  ///< before the restart [s]
+    Schedule::State frames_due, series_due;
+    SeriesWriter::State series;
+    FrameWriter::State frames;
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, State& state) {
+    auto& [time, steps, smallest, largest, wall, processor, waiting, frames_due, series_due, series, frames] =
+        state;
+    archive(time, steps, smallest, largest, wall, processor, waiting, frames_due, series_due, series, frames);
+  }
+  std::string role() const { return participant_ + "_solver"; }
+
+  std::string participant_;
   Solver& solver_;
   const Timers& solver_timers_;
   std::filesystem::path out_;
@@ -62,6 +80,7 @@ class RunRecord {
   SeriesWriter series_;
   Schedule frames_due_, series_due_;
   bool every_step_;
+  State state_;
   Summary summary_;
   Timers timers_;
   Clock::time_point start_ = Clock::now();

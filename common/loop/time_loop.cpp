@@ -69,19 +69,21 @@ void check_start(const Solver& solver, const std::string& section) {
   }
 }
 
-void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks) {
+void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks,
+               CheckpointsAlone& checkpoints) {
   Progress progress(scene.end_time, "step");
-  double time = 0;
-  record.check_and_write(time);
+  double time = record.time();
+  if (record.steps() == 0) record.check_and_write(time);
   while (time < scene.end_time) {
-    throw_if_interrupted();
     const double until = std::min(scene.end_time, record.next_output());
     const SubSteps steps = advance_by(solver, until - time, steps_between_checks);
     time = steps.taken == steps.needed ? until : time + static_cast<double>(steps.taken) * steps.dt;
     record.count_steps(steps.taken, steps.dt);
     record.check_and_write(time);
     progress.update(time, record.steps());
+    checkpoints.after_step(record);
   }
+  checkpoints.at_end(record);
 }
 
 void run_recorded(RunRecord& record, const std::function<void()>& body, const std::function<void()>& leave,

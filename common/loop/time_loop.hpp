@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "common/loop/checkpoints_alone.hpp"
 #include "common/loop/run_record.hpp"
 #include "common/run/options.hpp"
 
@@ -51,9 +52,10 @@ void take_windows(Link& link, Solver& solver, RunRecord& record, Take&& take) {
 /// Throws BadInput, at `section` of the case, if the state at the start is beyond the limits of physics.
 void check_start(const Solver& solver, const std::string& section);
 
-/// Runs to the end time of the scene; no messages, no other process. The time-step limit and the state are
-/// looked at anew every `steps_between_checks`.
-void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks);
+/// Runs to the end time of the scene, from where `record` is; no messages, no other process. The time-step
+/// limit and the state are looked at anew every `steps_between_checks`.
+void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks,
+               CheckpointsAlone& checkpoints);
 
 /// Runs `body` and finishes `record` whatever the end is: the end of the body, or the exception that it
 /// throws, which is told to `leave` (if any) and thrown on. `waiting_time` gives the time spent waiting for

@@ -71,6 +71,10 @@ void write_provenance(HdfFile& file, const Provenance& provenance, double time) 
   file.attribute("/provenance", "time[s]", time);
 }
 
+std::string frame_path(const std::string& name, std::size_t number) {
+  return fmt::format("frames/{}_{:06}.hdf", name, number);
+}
+
 }  // namespace
 
 FrameWriter::FrameWriter(std::filesystem::path out, std::string name, Provenance provenance)
@@ -80,7 +84,7 @@ FrameWriter::FrameWriter(std::filesystem::path out, std::string name, Provenance
 
 void FrameWriter::write(double time, const Frame& frame) {
   const std::size_t count = frame.positions.size() / dim;
-  const std::string path = fmt::format("frames/{}_{:06}.hdf", name_, written_.size());
+  const std::string path = frame_path(name_, state_.written.size());
   HdfFile file(out_ / path);
   file.group("/VTKHDF");
   file.attribute("/VTKHDF", "Type", "UnstructuredGrid");
@@ -93,12 +97,23 @@ void FrameWriter::write(double time, const Frame& frame) {
   write_provenance(file, provenance_, time);
   file.finish();
 
-  written_.emplace_back(path, time);
+  state_.written.emplace_back(path, time);
+  write_list();
+}
+
+void FrameWriter::write_list() const {
   std::string list;
-  for (const auto& [written, at] : written_)
+  for (const auto& [written, at] : state_.written)
     list += fmt::format("{}\n  {{ \"name\": \"{}\", \"time\": {} }}", list.empty() ? "" : ",", written, at);
   write_atomically(out_ / (name_ + ".hdf.series"),
                    fmt::format("{{ \"file-series-version\": \"1.0\", \"files\": [{}\n] }}\n", list));
+}
+
+void FrameWriter::resume(const State& then) {
+  state_ = then;
+  for (std::size_t k = then.written.size();; ++k)
+    if (!std::filesystem::remove(out_ / frame_path(name_, k))) break;
+  if (!state_.written.empty()) write_list();
 }
 
 }  // namespace toryu

@@ -1,8 +1,17 @@
 #include "common/output/hdf5_series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
 
+#include "common/error/failure.hpp"
+#include "common/output/atomic_file.hpp"
 #include "common/run/log.hpp"
 
 namespace toryu {
@@ -35,81 +44,169 @@ HdfHandle growing_dataset(hid_t file, const std::string& name, const HdfSeriesFi
           H5Dclose, name};
 }
 
+void write_constant(hid_t file, const std::string& name, hid_t type, const HdfSeriesFile::Shape& shape,
+                    const void* values, const std::string& unit,
+                    const std::vector<std::pair<std::string, std::string>>& attributes) {
+  const HdfHandle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
+                        name);
+  const HdfHandle made(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose, name);
+  H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  text_attribute(made, "unit", unit);
+  for (const auto& [key, text] : attributes) text_attribute(made, key, text);
+}
+
+/// Transfers row number `row` of a series between a dataset and memory.
+bool transfer(const HdfHandle& dataset, const HdfSeriesFile::Shape& row_shape, hsize_t row,
+              const std::function<herr_t(hid_t memory, hid_t space)>& transfer_selected) {
+  HdfSeriesFile::Shape start(row_shape.size(), 0), count = row_shape;
+  start.insert(start.begin(), row);
+  count.insert(count.begin(), 1);
+  const HdfHandle space(H5Dget_space(dataset), H5Sclose, "row");
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const HdfHandle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
+                         "row");
+  return transfer_selected(memory, space) >= 0;
+}
+
 }  // namespace
 
-HdfSeriesFile::HdfSeriesFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      file_(H5Fcreate((path_.string() + ".part").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-            path_.string()) {}
+std::size_t HdfSeriesFile::Series::size() const {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1},
+                         [](std::size_t product, hsize_t side) { return product * side; });
+}
+
+std::size_t HdfSeriesFile::row_size() const {
+  std::size_t sum = 0;
+  for (const auto& series : series_) sum += series.size();
+  return sum * sizeof(double);
+}
 
 HdfSeriesFile::~HdfSeriesFile() {
-  series_.clear();
-  // A full disk often shows only when the file is flushed; closing tells nothing of it.
-  const bool whole = whole_ && H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0;
-  { const HdfHandle closed = std::move(file_); }
-  if (!whole) {
-    log::error("{} could not be completed; what was written bears the name {}.part", path_.string(),
-               path_.filename().string());
+  const bool whole = !spool_ || std::fclose(spool_) == 0;
+  std::error_code failure;
+  try {
+    std::ifstream rows(rows_path(), std::ios::binary);
+    write_all(rows);
+    std::filesystem::rename(path_.string() + ".part", path_);
+    std::filesystem::remove(rows_path(), failure);
+  } catch (const std::exception& reason) {
+    log::error("{} could not be completed: {}; its rows are in {}", path_.string(), reason.what(),
+               rows_path().filename().string());
     return;
   }
-  std::error_code failure;
-  std::filesystem::rename(path_.string() + ".part", path_, failure);
-  if (failure) log::error("{}: {}", path_.string(), failure.message());
+  if (!whole) log::error("{} lacks its last rows: {}", path_.string(), std::strerror(errno));
+}
+
+/// The file from what is known of it and its rows, as many as are whole.
+void HdfSeriesFile::write_all(std::ifstream& rows) const {
+  const HdfHandle file(H5Fcreate((path_.string() + ".part").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Fclose, path_.string());
+  for (const auto& c : constants_)
+    write_constant(file, c.name, c.numbers.empty() ? H5T_NATIVE_UINT32 : H5T_NATIVE_DOUBLE, c.shape,
+                   c.numbers.empty() ? static_cast<const void*>(c.integers.data()) : c.numbers.data(), c.unit,
+                   c.attributes);
+  std::vector<HdfHandle> datasets;
+  for (const auto& series : series_) {
+    datasets.push_back(growing_dataset(file, series.name, series.shape));
+    text_attribute(datasets.back(), "unit", series.unit);
+  }
+  std::vector<double> row(row_size() / sizeof(double));
+  for (hsize_t n = 0; n < state_.rows; ++n) {
+    rows.read(reinterpret_cast<char*>(row.data()), static_cast<std::streamsize>(row_size()));
+    if (!rows) throw std::runtime_error(fmt::format("row {} cannot be read", n));
+    const double* values = row.data();
+    for (std::size_t k = 0; k < series_.size(); values += series_[k++].size()) {
+      auto size = series_[k].shape;
+      size.insert(size.begin(), n + 1);
+      const bool written =
+          H5Dset_extent(datasets[k], size.data()) >= 0 &&
+          transfer(datasets[k], series_[k].shape, n, [&](hid_t memory, hid_t space) {
+            return H5Dwrite(datasets[k], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values);
+          });
+      if (!written) throw std::runtime_error("cannot write " + series_[k].name);
+    }
+  }
+  datasets.clear();
+  // A full disk often shows only when the file is flushed; closing tells nothing of it.
+  if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) throw std::runtime_error("cannot write it to the disk");
 }
 
 void HdfSeriesFile::constant(const std::string& name, const std::string& unit, const Shape& shape,
                              std::span<const double> values) {
-  constant(name, unit, H5T_NATIVE_DOUBLE, shape, values.data());
+  constants_.push_back({name, unit, shape, {values.begin(), values.end()}, {}, {}});
 }
 
 void HdfSeriesFile::constant(const std::string& name, const std::string& unit, const Shape& shape,
                              std::span<const std::uint32_t> values) {
-  constant(name, unit, H5T_NATIVE_UINT32, shape, values.data());
-}
-
-void HdfSeriesFile::constant(const std::string& name, const std::string& unit, hid_t type, const Shape& shape,
-                             const void* values) {
-  const HdfHandle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
-                        name);
-  const HdfHandle made(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Dclose, name);
-  H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-  text_attribute(made, "unit", unit);
+  constants_.push_back({name, unit, shape, {}, {values.begin(), values.end()}, {}});
 }
 
 void HdfSeriesFile::attribute(const std::string& name, const std::string& key, const std::string& text) {
-  const HdfHandle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, name);
-  text_attribute(dataset, key, text);
+  for (auto& constant : constants_)
+    if (constant.name == name) constant.attributes.emplace_back(key, text);
 }
 
 void HdfSeriesFile::series(const std::string& name, const std::string& unit, const Shape& row_shape) {
-  series_.push_back({name, row_shape, growing_dataset(file_, name, row_shape)});
-  text_attribute(series_.back().dataset, "unit", unit);
+  series_.push_back({name, unit, row_shape});
 }
 
 void HdfSeriesFile::append(std::initializer_list<const double*> rows) {
-  whole_ = false;
+  const auto fail = [&] {
+    throw std::runtime_error(
+        fmt::format("cannot write '{}': {}", rows_path().string(), std::strerror(errno)));
+  };
+  if (!spool_ && !(spool_ = std::fopen(rows_path().c_str(), "wb"))) fail();
   auto row = rows.begin();
-  for (const auto& series : series_) append(series, *row++);
-  ++rows_;
-  whole_ = true;
+  for (const auto& series : series_)
+    if (std::fwrite(*row++, sizeof(double), series.size(), spool_) != series.size()) fail();
+  if (std::fflush(spool_) != 0) fail();
+  ++state_.rows;
 }
 
-void HdfSeriesFile::append(const Series& series, const double* row) const {
-  Shape size = series.shape, start(series.shape.size(), 0);
-  size.insert(size.begin(), rows_ + 1);
-  start.insert(start.begin(), rows_);
-  Shape count = size;
-  count[0] = 1;
-  const auto fail = [&] {
-    throw std::runtime_error(path_.filename().string() + ": cannot write " + series.name);
+HdfSeriesFile::State HdfSeriesFile::state() {
+  if (spool_) synchronise(rows_path());
+  return state_;
+}
+
+void HdfSeriesFile::resume(const State& then) {
+  if (then.rows == 0) return;
+  if (!std::filesystem::exists(rows_path())) read_back(then.rows);
+  std::error_code failure;
+  const auto size = std::filesystem::file_size(rows_path(), failure), wanted = then.rows * row_size();
+  if (failure || size < wanted)
+    throw BadInput(
+        {{.place = rows_path().string(),
+          .message = fmt::format("cannot go on: {}", failure ? failure.message() : "rows are missing")}});
+  std::filesystem::resize_file(rows_path(), wanted);
+  spool_ = std::fopen(rows_path().c_str(), "ab");
+  if (!spool_) throw BadInput({{.place = rows_path().string(), .message = std::strerror(errno)}});
+  state_ = then;
+}
+
+/// The rows of a file that was completed.
+void HdfSeriesFile::read_back(std::uint64_t rows) const {
+  const auto missing = [&](const std::string& what) {
+    throw BadInput({{.place = path_.string(), .message = "cannot go on: " + what}});
   };
-  if (H5Dset_extent(series.dataset, size.data()) < 0) fail();
-  const HdfHandle space(H5Dget_space(series.dataset), H5Sclose, series.name);
-  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  const HdfHandle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
-                         series.name);
-  if (H5Dwrite(series.dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, row) < 0) fail();
+  if (!std::filesystem::exists(path_)) missing("there is no such file");
+  const HdfHandle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path_.string());
+  std::vector<HdfHandle> datasets;
+  for (const auto& series : series_)
+    datasets.emplace_back(H5Dopen2(file, series.name.c_str(), H5P_DEFAULT), H5Dclose, series.name);
+  std::ofstream spool(rows_path(), std::ios::binary | std::ios::trunc);
+  std::vector<double> row(row_size() / sizeof(double));
+  for (hsize_t n = 0; n < rows; ++n) {
+    double* values = row.data();
+    for (std::size_t k = 0; k < series_.size(); values += series_[k++].size())
+      if (!transfer(datasets[k], series_[k].shape, n, [&](hid_t memory, hid_t space) {
+            return H5Dread(datasets[k], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values);
+          }))
+        missing(fmt::format("it has less than {} rows", rows));
+    spool.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(row_size()));
+  }
+  spool.close();
+  if (!spool) missing(fmt::format("'{}' cannot be written", rows_path().string()));
 }
 
 }  // namespace toryu

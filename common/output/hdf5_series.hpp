@@ -1,8 +1,10 @@
-/// An HDF5 file that grows with a run: datasets known at the start, and series that gain a row at a time. It
-/// is written as `PATH.part` and gets its name at the end of its life, however the run ended, if every row
-/// that was begun is complete.
+/// An HDF5 file of a run: datasets known at the start, and series that gain a row at a time. A program that
+/// is killed may leave an HDF5 file that cannot be read, so rows go to `PATH.rows.part` one after the other
+/// first. The file is made of them at the end of its life, however the run ended, as `PATH.part`, and gets
+/// its name when it is complete; then the rows are removed. A later program can go on from any row.
 #pragma once
 
+#include <cstdio>
 #include <initializer_list>
 #include <vector>
 
@@ -13,8 +15,11 @@ namespace toryu {
 class HdfSeriesFile {
  public:
   using Shape = std::vector<hsize_t>;
+  struct State {
+    std::uint64_t rows = 0;
+  };
 
-  explicit HdfSeriesFile(std::filesystem::path path);
+  explicit HdfSeriesFile(std::filesystem::path path) : path_(std::move(path)) {}
   ~HdfSeriesFile();
   HdfSeriesFile(const HdfSeriesFile&) = delete;
   HdfSeriesFile& operator=(const HdfSeriesFile&) = delete;
@@ -29,24 +34,43 @@ class HdfSeriesFile {
   /// A series of rows of one shape ({} for a number).
   void series(const std::string& name, const std::string& unit, const Shape& row_shape);
   /// Adds a row to each series, in the order in which they were made. Throws std::runtime_error, naming the
-  /// file and the series, if it cannot be written.
+  /// file, if it cannot be written.
   void append(std::initializer_list<const double*> rows);
 
+  /// How far the series are; all of it is on the disk then. Throws std::runtime_error if that fails.
+  State state();
+  /// Goes on from `then`: rows beyond are cut off. Throws BadInput if they are missing.
+  void resume(const State& then);
+
  private:
-  struct Series {
-    std::string name;
+  struct Constant {
+    std::string name, unit;
     Shape shape;
-    HdfHandle dataset;
+    std::vector<double> numbers;
+    std::vector<std::uint32_t> integers;                          ///< if there are no numbers
+    std::vector<std::pair<std::string, std::string>> attributes;  ///< beside the unit
   };
-  void constant(const std::string& name, const std::string& unit, hid_t type, const Shape& shape,
-                const void* values);
-  void append(const Series& series, const double* row) const;
+  struct Series {
+    std::string name, unit;
+    Shape shape;
+    std::size_t size() const;  ///< numbers of a row
+  };
+  std::filesystem::path rows_path() const { return path_.string() + ".rows.part"; }
+  std::size_t row_size() const;
+  void write_all(std::ifstream& rows) const;
+  void read_back(std::uint64_t rows) const;
 
   std::filesystem::path path_;
-  HdfHandle file_;
+  std::vector<Constant> constants_;
   std::vector<Series> series_;
-  hsize_t rows_ = 0;
-  bool whole_ = true;  ///< all rows that were begun are complete
+  std::FILE* spool_ = nullptr;  ///< where the rows go, once there is one
+  State state_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, HdfSeriesFile::State& state) {
+  auto& [rows] = state;
+  archive(rows);
+}
 
 }  // namespace toryu

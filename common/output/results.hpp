@@ -1,7 +1,9 @@
 /// What a participant leaves in the results folder: frames, series and a summary. Files are written under a
-/// temporary name (`.part`) and renamed when complete.
+/// temporary name (`.part`) and renamed when complete. Each writer can say how far it is, with all of that on
+/// the disk, and a later program can go on from there: what was written behind that point is taken back.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,27 +19,61 @@ namespace toryu {
 /// VTKHDF frames `frames/NAME_000123.hdf` with `NAME.hdf.series` beside the folder (rewritten at each frame).
 class FrameWriter {
  public:
+  struct State {
+    std::vector<std::pair<std::string, double>> written;  ///< path and time [s] of each frame
+  };
+
   FrameWriter(std::filesystem::path out, std::string name, Provenance provenance);
   void write(double time, const Frame& frame);
 
+  const State& state() const { return state_; }
+  /// Goes on from `then`; later frames are removed.
+  void resume(const State& then);
+
  private:
+  void write_list() const;
+
   std::filesystem::path out_;
   std::string name_;
   Provenance provenance_;
-  std::vector<std::pair<std::string, double>> written_;
+  State state_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, FrameWriter::State& state) {
+  auto& [written] = state;
+  archive(written);
+}
 
 /// `NAME.csv`: a row a call, `time[s]` first, then `name[unit]` columns fixed by the first row.
 class SeriesWriter {
  public:
+  struct State {
+    std::vector<std::string> columns;
+    std::uint64_t size = 0;  ///< of the file [bytes]
+  };
+
   SeriesWriter(const std::filesystem::path& out, const std::string& name);
   ~SeriesWriter();  ///< gives the file its final name
   void write(double time, const std::vector<Observation>& row);
+
+  /// How far the series is; all of it is on the disk then. Throws std::runtime_error if that fails.
+  State state();
+  /// Goes on from `then`: what the file holds beyond is cut off. Rows may have other columns from now on: new
+  /// ones are `nan` in the rows before, and what is no longer observed is `nan` in the rows to come. Throws
+  /// BadInput if the file is missing or shorter.
+  void resume(const State& then);
 
  private:
   struct File;
   std::unique_ptr<File> file_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, SeriesWriter::State& state) {
+  auto& [columns, size] = state;
+  archive(columns, size);
+}
 
 /// `NAME_summary.toml`: what ran, how long, where the time went, which terms were active.
 struct Summary {

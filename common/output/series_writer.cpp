@@ -1,11 +1,14 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
 
+#include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
 
 namespace toryu {
@@ -19,52 +22,119 @@ struct SeriesWriter::File {
   std::filesystem::path path, temporary;
   std::ofstream stream;
   std::vector<std::string> columns;
+  /// Which value of a row stands in each column behind the time, -1 for none: after a restart with other
+  /// observers. Empty: one after the other.
+  std::vector<int> order;
+  bool resumed = false;  ///< and no row written since
   Clock::time_point flushed = Clock::now();
 
+  void open(std::ios::openmode mode) {
+    stream.open(temporary, mode);
+    must_be_good();
+  }
   void must_be_good() const {
     if (!stream)
       throw std::runtime_error(
           fmt::format("cannot write '{}': {}", temporary.string(), std::strerror(errno)));
   }
+  void adapt(const std::vector<std::string>& wanted);
 };
+
+/// Adds the columns of `wanted` that the file lacks, `nan` in all rows so far, and finds the order.
+void SeriesWriter::File::adapt(const std::vector<std::string>& wanted) {
+  resumed = false;
+  if (wanted == columns) return;
+  std::size_t more = 0;
+  for (const auto& name : wanted)
+    if (std::find(columns.begin(), columns.end(), name) == columns.end()) {
+      columns.push_back(name);
+      ++more;
+    }
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    const auto found = std::find(wanted.begin(), wanted.end(), columns[k]);
+    order.push_back(found == wanted.end() ? -1 : static_cast<int>(found - wanted.begin()) - 1);
+  }
+  if (more == 0) return;
+  std::string empty;
+  for (std::size_t k = 0; k < more; ++k) empty += ",nan";
+  stream.close();
+  std::ifstream old(temporary);
+  std::string line, text = fmt::format("{}\n", fmt::join(columns, ","));
+  std::getline(old, line);  // the former head
+  while (std::getline(old, line)) text += line + empty + '\n';
+  old.close();
+  write_atomically(temporary, text);
+  open(std::ios::app);
+}
 
 SeriesWriter::SeriesWriter(const std::filesystem::path& out, const std::string& name)
     : file_(std::make_unique<File>()) {
   std::filesystem::create_directories(out);
   file_->path = out / (name + ".csv");
   file_->temporary = out / (name + ".csv.part");
-  file_->stream.open(file_->temporary, std::ios::trunc);
-  file_->must_be_good();
 }
 
 SeriesWriter::~SeriesWriter() {
+  if (file_->columns.empty()) return;
   file_->stream.close();
   std::error_code ignored;  // a destructor must not throw; the .part that stays behind tells
-  if (file_->columns.empty())
-    std::filesystem::remove(file_->temporary, ignored);
-  else if (file_->stream)
-    std::filesystem::rename(file_->temporary, file_->path, ignored);
+  if (file_->stream) std::filesystem::rename(file_->temporary, file_->path, ignored);
 }
 
 void SeriesWriter::write(double time, const std::vector<Observation>& row) {
-  std::string line;
-  if (file_->columns.empty()) {
-    file_->columns.emplace_back("time[s]");
-    for (const auto& [name, unit, value] : row) file_->columns.push_back(fmt::format("{}[{}]", name, unit));
-    line = fmt::format("{}\n", fmt::join(file_->columns, ","));
+  if (file_->columns.empty() || file_->resumed) {
+    std::vector<std::string> names{"time[s]"};
+    for (const auto& [name, unit, value] : row) names.push_back(fmt::format("{}[{}]", name, unit));
+    if (file_->resumed) {
+      file_->adapt(names);
+    } else {
+      file_->open(std::ios::trunc);
+      file_->columns = names;
+      file_->stream << fmt::format("{}\n", fmt::join(names, ","));
+    }
   }
-  if (row.size() + 1 != file_->columns.size())
+  const bool in_order = file_->order.empty();
+  if (in_order && row.size() + 1 != file_->columns.size())
     throw std::logic_error(fmt::format("series '{}': a row of {} values under {} columns",
                                        file_->path.string(), row.size() + 1, file_->columns.size()));
   // The shortest text that reads back as the same double, so that equal runs give equal files.
-  line += fmt::format("{}", time);
-  for (const auto& observation : row) line += fmt::format(",{}", observation.value);
+  std::string line = fmt::format("{}", time);
+  if (in_order)
+    for (const auto& observation : row) line += fmt::format(",{}", observation.value);
+  for (const int k : file_->order)
+    line += k < 0 ? ",nan" : fmt::format(",{}", row[static_cast<std::size_t>(k)].value);
   file_->stream << line << '\n';
   if (const auto now = Clock::now(); now - file_->flushed > flush_interval) {
     file_->stream.flush();
     file_->flushed = now;
   }
   file_->must_be_good();
+}
+
+SeriesWriter::State SeriesWriter::state() {
+  if (file_->columns.empty()) return {};
+  file_->stream.flush();
+  file_->must_be_good();
+  synchronise(file_->temporary);
+  return {file_->columns, std::filesystem::file_size(file_->temporary)};
+}
+
+void SeriesWriter::resume(const State& then) {
+  if (then.columns.empty()) return;
+  std::error_code failure;
+  if (!std::filesystem::exists(file_->temporary))
+    std::filesystem::rename(file_->path, file_->temporary, failure);
+  const auto size = std::filesystem::file_size(file_->temporary, failure);
+  if (failure || size < then.size)
+    throw BadInput({{.place = file_->temporary.string(),
+                     .message = failure ? "cannot go on: " + failure.message()
+                                        : fmt::format("cannot go on: it has {} bytes, and had {} at the "
+                                                      "checkpoint",
+                                                      size, then.size)}});
+  std::filesystem::resize_file(file_->temporary, then.size);
+  file_->columns = then.columns;
+  file_->resumed = true;
+  file_->open(std::ios::app);
 }
 
 }  // namespace toryu

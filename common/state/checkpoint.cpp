@@ -1,9 +1,7 @@
 #include "common/state/checkpoint.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <toml++/toml.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
@@ -78,14 +76,6 @@ std::string checksum(const std::string& bytes) {
 
 [[noreturn]] void fail_to_write(const fs::path& path) {
   throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
-}
-
-/// Brings a file or folder to the disk.
-void synchronise(const fs::path& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool done = descriptor >= 0 && fsync(descriptor) == 0;
-  if (descriptor >= 0) close(descriptor);
-  if (!done) fail_to_write(path);
 }
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& message) {
@@ -275,6 +265,19 @@ void check_same_case(const Checkpoint& checkpoint, const std::string& case_text)
   for (const auto& [key, value] : then)
     if (!now.contains(key)) differ(key, fmt::format("was {} in the checkpoint, and is not there", value));
   if (!errors.empty()) throw BadInput(errors);
+}
+
+void claim_folder(const Options& options, const std::string& participant) {
+  if (options.restart) return;
+  const auto exists = [&](const char* suffix) { return fs::exists(options.out / (participant + suffix)); };
+  const bool holds_results =
+      exists(".csv") || exists(".csv.part") || !checkpoints(options.out, false).empty();
+  if (!holds_results) return;
+  if (!options.overwrite)
+    refuse(options.out,
+           "holds the results of an earlier run: --overwrite replaces them, --restart goes on "
+           "with them, --out DIR writes elsewhere");
+  fs::remove_all(options.out / folder_name);
 }
 
 bool CheckpointSchedule::due(double time, double wall_time) const {

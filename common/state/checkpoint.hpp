@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "common/run/options.hpp"
+
 namespace toryu {
 
 /// What wrote a checkpoint, and of what.
@@ -63,6 +65,11 @@ void read_part(const std::filesystem::path& folder, const std::string& name, con
 /// Throws BadInput that names every key in which `case_text` differs from the case of the checkpoint, except
 /// what a restart may change: end time, intervals, observers, references, title, time limit of the coupling.
 void check_same_case(const Checkpoint& checkpoint, const std::string& case_text);
+
+/// Makes `options.out` the folder of this run, for the lead, whose series is `participant`.csv. Throws
+/// BadInput if it holds the results of an earlier run, unless the options say what is to become of them: a
+/// run that overwrites them takes their checkpoints away, lest it be restarted from them.
+void claim_folder(const Options& options, const std::string& participant);
 
 /// When the lead wants a checkpoint.
 class CheckpointSchedule {
