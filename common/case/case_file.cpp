@@ -158,6 +158,15 @@ void CaseFile::throw_if_faulty() const {
   throw BadInput(faults);
 }
 
+std::string CaseFile::merged() const {
+  std::vector<InputError> faults;
+  for (const auto& [section, fault] : content_->override_faults) faults.push_back(fault);
+  if (!faults.empty()) throw BadInput(faults);
+  std::ostringstream text;
+  text << toml::toml_formatter(content_->root);
+  return text.str();
+}
+
 std::string CaseFile::used() const {
   std::string text;
   for (const auto& section : content_->sections) text += section.used;

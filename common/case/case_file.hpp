@@ -54,6 +54,9 @@ class CaseFile {
   /// Throws BadInput with all faults, unknown top-level sections among them, sorted by line.
   void throw_if_faulty() const;
 
+  /// The case as TOML, with its base merged and the overrides applied, whether or not anyone reads its
+  /// sections. Throws BadInput with the faults of the overrides.
+  std::string merged() const;
   /// The sections read so far with every value, defaults included, as TOML that repeats the run.
   std::string used() const;
   /// The sections read so far as a table of key, unit, default, range and help.

@@ -18,7 +18,8 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 struct Typed {
   std::string case_path, out, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
-  bool check = false, describe = false, restart = false, overwrite = false, version = false, help = false;
+  bool check = false, describe = false, print_case = false, restart = false, overwrite = false;
+  bool version = false, help = false;
 };
 
 void declare(CLI::App& app, Typed& typed) {
@@ -41,6 +42,8 @@ void declare(CLI::App& app, Typed& typed) {
                "Print the parameters of a case with units, defaults and ranges");
   app.add_flag("--restart", typed.restart, "Go on from the newest checkpoint in the folder of the results");
   app.add_flag("--overwrite", typed.overwrite, "Replace the results that the folder holds");
+  app.add_flag("--print-case", typed.print_case,
+               "Print the case as it is read, with its base and the values of --set, as TOML");
   app.add_flag("--version", typed.version, "Print the version and the commit");
   app.add_flag("--help", typed.help, "Print this help");
 }
@@ -96,6 +99,7 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
   options.describe = typed.describe;
   options.restart = typed.restart;
   options.overwrite = typed.overwrite;
+  options.print_case = typed.print_case;
   std::vector<InputError> faults = extra_faults(app);
   if (const auto threads = thread_count(typed.threads))
     options.threads = *threads;

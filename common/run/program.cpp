@@ -69,6 +69,10 @@ int run_program(const std::string& role, int argc, char** argv,
       return ExitCode::done;
     }
     const Options options = parse_options(role, arguments);
+    if (options.print_case) {
+      fmt::print("{}\n", CaseFile(options.case_path, options.overrides).merged());
+      return ExitCode::done;
+    }
     const bool computes = !options.check && !options.describe;
     open_log(role, computes ? options.out : "", options.log_level);
     if (computes) log_start(options);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/run/provenance.hpp"
+#include "common/case/document.hpp"
 
 namespace toryu {
 namespace {
@@ -137,6 +138,29 @@ TEST_F(ExampleProgram, DescribesWithAndWithoutACase) {
   EXPECT_THAT(without.output, HasSubstr("[medium.drag]  (optional)"));
 }
 
+TEST_F(ExampleProgram, PrintsTheCaseAsItIsRead) {
+  std::ofstream(folder_ / "room/half.toml") << "base = 'case.toml'\nother = false\n[medium]\nsteps = 2\n";
+  const Ending ending = run("room/half.toml --print-case --set medium.label=thin --end-time 0.25");
+  EXPECT_EQ(ending.code, 0) << ending.error;
+  const toml::table printed = parse_document(ending.output, "printed");
+  EXPECT_EQ(printed, parse_document("other = false\n"
+                                    "[case]\ntitle = 'A'\nend_time = 0.25\ndomain = {min=[0,0], max=[2,2]}\n"
+                                    "[medium]\ndensity = 1000\nsteps = 2\nlabel = 'thin'\n",
+                                    "expected"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(ExampleProgram, PrintsNoCaseThatCannotBeRead) {
+  const Ending ending = run("room --print-case --set medium.density.more=1 --set case");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_EQ(ending.output, "");
+  EXPECT_EQ(ending.error,
+            "--set medium.density.more=1: error: 'medium.density' is the number 1000, not a section with a "
+            "key 'more'\n"
+            "--set case: error: expected section.key=value\n");
+  EXPECT_EQ(run("--print-case").error, "example_program: error: no CASE given; see --help\n");
+}
+
 TEST_F(ExampleProgram, SaysItsVersion) {
   const Ending ending = run("--version");
   EXPECT_EQ(ending.code, 0);
@@ -146,8 +170,9 @@ TEST_F(ExampleProgram, SaysItsVersion) {
 TEST_F(ExampleProgram, Helps) {
   const Ending ending = run("--help");
   EXPECT_EQ(ending.code, 0);
-  for (const char* option : {"CASE", "--out DIR", "--set SECTION.KEY=VALUE", "--end-time SECONDS",
-                             "--threads N", "--log-level LEVEL", "--check", "--describe", "--version"})
+  for (const char* option :
+       {"CASE", "--out DIR", "--set SECTION.KEY=VALUE", "--end-time SECONDS", "--threads N",
+        "--log-level LEVEL", "--check", "--describe", "--print-case", "--version"})
     EXPECT_THAT(ending.output, HasSubstr(option));
 }
 
