@@ -6,10 +6,11 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 "$root/tools/install.sh" run
 ! grep -qs -d skip '^ *\[study\]' -- "$@" </dev/null || "$root/tools/install.sh" study
-case ${1---help} in -h | --help) exec /usr/bin/python3 "$root/tools/launch.py" --help ;; esac
+export PYTHONPATH=$root/tools${PYTHONPATH:+:$PYTHONPATH}
+case ${1---help} in -h | --help) exec /usr/bin/python3 -m toryu.launch --help ;; esac
 if [ -f "$root/build/release/build.ninja" ]; then
   "$root/tools/build.sh" release fluid_solver solid_solver coupler reference_loop
 else
   "$root/tools/build.sh" release -DTORYU_TESTS=OFF fluid_solver solid_solver coupler reference_loop
 fi
-exec /usr/bin/python3 "$root/tools/launch.py" "$@"
+exec /usr/bin/python3 -m toryu.launch "$@"

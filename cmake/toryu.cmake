@@ -73,17 +73,19 @@ function(toryu_test name)
     TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT OMP_NUM_THREADS=1)
 endfunction()
 
-# toryu_python_test(NAME SCRIPT test.py [LABEL unit] [TIMEOUT 300] [ENVIRONMENT A=1 ...]): a unittest file, one CTest
-# entry. Debian's own Python runs it: that one has h5py and VTK.
+# toryu_python_test(NAME SCRIPT test.py [ARGUMENTS a ...] [MODULES folder ...] [LABEL unit] [TIMEOUT 300]
+# [ENVIRONMENT A=1 ...]): a unittest file, one CTest entry. Debian's own Python runs it: that one has h5py and VTK. It
+# finds the packages of tools/ and tests/, and the modules of the given folders.
 function(toryu_python_test name)
-  cmake_parse_arguments(ARG "" "SCRIPT;LABEL;TIMEOUT" "ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "" "SCRIPT;LABEL;TIMEOUT" "ARGUMENTS;MODULES;ENVIRONMENT" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  add_test(NAME ${name} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT})
+  add_test(NAME ${name} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT} ${ARG_ARGUMENTS})
+  string(JOIN ":" path ${PROJECT_SOURCE_DIR}/tools ${PROJECT_SOURCE_DIR}/tests ${ARG_MODULES})
   set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;${ARG_ENVIRONMENT}")
+    ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;PYTHONPATH=${path};${ARG_ENVIRONMENT}")
 endfunction()

@@ -11,12 +11,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/unit/tools"), str(ROOT / "tests/browser")]
-
-import made_up_channel  # noqa: E402
-import made_up_run  # noqa: E402
-from browser import start_browser  # noqa: E402
+from browser import start_browser
+from toryu_testing import made_up_channel, made_up_run
 
 # Opaque pixels of the canvas, and a sum over them that changes with any pixel.
 PICTURE = """
@@ -45,7 +41,7 @@ class ReportInBrowser(unittest.TestCase):
         if not out.exists():
             made_up_run.make_case(case, sides)
             made_up_run.make_results(out, sides, frames=11)
-            subprocess.run(["/usr/bin/python3", ROOT / "tools/report", out, "--case", case], check=True,
+            subprocess.run([sys.executable, "-m", "toryu.report", out, "--case", case], check=True,
                            stdout=subprocess.DEVNULL)
         self.browser.get((out / "report.html").as_uri())
         self.wait_for_frame(0)
@@ -56,7 +52,7 @@ class ReportInBrowser(unittest.TestCase):
         if not out.exists():
             made_up_channel.make_case(case, elastic)
             made_up_channel.make_results(out, elastic)
-            subprocess.run(["/usr/bin/python3", ROOT / "tools/report", out, "--case", case], check=True,
+            subprocess.run([sys.executable, "-m", "toryu.report", out, "--case", case], check=True,
                            stdout=subprocess.DEVNULL)
         self.browser.get((out / "report.html").as_uri())
         self.wait_for_frame(0)

@@ -1,7 +1,6 @@
 """The page of a made-up study in headless Chromium: charts are drawn, headings sort, a row picks out its lines."""
 
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -9,11 +8,8 @@ import unittest
 
 from selenium.webdriver.common.by import By
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-UNIT = ROOT / "tests/unit/tools"
-sys.path.insert(0, str(ROOT / "tests/browser"))
-
-from browser import start_browser  # noqa: E402
+from browser import start_browser
+from toryu_testing.study_case import make_programs
 
 STUDY = """
 [study]
@@ -52,14 +48,11 @@ class StudyInBrowser(unittest.TestCase):
     @classmethod
     def make_study(cls):
         programs, case = cls.folder / "bin", cls.folder / "flow"
-        for path in (programs / "modules", case):
-            path.mkdir(parents=True)
-        shutil.copy(UNIT / "fake_study_solver.py", programs / "fluid_solver")
-        (programs / "fluid_solver").chmod(0o755)
-        shutil.copy(UNIT / "made_up_surface.py", programs / "modules")
+        make_programs(programs)
+        case.mkdir()
         (case / "case.toml").write_text('[case]\ntitle = "test"\n[[wall]]\nname = "piston"\n[fluid]\n')
         (case / "window.toml").write_text(STUDY)
-        subprocess.run([sys.executable, ROOT / "tools/study", case / "window.toml", "--bin", programs, "--out",
+        subprocess.run([sys.executable, "-m", "toryu.study", case / "window.toml", "--bin", programs, "--out",
                         cls.folder / "out"], check=True, capture_output=True)
 
     def setUp(self):

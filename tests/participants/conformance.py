@@ -1,6 +1,6 @@
 """Checks that an executable is a good participant of a coupled run:
 
-    conformance.py --bin BUILD/bin ROLE EXECUTABLE [--case CASE]
+    PYTHONPATH=tools:tests conformance.py --bin BUILD/bin ROLE EXECUTABLE [--case CASE]
 
 ROLE is fluid or solid. The real coupler and the stand-in for the other side play with it; the coupler itself
 refuses a wrong window, a wrong count and a value that is not finite.
@@ -14,8 +14,8 @@ import unittest
 
 import h5py
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "processes"))
-import trio
+from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, PEER_LOST
+from toryu_testing import trio
 
 LIMIT = 30  # seconds after which something that should have ended counts as hung
 arguments = None
@@ -44,7 +44,7 @@ class Conformance(unittest.TestCase):
         with run_of_three(end_time="0.02") as run:
             run.start_all()
             for name in trio.ROLES:
-                self.assert_ending(run, name, trio.EXIT_DONE)
+                self.assert_ending(run, name, DONE)
             with open(run.out / "coupler.csv") as file:
                 rows = list(csv.DictReader(file))
             self.assertAlmostEqual(float(rows[-1]["time[s]"]), 0.02)
@@ -60,35 +60,35 @@ class Conformance(unittest.TestCase):
             run.start(self.role)
             run.start(self.other).start("coupler")
             for name in trio.ROLES:
-                self.assert_ending(run, name, trio.EXIT_DONE)
+                self.assert_ending(run, name, DONE)
 
     def test_ends_when_the_run_is_interrupted(self):
         with run_of_three() as run:
             run.start_all().wait_until_running()
             run.signal("coupler", signal.SIGINT)
             for name in trio.ROLES:
-                self.assert_ending(run, name, trio.EXIT_INTERRUPTED)
+                self.assert_ending(run, name, INTERRUPTED)
 
     def test_its_interruption_ends_the_run(self):
         with run_of_three() as run:
             run.start_all().wait_until_running()
             run.signal(self.role, signal.SIGINT)
             for name in trio.ROLES:
-                self.assert_ending(run, name, trio.EXIT_INTERRUPTED)
+                self.assert_ending(run, name, INTERRUPTED)
 
     def test_ends_when_the_coupler_dies(self):
         with run_of_three() as run:
             run.start_all().wait_until_running()
             run.kill("coupler")
-            self.assert_ending(run, self.role, trio.EXIT_PEER_LOST, "coupler")
-            self.assert_ending(run, self.other, trio.EXIT_PEER_LOST, "coupler")
+            self.assert_ending(run, self.role, PEER_LOST, "coupler")
+            self.assert_ending(run, self.other, PEER_LOST, "coupler")
 
     def test_ends_when_the_other_side_dies(self):
         with run_of_three() as run:
             run.start_all().wait_until_running()
             run.kill(self.other)
-            self.assert_ending(run, self.role, trio.EXIT_PEER_LOST, f"fake_{self.other}")
-            self.assert_ending(run, "coupler", trio.EXIT_PEER_LOST, f"fake_{self.other}")
+            self.assert_ending(run, self.role, PEER_LOST, f"fake_{self.other}")
+            self.assert_ending(run, "coupler", PEER_LOST, f"fake_{self.other}")
 
     def test_is_refused_with_another_case(self):
         with run_of_three() as run:
@@ -96,17 +96,17 @@ class Conformance(unittest.TestCase):
             run.start(self.role, extra=["--set", "case.gravity=[0.0, -1.6]"])
             run.start(self.other)
             for name in trio.ROLES:
-                self.assert_ending(run, name, trio.EXIT_BAD_INPUT, "hash of the case")
+                self.assert_ending(run, name, BAD_INPUT, "hash of the case")
 
     def test_is_refused_if_its_part_is_taken(self):
         with run_of_three() as run:
             run.start_all().wait_until_running()
             run.start(self.role, name="second")
-            self.assert_ending(run, "second", trio.EXIT_BAD_INPUT, "this part")
+            self.assert_ending(run, "second", BAD_INPUT, "this part")
             run.wait_until_running(beyond=run.windows())  # the run goes on
             run.signal("coupler", signal.SIGINT)
             for name in trio.ROLES:
-                self.assert_ending(run, name, trio.EXIT_INTERRUPTED)
+                self.assert_ending(run, name, INTERRUPTED)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,8 @@ import pathlib
 import sys
 import unittest
 
-import trio
+from toryu.processes import DONE
+from toryu_testing import trio
 
 LIMIT = 60  # seconds after which something that should have ended counts as hung
 PROGRAMS = {}
@@ -41,7 +42,7 @@ class MomentumTest(unittest.TestCase):
             run.start_all()
             for role in trio.ROLES:
                 code, text = run.ending_of(role, LIMIT)
-                self.assertEqual(code, trio.EXIT_DONE, text)
+                self.assertEqual(code, DONE, text)
             return last_rows(run.out)
 
     def check(self, felt, *more):

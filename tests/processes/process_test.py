@@ -11,7 +11,8 @@ import unittest
 
 import h5py
 
-import trio
+from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, PEER_LOST, PHYSICS_FAILED
+from toryu_testing import trio
 
 LIMIT = 30  # seconds after which something that should have ended counts as hung
 PROGRAMS = {}
@@ -44,7 +45,7 @@ class ProcessTest(unittest.TestCase):
 class GoodEnd(ProcessTest):
     def test_impulse_given_is_impulse_taken(self):
         run = self.run_of_three(end_time="0.05").start_all()
-        self.assert_all_end(run, trio.EXIT_DONE)
+        self.assert_all_end(run, DONE)
         figures = self.summary(run)["figures"]
         self.assertLess(figures["largest_impulse_error"], 1e-12)
         self.assertTrue(0 < figures["round_trip_share"] < 1, figures)
@@ -52,7 +53,7 @@ class GoodEnd(ProcessTest):
 
     def test_solid_feels_only_the_loads_of_the_case(self):
         run = self.run_of_three(end_time="0.02", settings=["coupling.loads=['friction']"]).start_all()
-        self.assert_all_end(run, trio.EXIT_DONE)
+        self.assert_all_end(run, DONE)
         with h5py.File(run.out / "interface.h5") as file:
             self.assertGreater(abs(file["pressure"][-1]).max(), 0)
             self.assertEqual(abs(file["force"][:]).max(), 0)  # the fake fluid has no friction
@@ -62,14 +63,14 @@ class GoodEnd(ProcessTest):
         first = self.run_of_three(end_time="0.05").start_all()
         second = self.run_of_three(end_time="0.03").start_all()
         for run, end_time in ((first, 0.05), (second, 0.03)):
-            self.assert_all_end(run, trio.EXIT_DONE)
+            self.assert_all_end(run, DONE)
             self.assertAlmostEqual(self.summary(run)["simulated_time"], end_time)
 
     def test_the_same_run_twice_exchanges_the_same(self):
         records = []
         for _ in range(2):
             run = self.run_of_three(end_time="0.02").start_all()
-            self.assert_all_end(run, trio.EXIT_DONE)
+            self.assert_all_end(run, DONE)
             with h5py.File(run.out / "interface.h5") as file:
                 records.append({name: file[name][:].tobytes() for name in file})
         self.assertEqual(*records)
@@ -84,7 +85,7 @@ class Schemes(ProcessTest):
         programs = {"coupler": "coupler", "fluid": "fluid_solver", "solid": "solid_solver"}
         run = self.enterContext(trio.Trio({role: PROGRAMS["bin"] / name for role, name in programs.items()},
                                           end_time=end_time, settings=settings)).start_all()
-        self.assert_all_end(run, trio.EXIT_DONE)
+        self.assert_all_end(run, DONE)
         figures = self.summary(run)["figures"]
         self.assertLess(figures["largest_impulse_error"], 1e-12)
         with h5py.File(run.out / "interface.h5") as file:
@@ -115,11 +116,11 @@ class Schemes(ProcessTest):
         run = self.run_of_three(settings=[
             self.IMPLICIT, "coupling.implicit={relaxation='fixed', relaxation_factor=0.01, largest_iteration_count=3}"
         ]).start_all()
-        self.assert_all_end(run, trio.EXIT_PHYSICS_FAILED, "5 windows in a row have not converged")
+        self.assert_all_end(run, PHYSICS_FAILED, "5 windows in a row have not converged")
 
     def test_who_cannot_repeat_is_refused(self):
         run = self.run_of_three(fluid="faulty_fluid", settings=[self.IMPLICIT]).start_all()
-        self.assert_all_end(run, trio.EXIT_BAD_INPUT, "faulty_fluid", "cannot repeat a window")
+        self.assert_all_end(run, BAD_INPUT, "faulty_fluid", "cannot repeat a window")
 
 
 class Death(ProcessTest):
@@ -130,7 +131,7 @@ class Death(ProcessTest):
                 run.kill(role)
                 start = time.monotonic()
                 for other in self.others(role):
-                    self.assert_ending(run, other, trio.EXIT_PEER_LOST, NAMES[role], "killed or stopped")
+                    self.assert_ending(run, other, PEER_LOST, NAMES[role], "killed or stopped")
                 print(f"{role} killed: the others ended after {time.monotonic() - start:.2f} s", end=" ")
 
     def test_after_joining(self):
@@ -141,7 +142,7 @@ class Death(ProcessTest):
                 run.kill(role)
                 run.start(other)
                 for name in ("coupler", other):
-                    self.assert_ending(run, name, trio.EXIT_PEER_LOST, NAMES[role])
+                    self.assert_ending(run, name, PEER_LOST, NAMES[role])
 
     def test_before_joining(self):
         environment = {"FAULT": "before joining"}
@@ -149,7 +150,7 @@ class Death(ProcessTest):
         run.start("coupler").start("solid").start("fluid", environment=environment)
         self.assertEqual(run.wait("fluid", LIMIT), 0)
         for name in ("coupler", "solid"):
-            self.assert_ending(run, name, trio.EXIT_PEER_LOST, "fluid participant did not join within 2 s")
+            self.assert_ending(run, name, PEER_LOST, "fluid participant did not join within 2 s")
 
     def test_leaves_no_half_written_file_under_its_final_name(self):
         run = self.run_of_three().start_all().wait_until_running()
@@ -165,9 +166,9 @@ class Death(ProcessTest):
         (run.out / "coupler.csv.part").unlink()
         run.start_all().wait_until_running()
         run.signal("coupler", signal.SIGINT)
-        self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+        self.assert_all_end(run, INTERRUPTED)
         for process in leftover.values():
-            self.assertEqual(process.wait(LIMIT), trio.EXIT_PEER_LOST)
+            self.assertEqual(process.wait(LIMIT), PEER_LOST)
 
 
 class Hang(ProcessTest):
@@ -177,9 +178,9 @@ class Hang(ProcessTest):
                 run = self.run_of_three().start_all().wait_until_running()
                 run.signal(role, signal.SIGSTOP)
                 for other in self.others(role):
-                    self.assert_ending(run, other, trio.EXIT_PEER_LOST, NAMES[role])
+                    self.assert_ending(run, other, PEER_LOST, NAMES[role])
                 run.signal(role, signal.SIGCONT)
-                self.assert_ending(run, role, trio.EXIT_PEER_LOST)
+                self.assert_ending(run, role, PEER_LOST)
 
     def test_short_stop_of_all_is_survived(self):
         run = self.run_of_three().start_all().wait_until_running()
@@ -190,17 +191,17 @@ class Hang(ProcessTest):
                 time.sleep(4)  # longer than the leases and their grace
         run.wait_until_running(beyond=run.windows())
         run.signal("coupler", signal.SIGINT)
-        self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+        self.assert_all_end(run, INTERRUPTED)
 
     def test_endless_loop(self):
         run = self.run_of_three(fluid="faulty_fluid", settings=["coupling.time_limit=2"])
         run.start("coupler").start("solid").start("fluid", environment={"FAULT": "hang"})
         for name in ("coupler", "solid"):
-            self.assert_ending(run, name, trio.EXIT_PEER_LOST, "faulty_fluid did not answer in window 51 within 2 s")
+            self.assert_ending(run, name, PEER_LOST, "faulty_fluid did not answer in window 51 within 2 s")
 
     def test_nobody_else_comes(self):
         run = self.run_of_three(settings=["coupling.time_limit=1"]).start("coupler")
-        self.assert_ending(run, "coupler", trio.EXIT_PEER_LOST, "fluid participant did not join within 1 s")
+        self.assert_ending(run, "coupler", PEER_LOST, "fluid participant did not join within 1 s")
 
 
 class Interruption(ProcessTest):
@@ -209,40 +210,40 @@ class Interruption(ProcessTest):
             with self.subTest(role):
                 run = self.run_of_three().start_all().wait_until_running()
                 run.signal(role, signal.SIGINT)
-                self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+                self.assert_all_end(run, INTERRUPTED)
                 self.assertTrue((run.out / "interface.h5").exists())
-                self.assertEqual(self.summary(run)["exit_code"], trio.EXIT_INTERRUPTED)
+                self.assertEqual(self.summary(run)["exit_code"], INTERRUPTED)
 
     def test_of_all_as_by_a_terminal(self):
         run = self.run_of_three().start_all().wait_until_running()
         for role in trio.ROLES:
             run.signal(role, signal.SIGINT)
-        self.assert_all_end(run, trio.EXIT_INTERRUPTED)
+        self.assert_all_end(run, INTERRUPTED)
 
     def test_at_the_start(self):
         run = self.run_of_three().start("coupler").start("fluid")
         run.wait_for_log("fake_fluid .* joined", LIMIT)
         run.signal("coupler", signal.SIGINT)
         for name in ("coupler", "fluid"):
-            self.assert_ending(run, name, trio.EXIT_INTERRUPTED)
+            self.assert_ending(run, name, INTERRUPTED)
 
 
 class Refusal(ProcessTest):
     def test_second_run_in_the_same_folder(self):
         run = self.run_of_three().start_all().wait_until_running()
         run.start("coupler", name="second")
-        self.assert_ending(run, "second", trio.EXIT_BAD_INPUT, str(run.out), "another run")
+        self.assert_ending(run, "second", BAD_INPUT, str(run.out), "another run")
         run.wait_until_running(beyond=run.windows())  # the first goes on
 
     def test_of_a_fault(self):
         window = "faulty_fluid: window 51: "
         expected = {
-            "physics": (trio.EXIT_PHYSICS_FAILED, "fluid particle 7 at t = 0.005 s: speed = 99 m/s, limit 10 m/s"),
-            "value": (trio.EXIT_PHYSICS_FAILED, window + "force of interface particle 39 is nan"),
-            "limit": (trio.EXIT_PHYSICS_FAILED, window + "time step limit is -1 s"),
-            "count": (trio.EXIT_PEER_LOST, window + "39 values of pressure came, 40 were awaited"),
-            "bug": (trio.EXIT_PEER_LOST, "faulty_fluid: index out of range"),
-            "vanish": (trio.EXIT_PEER_LOST, "faulty_fluid was killed or stopped"),
+            "physics": (PHYSICS_FAILED, "fluid particle 7 at t = 0.005 s: speed = 99 m/s, limit 10 m/s"),
+            "value": (PHYSICS_FAILED, window + "force of interface particle 39 is nan"),
+            "limit": (PHYSICS_FAILED, window + "time step limit is -1 s"),
+            "count": (PEER_LOST, window + "39 values of pressure came, 40 were awaited"),
+            "bug": (PEER_LOST, "faulty_fluid: index out of range"),
+            "vanish": (PEER_LOST, "faulty_fluid was killed or stopped"),
         }
         for fault, (code, text) in expected.items():
             with self.subTest(fault):
@@ -255,18 +256,18 @@ class Refusal(ProcessTest):
     def test_of_a_fluid_of_an_older_protocol(self):
         run = self.run_of_three(fluid="outdated_peer").start("fluid").start("coupler").start("solid")
         for name in ("coupler", "solid"):
-            self.assert_ending(run, name, trio.EXIT_BAD_INPUT, "toryu/hello", "another protocol")
+            self.assert_ending(run, name, BAD_INPUT, "toryu/hello", "another protocol")
 
     def test_of_a_coupler_of_an_older_protocol(self):
         run = self.run_of_three(coupler="outdated_peer").start("coupler", environment={"PART": "coupler"})
         run.start("fluid").start("solid")
         for name in ("fluid", "solid"):
-            self.assert_ending(run, name, trio.EXIT_BAD_INPUT, "toryu/session", "another protocol")
+            self.assert_ending(run, name, BAD_INPUT, "toryu/session", "another protocol")
 
     def test_false_impulse_is_reported(self):
         run = self.run_of_three(fluid="faulty_fluid", end_time="0.01").start("coupler").start("solid")
         run.start("fluid", environment={"FAULT": "impulse"})
-        self.assert_ending(run, "coupler", trio.EXIT_DONE, "window 51", "impulse given and taken differ")
+        self.assert_ending(run, "coupler", DONE, "window 51", "impulse given and taken differ")
         # All particles push alike, so the false part is 0.001 of F_x beside sqrt(2) F_x of the scale.
         self.assertAlmostEqual(self.summary(run)["figures"]["largest_impulse_error"], 1e-3 / 2**0.5, places=9)
 

@@ -1,6 +1,6 @@
 """A study of a case: the full one has no faults, its small version runs to the end and says something.
 
-    /usr/bin/python3 case_study_test.py ROOT PROGRAMS STUDY.toml
+    case_study_test.py BUILD/bin STUDY.toml
 """
 
 import csv
@@ -12,7 +12,7 @@ import tempfile
 import tomllib
 import unittest
 
-ROOT, PROGRAMS, STUDY = map(pathlib.Path, sys.argv[1:4])
+PROGRAMS, STUDY = map(pathlib.Path, sys.argv[1:3])
 CONTENT = tomllib.loads(STUDY.read_text(encoding="utf-8"))
 
 
@@ -25,7 +25,7 @@ def number(text):
 
 class CaseStudy(unittest.TestCase):
     def run_study(self, *options):
-        done = subprocess.run([sys.executable, str(ROOT / "tools/launch.py"), str(STUDY), "--bin", str(PROGRAMS), *options],
+        done = subprocess.run([sys.executable, "-m", "toryu.launch", str(STUDY), "--bin", str(PROGRAMS), *options],
                               capture_output=True, text=True, stdin=subprocess.DEVNULL)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout

@@ -1,7 +1,7 @@
 """Abrasive flow machining: the scene's counts, whether the medium stays whole, momentum, and that a rigid work piece
 loses as much as an elastic one.
 
-    abrasive_flow_test.py SOURCE BUILD/bin [--long]
+    abrasive_flow_test.py CASES BUILD/bin [--long]
 """
 import functools
 import math
@@ -12,7 +12,11 @@ import tempfile
 import tomllib
 import unittest
 
+import enclosed_medium
+import h5py
 import numpy as np
+
+from toryu import results
 
 PATHS = {}
 
@@ -24,11 +28,10 @@ class Run:
         self.folder = tempfile.TemporaryDirectory()
         self.out = pathlib.Path(self.folder.name)
         run = subprocess.run(
-            ["/usr/bin/python3", PATHS["source"] / "tools/launch.py", "--bin", PATHS["bin"],
-             PATHS["source"] / "cases/abrasive_flow" / case, "--out", self.out, *options],
+            [sys.executable, "-m", "toryu.launch", "--bin", PATHS["bin"],
+             PATHS["cases"] / "abrasive_flow" / case, "--out", self.out, *options],
             capture_output=True, text=True, timeout=1500)
         assert run.returncode == 0, run.stderr
-        import results  # of tools/, on the path by now
         self.fluid, self.solid = results.read_series(self.out, "fluid"), results.read_series(self.out, "solid")
 
     def summary(self, participant):
@@ -50,7 +53,6 @@ def coupled():
 
 
 def check_medium(test, run):
-    import enclosed_medium
     found = enclosed_medium.conditions(run.out, 2.35)
     test.assertLess(found.volume, 0.002)
     test.assertLess(found.void, 1.2)
@@ -94,7 +96,6 @@ class AbrasiveFlowTest(unittest.TestCase):
         check_medium(self, cycle())
 
     def test_both_work_pieces_lose_alike(self):
-        import h5py
         with h5py.File(cycle().out / "surface.h5") as file:
             depth, owner = file["preston_depth"][-1], file["work_piece"][:]
         left, right = (depth[owner == k].mean() for k in (0, 1))
@@ -123,6 +124,5 @@ if __name__ == "__main__":
         chosen = "LongTest"
         sys.argv.pop()
     PATHS["bin"] = pathlib.Path(sys.argv.pop()).resolve()
-    PATHS["source"] = pathlib.Path(sys.argv.pop()).resolve()
-    sys.path.insert(0, str(PATHS["source"] / "tools"))
+    PATHS["cases"] = pathlib.Path(sys.argv.pop()).resolve()
     unittest.main(argv=[sys.argv[0], chosen])

@@ -1,6 +1,6 @@
 """Coupled cases at their smallest resolution, whole runs of three processes.
 
-    coupled_cases_test.py SOURCE BUILD/bin [CLASS...]
+    coupled_cases_test.py CASES BUILD/bin [CLASS...]
 """
 import csv
 import math
@@ -15,8 +15,8 @@ PATHS = {}
 
 
 def launch(what, out, *settings):
-    return subprocess.run(["/usr/bin/python3", PATHS["source"] / "tools/launch.py", "--bin", PATHS["bin"], PATHS["source"] / "cases" / what,
-                           "--out", out, *settings], capture_output=True, text=True, timeout=600)
+    return subprocess.run([sys.executable, "-m", "toryu.launch", "--bin", PATHS["bin"], PATHS["cases"] / what, "--out", out,
+                           *settings], capture_output=True, text=True, timeout=600)
 
 
 def run(case, **overrides):
@@ -121,5 +121,5 @@ class PushedColumn(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PATHS["source"], PATHS["bin"] = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
+    PATHS["cases"], PATHS["bin"] = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
     unittest.main(verbosity=2)

@@ -1,7 +1,7 @@
 """The elastic gate at its coarser spacing, whole runs of three processes: both formulations against the figures of
 cases/elastic_gate/README.md.
 
-    elastic_gate_test.py SOURCE BUILD/bin
+    elastic_gate_test.py CASES BUILD/bin
 """
 import csv
 import pathlib
@@ -23,8 +23,8 @@ class Gate:
         with tempfile.TemporaryDirectory() as folder:
             settings = {"fluid.spacing": 0.0025, "solid.spacing": 0.00125, "case.end_time": end_time, "case.frame_interval": 0} | overrides
             run = subprocess.run(
-                ["/usr/bin/python3", PATHS["source"] / "tools/launch.py", "--bin", PATHS["bin"],
-                 PATHS["source"] / "cases/elastic_gate", "--out", folder, *(f"--set={k}={v}" for k, v in settings.items())],
+                [sys.executable, "-m", "toryu.launch", "--bin", PATHS["bin"],
+                 PATHS["cases"] / "elastic_gate", "--out", folder, *(f"--set={k}={v}" for k, v in settings.items())],
                 capture_output=True, text=True, timeout=600)
             assert run.returncode == 0, run.stderr
             with open(pathlib.Path(folder) / "solid.csv", encoding="utf-8") as file:
@@ -58,8 +58,8 @@ class ElasticGateTest(unittest.TestCase):
             for threads in (1, 2):
                 out = pathlib.Path(folder) / str(threads)
                 subprocess.run(
-                    ["/usr/bin/python3", PATHS["source"] / "tools/launch.py", "--bin", PATHS["bin"],
-                     PATHS["source"] / "cases/elastic_gate", "--out", out, "--set=fluid.spacing=0.0025",
+                    [sys.executable, "-m", "toryu.launch", "--bin", PATHS["bin"],
+                     PATHS["cases"] / "elastic_gate", "--out", out, "--set=fluid.spacing=0.0025",
                      "--set=solid.spacing=0.00125", "--end-time=0.02", f"--threads={threads}"], check=True, capture_output=True, timeout=300)
                 series.append([(out / name).read_bytes() for name in ("fluid.csv", "solid.csv")])
         self.assertEqual(series[0], series[1])
@@ -67,5 +67,5 @@ class ElasticGateTest(unittest.TestCase):
 
 if __name__ == "__main__":
     PATHS["bin"] = pathlib.Path(sys.argv.pop()).resolve()
-    PATHS["source"] = pathlib.Path(sys.argv.pop()).resolve()
+    PATHS["cases"] = pathlib.Path(sys.argv.pop()).resolve()
     unittest.main()

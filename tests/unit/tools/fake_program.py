@@ -10,7 +10,6 @@ import time
 
 me = pathlib.Path(sys.argv[0])
 case, arguments = sys.argv[1], sys.argv[2:]
-out = pathlib.Path(next(a.removeprefix("--out=") for a in arguments if a.startswith("--out=")))
 plan = me.with_suffix(".plan").read_text().splitlines()
 
 
@@ -45,17 +44,33 @@ class Plan:
         os.kill(os.getpid(), int(number))
 
     def check_fails(self, code, *lines):
-        pass
+        """How `--check` ends; lines are parted by |."""
+
+    def print_fails(self, code, *lines):
+        """How `--print-case` ends."""
 
 
-if "--check" in arguments:
+def end_as_planned(method):
+    """Ends as the plan's line `METHOD CODE LINES` says, else well."""
     for line in plan:
         word, *rest = line.split(" ", 2)
-        if word == "check_fails":
+        if word == method:
             print(rest[1].replace("|", "\n"), file=sys.stderr)
             sys.exit(int(rest[0]))
     sys.exit(0)
 
+
+if "--print-case" in arguments:
+    sections = (pathlib.Path(case) / "case.toml").read_text()
+    for away in (a.removeprefix("--set=").removesuffix("=false") for a in arguments if a.endswith("=false")):
+        sections = sections.replace(f"[{away}]\n", "")
+    if not any(line.startswith("print_fails") for line in plan):
+        print(sections)
+    end_as_planned("print_fails")
+if "--check" in arguments:
+    end_as_planned("check_fails")
+
+out = pathlib.Path(next(a.removeprefix("--out=") for a in arguments if a.startswith("--out=")))
 (out / f"{me.name}.pid").write_text(str(os.getpid()))
 (out / f"{me.name}.arguments").write_text("\n".join([case, *arguments]))
 for line in plan:

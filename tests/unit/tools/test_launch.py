@@ -11,7 +11,6 @@ import time
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
-TOOLS = HERE.parents[2] / "tools"
 CASE = '[case]\ntitle = "test"\n'
 NAMES = ("coupler", "fluid_solver", "solid_solver")
 
@@ -42,7 +41,7 @@ class Launch(unittest.TestCase):
         path.chmod(0o755)
 
     def command(self, *options):
-        return [sys.executable, str(TOOLS / "launch.py"), str(self.case), "--bin", str(self.bin), "--out",
+        return [sys.executable, "-m", "toryu.launch", str(self.case), "--bin", str(self.bin), "--out",
                 str(self.out), *options]
 
     def launch(self, *options):
@@ -135,7 +134,7 @@ class BadInput(Launch):
 
     def test_a_case_that_is_no_toml_is_left_to_the_coupler_to_tell(self):
         self.write_case("[fluid\n")
-        self.plan(coupler="check_fails 2 c.toml:3:7: error: no bracket", fluid="check_fails 2 not asked")
+        self.plan(coupler="print_fails 2 c.toml:3:7: error: no bracket", fluid="check_fails 2 not asked")
         done = self.launch()
         self.assertEqual((done.returncode, done.stderr), (2, "c.toml:3:7: error: no bracket\n"))
 

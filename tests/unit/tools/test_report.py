@@ -4,23 +4,22 @@ import base64
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import zlib
 
 import h5py
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-REPORT = HERE.parents[2] / "tools/report"
-sys.path[:0] = [str(HERE), str(REPORT), str(REPORT.parent)]
+from toryu.report import data, frames, scene, tables
+from toryu.report.__main__ import page as make_page
+from toryu_testing import made_up_run
 
-import data  # noqa: E402
-import made_up_run  # noqa: E402
-import scene  # noqa: E402
-import tables  # noqa: E402
+FAKE_COUPLER = pathlib.Path(made_up_run.__file__).parent / "fake_coupler.sh"
 
 
 class Page(unittest.TestCase):
@@ -34,7 +33,7 @@ class Page(unittest.TestCase):
         made_up_run.make_results(self.out, sides, **results)
 
     def page(self, *options):
-        subprocess.run(["/usr/bin/python3", REPORT, self.out, "--case", self.case, *options], check=True,
+        subprocess.run([sys.executable, "-m", "toryu.report", self.out, "--case", self.case, *options], check=True,
                        stdout=subprocess.DEVNULL)
         return (self.out / "report.html").read_text()
 
@@ -119,15 +118,20 @@ class Page(unittest.TestCase):
         self.assertEqual(self.content(page)["bodies"], [])
         self.assertIn("Ended by a bug", page)
 
+    def test_without_a_used_case_the_coupler_prints_it(self):
+        made_up_run.make_case(self.case)
+        made_up_run.make_results(self.out, frames=2)
+        (self.out / "used_case.toml").unlink()
+        (self.out.parent / "bin").mkdir()
+        shutil.copy(FAKE_COUPLER, self.out.parent / "bin/coupler")
+        content = self.content(self.page("--bin", self.out.parent / "bin"))
+        self.assertEqual([wall["name"] for wall in content["walls"]], ["floor", "piston"])
+        self.assertEqual(len(content["compared"]), 1)
+
     def test_too_many_particles_are_shown_in_fewer_frames(self):
         self.make(frames=9)
-        text = ("import sys, pathlib; sys.argv = ['report', *sys.argv[1:]]\n"
-                f"sys.path[:0] = [{str(REPORT)!r}, {str(REPORT.parent)!r}]\n"
-                "import frames, runpy; frames.SIZE_LIMIT = 1.2e5\n"
-                f"runpy.run_path({str(REPORT / '__main__.py')!r}, run_name='__main__')")
-        subprocess.run(["/usr/bin/python3", "-c", text, self.out, "--case", self.case], check=True,
-                       stdout=subprocess.DEVNULL)
-        page = (self.out / "report.html").read_text()
+        with unittest.mock.patch.object(frames, "SIZE_LIMIT", 1.2e5):
+            page = make_page(self.case, self.out, coupler=None, exit_code=None, words="")
         times = self.content(page)["bodies"][0]["times"]
         self.assertLess(len(times), 9)
         self.assertEqual((times[0], times[-1]), (0, 0.4))

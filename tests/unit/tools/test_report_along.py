@@ -13,14 +13,8 @@ import zlib
 import h5py
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-REPORT = HERE.parents[2] / "tools/report"
-sys.path[:0] = [str(HERE), str(REPORT), str(REPORT.parent)]
-
-import along  # noqa: E402
-import data  # noqa: E402
-import made_up_channel as channel  # noqa: E402
-import scene  # noqa: E402
+from toryu.report import along, data, scene
+from toryu_testing import made_up_channel as channel
 
 
 def decoded(text):
@@ -39,7 +33,7 @@ class Page(unittest.TestCase):
         channel.make_results(self.out, elastic, frames=5)
 
     def page(self):
-        subprocess.run(["/usr/bin/python3", REPORT, self.out, "--case", self.case], check=True,
+        subprocess.run([sys.executable, "-m", "toryu.report", self.out, "--case", self.case], check=True,
                        stdout=subprocess.DEVNULL)
         return (self.out / "report.html").read_text()
 

@@ -2,16 +2,15 @@
 
 import math
 import pathlib
-import sys
 import tempfile
+import tomllib
 import unittest
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[2] / "tools")]
+from toryu import results, summary_text
+from toryu_testing import made_up_run
 
-import made_up_run  # noqa: E402
-import results  # noqa: E402
-import summary_text  # noqa: E402
+FAKE_COUPLER = pathlib.Path(made_up_run.__file__).parent / "fake_coupler.sh"
+CONTENT = tomllib.loads(made_up_run.case_text(("fluid", "solid")))
 
 
 class Figures(unittest.TestCase):
@@ -34,19 +33,17 @@ class Figures(unittest.TestCase):
 
 
 class Cases(unittest.TestCase):
-    def test_a_case_says_only_in_what_it_differs_from_its_base(self):
+    def test_a_case_is_what_the_program_prints(self):
         with tempfile.TemporaryDirectory() as folder:
-            folder = pathlib.Path(folder)
-            (folder / "case.toml").write_text(
-                "[fluid]\ndensity = 1\nspacing = 2\n[solid]\n[[wall]]\nname = 'a'\nheat = 3\n[[wall]]\nname = 'b'\n"
-                "[[hole]]\nsize = 1\n")
-            other = folder / "other.toml"
-            other.write_text("base = 'case.toml'\nsolid = false\n[fluid]\nspacing = 4\n[[wall]]\nname = 'a'\nage = 5\n"
-                             "[[wall]]\nname = 'c'\n[[hole]]\nsize = 2\n")
-            self.assertEqual(results.case_content(other), {
-                "fluid": {"density": 1, "spacing": 4}, "solid": False,
-                "wall": [{"name": "a", "heat": 3, "age": 5}, {"name": "b"}, {"name": "c"}],
-                "hole": [{"size": 1}, {"size": 2}]})
+            case = pathlib.Path(folder) / "case.toml"
+            case.write_text("[fluid]\nspacing = 4\n")
+            self.assertEqual(results.case_content(case, FAKE_COUPLER), {"fluid": {"spacing": 4}})
+            case.write_text("read once only")
+            self.assertEqual(results.case_content(case, FAKE_COUPLER), {"fluid": {"spacing": 4}})
+
+    def test_what_the_program_says_of_a_bad_case_is_told(self):
+        with self.assertRaisesRegex(results.BadCase, "absent: No such file"):
+            results.case_content("absent", FAKE_COUPLER)
 
 
 class Files(unittest.TestCase):
@@ -72,7 +69,7 @@ class Files(unittest.TestCase):
 
     def test_the_summary_of_a_run(self):
         made_up_run.make_results(self.out, frames=2)
-        text = summary_text.of_run(self.case, self.out)
+        text = summary_text.of_run(self.case, CONTENT, self.out)
         self.assertIn("peak tip displacement x", text)
         self.assertIn("40 mm at 0.15 s", text)
         # The reference is 1.1 times the plate's path: the rms of 0.1/1.1 path, as a share of its largest sample.
@@ -88,12 +85,12 @@ class Files(unittest.TestCase):
         summary = self.out / "solid_summary.toml"
         summary.write_text(summary.read_text().replace(
             "[figures]\n", '[figures]\n"torn_bonds" = 16.0\n"clumped_bonds" = 0.0\n'))
-        text = summary_text.of_run(self.case, self.out)
+        text = summary_text.of_run(self.case, CONTENT, self.out)
         self.assertRegex(text, r"WARNING +the solid has torn: up to 16 pairs of adjacent particles; see log.txt")
         self.assertNotIn("clumped", text)
 
     def test_a_run_that_left_nothing_has_an_empty_summary(self):
-        self.assertEqual(summary_text.of_run(self.case, self.out), "")
+        self.assertEqual(summary_text.of_run(self.case, CONTENT, self.out), "")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from study_case import TWO_AXES, Study
+from toryu_testing.study_case import TWO_AXES, Study
 
 
 class Runs(Study):

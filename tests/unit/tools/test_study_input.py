@@ -2,7 +2,7 @@
 
 import unittest
 
-from study_case import HEAD, TWO_AXES, Study
+from toryu_testing.study_case import HEAD, TWO_AXES, Study
 
 
 class BadInput(Study):

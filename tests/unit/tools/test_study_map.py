@@ -1,15 +1,11 @@
 """Maps of a study: where runs fail, found by bisection."""
 
 import math
-import sys
 import unittest
 from types import SimpleNamespace
 
-from study_case import HEAD, TOOLS, Study
-
-sys.path[:0] = [str(TOOLS), str(TOOLS / "report"), str(TOOLS / "study")]
-
-import bisection  # noqa: E402
+from toryu.study import bisection
+from toryu_testing.study_case import HEAD, Study
 
 MAP = """
 [[axis]]

@@ -4,7 +4,7 @@ import math
 import pathlib
 import unittest
 
-from study_case import TWO_AXES, Study
+from toryu_testing.study_case import TWO_AXES, Study
 
 
 class Results(Study):

@@ -2,7 +2,7 @@
 
 import unittest
 
-from study_case import Study
+from toryu_testing.study_case import Study
 
 TERMS = """
 [timing]

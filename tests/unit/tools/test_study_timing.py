@@ -2,17 +2,12 @@
 
 import json
 import math
-import sys
 import unittest
 from types import SimpleNamespace
 
-from study_case import TOOLS, Study
-
-sys.path[:0] = [str(TOOLS), str(TOOLS / "report"), str(TOOLS / "study")]
-
-import oscillation  # noqa: E402
-import speed_accuracy  # noqa: E402
-from formula import BadFormula, Formula  # noqa: E402
+from toryu.study import oscillation, speed_accuracy
+from toryu.study.formula import BadFormula, Formula
+from toryu_testing.study_case import Study
 
 SPEED = """
 [timing]

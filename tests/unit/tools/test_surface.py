@@ -1,16 +1,11 @@
 """Contours of work pieces whose surfaces are known."""
 
-import pathlib
-import sys
 import unittest
 
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[2] / "tools")]
-
-import made_up_surface  # noqa: E402
-import surface  # noqa: E402
+from toryu import surface
+from toryu_testing import made_up_surface
 
 
 class Column:

@@ -1,0 +1,1 @@
+"""What several folders of tests share: starting the programs, made-up results, stand-ins."""

@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+"""Stands for fluid_solver in the tests of studies: leaves the results of a made-up process in the time it is told.
+Every start of a run is written into `starts.txt` beside it. What an overridden key does:
+
+    fluid.x, fluid.y     the series: speed[m/s] = x + y t; any other key under fluid is an error
+    fluid.seconds        how long the run takes
+    fluid.fails          ends with that exit code
+    fluid.step, fluid.k  an explicit oscillator: fails at 0.5 s if step * sqrt(k) is above 2; its energy grows above 1
+    fluid.islands        but not if the step is at least that
+    fluid.hangs          does not end by itself if above 0
+    fluid.cost           processor time [s] that the summary states
+    fluid.error          of the displacement's period, which is 1 s without; it loses a tenth of its amplitude a second
+    fluid.removes        a surface.h5 from which that depth [m] comes off in each cycle of 1 s, twice that at the corners
+"""
+
+import math
+import pathlib
+import signal
+import sys
+import time
+
+KEYS = {"fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
+        "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.cost": 0.25, "fluid.error": 0.0}
+HERE = pathlib.Path(__file__).resolve().parent
+case, arguments = sys.argv[1], sys.argv[2:]
+if case == "--version":
+    print("fluid_solver of toryu 0.1.0 (commit 0123456789ab)")
+    sys.exit(0)
+values, faults = dict(KEYS), []
+for pair in (a.removeprefix("--set=") for a in arguments if a.startswith("--set=")):
+    key, _, value = pair.partition("=")
+    if key in KEYS:
+        values[key] = float(value)
+    elif not key.startswith(("case.", "wall.")):
+        faults.append(f"--set {pair}: error: unknown key '{key.removeprefix('fluid.')}' in [fluid]")
+if faults:
+    print(*faults, sep="\n", file=sys.stderr)
+    sys.exit(2)
+if "--check" in arguments:
+    sys.exit(0)
+
+signal.signal(signal.SIGINT, lambda *_: sys.exit(130))
+out = pathlib.Path(next(a.removeprefix("--out=") for a in arguments if a.startswith("--out=")))
+with open(HERE / "starts.txt", "a") as starts:
+    starts.write(out.name + "\n")
+(out / "half.txt").write_text("a run that ends here is half done")
+time.sleep(values["fluid.seconds"])
+while values["fluid.hangs"]:
+    time.sleep(1)
+code = int(values["fluid.fails"])
+speed = values["fluid.step"] * math.sqrt(values["fluid.k"]) if values["fluid.step"] < values["fluid.islands"] else 0
+code = 3 if speed > 2 else code
+
+END = 3.0
+times = [END * k / 300 for k in range(301)]
+rows = [f"{t},{values['fluid.x'] + values['fluid.y'] * t},0,{300 * values['fluid.x'] * min(t, 1.5)},"
+        f"{0.9 ** t * math.sin(2 * math.pi * t / (1 + values['fluid.error']))},{1 + (10 * t if speed > 1 else 0)}"
+        for t in times]
+(out / "fluid.csv").write_text("time[s],speed[m/s],force_from_piston_x[N/m],force_from_piston_y[N/m],swing[m],energy[J]\n" + "\n".join(rows))
+(out / "used_case.toml").write_text('[[wall]]\nname = "piston"\nmotion = { time = 0.5 }\n'
+                                  '[fluid.removal]\nroughness = { initial = 2e-6, final = 5e-7, decay_depth = 1e-5 }\n')
+(out / "fluid_summary.toml").write_text(f"""participant = "fluid"
+exit_code = {code}
+last_words = "{'particle 7 left the domain' if code else ''}"
+simulated_time = {0.5 if code else END}
+wall_time = 0.5
+waiting_time = 0.0
+processor_time = {values['fluid.cost']}
+steps = 300
+smallest_time_step = 1e-3
+largest_time_step = 1e-3
+time_step_rule = "acoustic"
+[figures]
+largest_speed = {values['fluid.x'] * 3}
+[provenance]
+cpu = "a made-up processor"
+compiler = "GNU 12.2.0"
+""")
+if values["fluid.removes"]:
+    from toryu_testing import made_up_surface  # imports h5py, which takes its time
+    made_up_surface.write(out / "surface.h5", times, values["fluid.removes"])
+if code:
+    print("fluid_solver: error: particle 7 left the domain", file=sys.stderr)
+sys.exit(code)

@@ -1,0 +1,97 @@
+"""Starts the three processes of a coupled run, waits for them with limits, and leaves none behind."""
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+
+CASE = pathlib.Path(__file__).resolve().parent.parent / "participants" / "strip"
+ROLES = ("coupler", "fluid", "solid")
+COUPLED_ENVIRONMENT = {"OMP_WAIT_POLICY": "passive"}  # as in a run: who waits leaves the core to the others
+FOREVER = "1e6"  # seconds of simulated time: the test ends such a run
+
+
+class Trio:
+    """A coupled run in a results folder of its own. `programs` maps a role to an executable."""
+
+    def __init__(self, programs, case=CASE, end_time=FOREVER, settings=()):
+        self.programs, self.case, self.end_time, self.settings = programs, case, end_time, list(settings)
+        self.out = pathlib.Path(tempfile.mkdtemp(prefix="toryu_"))
+        self.processes = {}
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for process in self.processes.values():
+            if process.poll() is None:
+                process.kill()
+                process.wait()
+        shutil.rmtree(self.out, ignore_errors=True)
+
+    def start(self, role, name=None, extra=(), environment={}):
+        """Starts the program of a role; `name` tells two of one role apart."""
+        command = [self.programs[role], self.case, "--out", self.out, "--end-time", self.end_time]
+        for setting in self.settings:
+            command += ["--set", setting]
+        errors = open(self.out / f"{name or role}.err", "w")
+        with errors:
+            self.processes[name or role] = subprocess.Popen(
+                [str(word) for word in command + list(extra)], stdout=errors, stderr=errors,
+                env=os.environ | COUPLED_ENVIRONMENT | environment)
+        return self
+
+    def start_all(self):
+        for role in ROLES:
+            self.start(role)
+        return self
+
+    def signal(self, name, number):
+        self.processes[name].send_signal(number)
+
+    def kill(self, name):
+        self.signal(name, signal.SIGKILL)
+        self.processes[name].wait()
+
+    def wait(self, name, limit):
+        """The exit code; raises subprocess.TimeoutExpired if the process does not end within the limit."""
+        return self.processes[name].wait(limit)
+
+    def ending_of(self, name, limit):
+        """Exit code and what the process said on standard error."""
+        code = self.wait(name, limit)
+        return code, (self.out / f"{name}.err").read_text()
+
+    def wait_for_log(self, pattern, limit):
+        """Returns when a line of the common log matches the regular expression."""
+        end = time.monotonic() + limit
+        log = self.out / "log.txt"
+        while not (log.exists() and re.search(pattern, log.read_text())):
+            if time.monotonic() > end:
+                raise AssertionError(f"'{pattern}' does not come in the log")
+            time.sleep(0.05)
+
+    def windows(self):
+        """The last window in coupler.csv so far, 0 if there is none yet."""
+        for path in (self.out / "coupler.csv", self.out / "coupler.csv.part"):
+            if path.exists():
+                lines = [line for line in path.read_text().splitlines() if line]
+                if len(lines) > 1 and lines[-1].count(",") == lines[0].count(","):
+                    column = lines[0].split(",").index("window[1]")
+                    return float(lines[-1].split(",")[column])
+        return 0
+
+    def wait_until_running(self, beyond=0, limit=30):
+        """Returns when windows beyond the given one have passed."""
+        end = time.monotonic() + limit
+        while self.windows() <= beyond:
+            for role in ROLES:
+                if role in self.processes and self.processes[role].poll() is not None:
+                    raise AssertionError("%s ended with %d: %s" % (role, *self.ending_of(role, 0)))
+            if time.monotonic() > end:
+                raise AssertionError("no window passes")
+            time.sleep(0.05)
+        return self

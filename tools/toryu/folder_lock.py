@@ -1,0 +1,29 @@
+"""The lock of a results folder: what two runs write into one folder would mix."""
+
+import contextlib
+import fcntl
+import time
+
+POLL = 0.05  # [s]
+
+
+class FolderTaken(Exception):
+    """Another process holds the folder."""
+
+
+@contextlib.contextmanager
+def lock_folder(folder, name, patience=0.0):
+    """Holds `folder`, which is made if need be, by a lock on its file `name`; waits `patience` [s] for another to let
+    go. The system frees the lock if the process dies."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with open(folder / name, "w") as lock:
+        end = time.monotonic() + patience
+        while True:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            except BlockingIOError:
+                if time.monotonic() >= end:
+                    raise FolderTaken(folder) from None
+            time.sleep(POLL)
+        yield

@@ -1,0 +1,1 @@
+"""Studies: a case over axes, to a table, charts and a page."""

@@ -1,0 +1,168 @@
+"""Runs a study: all its runs, then table, charts and page.
+
+    python3 -m toryu.study STUDY.toml [options]
+"""
+
+import argparse
+import math
+import os
+import pathlib
+import sys
+import time
+
+from toryu import PROGRAMS
+from toryu.processes import BAD_INPUT, BUG, DONE
+from toryu.study import (bisection, charts, checks, map_file, page, removal, runner, study_file, table, terms, timing,
+                         verdicts)
+from toryu.study.document import BadStudy
+from toryu.study.progress import Progress, duration
+from toryu.study.settings import Maker, settings
+
+VIEWS = [study_file.View("removal", removal.read), study_file.View("map", map_file.read, map_file.add_axes),
+         study_file.View("terms", terms.read, terms.add_axes)]
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(
+        prog="run.sh", allow_abbrev=False, description="Runs a study: a case over the axes that its file names. Runs "
+        "that are done are kept, so the same command goes on where it was stopped.",
+        epilog="Exit codes: 0 done (runs whose physics failed are results), 1 done but a run of a map hung, 2 bad input, "
+               "130 interrupted, else that of the run that ended the study.")
+    parser.add_argument("study", metavar="STUDY.toml", type=pathlib.Path)
+    parser.add_argument("--out", metavar="DIR", type=pathlib.Path, help="results folder; default out/<case>_<study>")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[],
+                        help="another value for a key of the case in every run; repeatable")
+    parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time; default: as many as fit the cores, one if "
+                        "the study has [timing]")
+    parser.add_argument("--threads", metavar="N", type=int, default=1, help="threads of each run; default 1")
+    parser.add_argument("--small", action="store_true", help="the small version that the study's table [small] describes")
+    parser.add_argument("--check", action="store_true", help="only check the study and what it sets in the case")
+    parser.add_argument("--list", action="store_true", help="list the runs, and which are done")
+    parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path, help=argparse.SUPPRESS)
+    options = parser.parse_args(arguments)
+    cores = len(os.sched_getaffinity(0))
+    for name, value in (("jobs", options.jobs), ("threads", options.threads)):
+        if value is not None and value < 1:
+            raise BadStudy(f"--{name} {value}: error: must be an integer of at least 1")
+    for pair in options.set:
+        if "=" not in pair:
+            raise BadStudy(f"--set {pair}: error: expected section.key=value")
+    options.cores = cores
+    return options
+
+
+def jobs_at_a_time(study, options):
+    if study.timing is None:
+        return options.jobs or max(1, options.cores // options.threads)
+    if options.jobs not in (None, 1):
+        raise BadStudy(f"--jobs {options.jobs}: error: a study with [timing] runs one run at a time")
+    return 1
+
+
+def list_runs(all_settings, done):
+    for setting in all_settings:
+        record = done.get(setting.key)
+        state = "to do" if record is None else "done" if record.exit_code == DONE else "physics failed"
+        print(f"{setting.key}  {state:14}  {setting}")
+
+
+def run(options):
+    study = study_file.read(options.study, options.bin / "coupler", VIEWS, options.small)
+    out = options.out or pathlib.Path("out") / study.name
+    programs = checks.programs(study, options.bin)
+    make = Maker(study, options.set, checks.identity(programs), f"{options.threads} threads" if study.timing else None)
+    runs = runner.Runner(study, out, options.bin, jobs_at_a_time(study, options), options.threads, Progress())
+    known, done = known_runs(study, make, runs)
+    if options.list:
+        list_runs(known, done)
+        if study.bisects:
+            print(f"at most {bisection.most_runs(study, make)} runs: where the next ones lie depends on these")
+        return DONE
+    checks.settings(study, runs, [s for s in known if s.key not in done], options.set)
+    if options.check:
+        print(f"{study.path}: no errors; {number_of_runs(study, make, known)} runs, {len(done)} of them done")
+        return DONE
+    begin = time.monotonic()
+    with runner.hold(out):
+        records = search(study, make, runs) if study.bisects else all_runs(study, known, runs)
+        finish(study, records, out, len(done), time.monotonic() - begin, checks.versions(programs))
+    return BUG if any(record.exit_code == runner.HUNG for record in records) else DONE
+
+
+def number_of_runs(study, make, known):
+    return f"at most {bisection.most_runs(study, make)}" if study.bisects else len(known)
+
+
+def search(study, make, run):
+    return bisection.search(study, make, lambda record: verdicts.judge_alone(study, record), run)
+
+
+def all_runs(study, every, run):
+    """The records of a study whose settings are known beforehand, but for the repetitions that a slow run is spared."""
+    if study.timing is None or math.isinf(study.timing.repeat_below):
+        return run(every)
+    first = run([setting for setting in every if setting.repetition == 0])
+    chosen = timing.repeated(study.timing, every, {record.setting.key: record for record in first})
+    again = [setting for setting in chosen if setting.repetition > 0]
+    return first + (run(again) if again else [])
+
+
+def known_runs(study, make, runs):
+    """The settings that are known before anything runs, and the records of those that are done."""
+    if not study.bisects:
+        every = settings(study, make)
+        done = runs.done(every)
+        chosen = timing.repeated(study.timing, every, done) if study.timing else every
+        return chosen, {s.key: done[s.key] for s in chosen if s.key in done}
+    seen, done = [], {}
+
+    def look(wave):
+        seen.extend(wave)
+        records = runs.done(wave)
+        done.update(records)
+        return [records[s.key] for s in wave] if len(records) == len(wave) else None
+
+    search(study, make, look)
+    return seen, done
+
+
+def finish(study, records, out, kept, elapsed, versions):
+    """Table, charts, page and the last words."""
+    views = [view for kind in VIEWS if (view := getattr(study, kind.key))]
+    if study.bisects:
+        study.map.y.take_all_values(records)
+    made = table.build(study, records, views)
+    table.write(made, out / "table.csv")
+    folder = out / "charts"
+    folder.mkdir(exist_ok=True)
+    drawn = charts.draw(study, made, folder)
+    drawn = [chart for view in views for chart in view.charts(study, made, folder)] + drawn
+    answers = [answer for view in views for answer in view.answers(study, made, out)] + charts.answers(study, made)
+    page.write(out / "study.html", study, made, records, drawn, answers, versions)
+    failed = sum(record.exit_code != DONE for record in records)
+    print(f"{len(records)} runs" + (f", {failed} of them ended by their physics" if failed else "") +
+          (f"; {kept} were done before" if kept else "") + f"; {duration(elapsed)}")
+    if study.timing:
+        print(timing.sentence(study.timing, records))
+    for metric in study.metrics:
+        if not any(math.isfinite(value) for value in made.column(metric.name)):
+            print(f"no run gives '{metric.name}'")
+    for answer in answers:
+        print(answer.sentence)
+    for name in ("table.csv", "charts", "study.html"):
+        print(f"{name.partition('.')[0]:7} {out / name}")
+
+
+def main(arguments):
+    try:
+        return run(parse(arguments))
+    except BadStudy as error:
+        print(error, file=sys.stderr)
+        return BAD_INPUT
+    except runner.Ended as end:
+        print(end, file=sys.stderr)
+        return end.code
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

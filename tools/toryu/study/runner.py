@@ -1,0 +1,208 @@
+"""The runs of a study: several at a time, each as a user would start it. What is done stays and is never repeated."""
+
+import contextlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import sys
+import time
+from dataclasses import asdict, dataclass, field
+
+from toryu import results
+from toryu.folder_lock import FolderTaken, lock_folder
+from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, start
+from toryu.study import timing
+
+RECORD = "run.json"  # in the folder of a run that is done: without it the run is started afresh
+KEPT = ("exit_code", "cause", "elapsed", "threads", "jobs", "loops")  # of a Record, in its file
+OUTPUT = "output.txt"  # what the run printed
+POLL = 0.05  # [s]
+HUNG = 124  # in the place of an exit code: the run was ended because it took longer than it may
+
+
+class Ended(Exception):
+    """The study ends before its last run: exit code and words."""
+
+    def __init__(self, code, words):
+        super().__init__(words)
+        self.code = code
+
+
+@dataclass
+class Record:
+    """A run that is done."""
+
+    setting: object
+    folder: pathlib.Path
+    exit_code: int
+    cause: str  # why it failed, "" if it did not
+    elapsed: float  # [s] of the launcher, the check included
+    threads: int
+    jobs: int  # that were allowed beside each other, itself included
+    loops: list[dict] = field(default_factory=list)  # the reference loop before and after it, as timing.Loop
+
+
+def read_record(folder, setting):
+    """The record of the run in `folder`, or None."""
+    try:
+        content = json.loads((folder / RECORD).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return Record(setting, folder, **{name: content[name] for name in KEPT if name in content})
+
+
+def write_record(record):
+    setting = record.setting
+    content = {"values": setting.values, "set": setting.overrides} | {
+        name: getattr(record, name) for name in KEPT}
+    part = record.folder / (RECORD + ".part")
+    part.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    os.replace(part, record.folder / RECORD)
+
+
+def hold(out):
+    """Holds the study's folder: the same study is not run twice at once."""
+    held = contextlib.ExitStack()
+    try:
+        held.enter_context(lock_folder(out, "study.lock"))
+        (out / "runs").mkdir(exist_ok=True)
+    except FolderTaken:
+        raise Ended(BAD_INPUT, f"{out}: error: this study is being run already; wait for it or give --out another folder")
+    except OSError as error:
+        raise Ended(BAD_INPUT, f"--out {out}: error: no results can be written there: {error.strerror}")
+    return held
+
+
+def clear(folder):
+    """Removes a run that was left half done. Its launcher may still be ending: it holds the folder's lock."""
+    try:
+        with lock_folder(folder, "launch.lock", PATIENCE + LAST_PATIENCE):
+            shutil.rmtree(folder, ignore_errors=True)
+    except FolderTaken:
+        raise Ended(BAD_INPUT, f"{folder}: error: another run writes its results here")
+
+
+def cause_of(folder, code):
+    """Why a run ended so: the last words of who failed, else the errors that were printed."""
+    words = [s["last_words"] for s in results.read_summaries(folder).values()
+             if s.get("exit_code") == code and s.get("last_words")]
+    printed = (folder / OUTPUT).read_text(encoding="utf-8", errors="replace").splitlines()
+    return "; ".join(dict.fromkeys(words or [line.strip() for line in printed if re.search(r"\berror\b", line)]
+                                   or printed[-1:]))
+
+
+def reached(folder):
+    """The last time [s] in any series of a run, 0 if there is none."""
+    series = [results.read_series(folder, name).get("time[s]", []) for name in results.PARTICIPANTS]
+    return max((times[-1] for times in series if times), default=0.0)
+
+
+class Runner:
+    """Runs the settings that are not done yet, at most `jobs` at a time."""
+
+    def __init__(self, study, out, bin_folder, jobs, threads, progress):
+        self.study, self.out, self.bin, self.jobs, self.threads = study, out, bin_folder, jobs, threads
+        self.progress = progress
+        self.time_limit = study.map.time_limit if study.map else None  # [s] by the clock
+        self.verdicts = {DONE, PHYSICS_FAILED} | ({BAD_INPUT} if study.map else set())  # exit codes that are results
+        self.running = {}  # process -> (setting, folder, start)
+        self.overdue = set()  # processes that were asked to end at the time limit
+        self.loops = {}  # setting key -> the reference loop before its run
+        self.interruptions = 0
+
+    def folder(self, setting):
+        return self.out / "runs" / setting.key
+
+    def done(self, settings):
+        """setting key -> record of those that are done."""
+        records = {s.key: read_record(self.folder(s), s) for s in settings}
+        return {key: record for key, record in records.items() if record}
+
+    def __call__(self, settings):
+        """All records, in the order of the settings; raises Ended if a run shows that the study cannot go on."""
+        records = self.done(settings)
+        waiting = [s for s in settings if s.key not in records]
+        self.progress.begin(len(settings), [r.elapsed for r in records.values()], self.jobs)
+        old = {n: signal.signal(n, self._interrupted) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+        try:
+            while waiting or self.running:
+                if self.interruptions and not self.running:
+                    break
+                while waiting and len(self.running) < self.jobs and not self.interruptions:
+                    self._start(waiting.pop(0))
+                time.sleep(POLL)
+                self._end_overdue()
+                for record in self._ended():
+                    records[record.setting.key] = record
+                self.progress.show(len(records), [time.monotonic() - s for _, _, s in self.running.values()])
+        finally:
+            self._end_all()
+            for number, handler in old.items():
+                signal.signal(number, handler)
+            self.progress.end()
+        if self.interruptions:
+            raise Ended(INTERRUPTED, f"interrupted; {len(records)} of {len(settings)} runs are done and kept: the same "
+                                     "command goes on from there")
+        return [records[s.key] for s in settings]
+
+    def command(self, setting, *options):
+        return [sys.executable, "-m", "toryu.launch", str(self.study.case), f"--bin={self.bin}", *setting.options(), *options]
+
+    def _start(self, setting):
+        folder = self.folder(setting)
+        clear(folder)
+        folder.mkdir()
+        report = [] if self.study.keep_frames else ["--no-report"]
+        command = self.command(setting, f"--out={folder}", f"--threads={self.threads}", *report)
+        if self.study.timing:
+            self.loops[setting.key] = timing.run_loop(self.bin)
+        with open(folder / OUTPUT, "wb") as output:
+            self.running[start(command, output)] = (setting, folder, time.monotonic())
+
+    def _ended(self):
+        """Records of the runs that ended since; a failure of physics is a result, any other ends the study."""
+        for process in [p for p in self.running if p.poll() is not None]:
+            setting, folder, began = self.running.pop(process)
+            if self.interruptions:
+                continue  # how it ended says nothing
+            age = time.monotonic() - began
+            code = HUNG if process in self.overdue else process.returncode
+            cause = cause_of(folder, code) if code != DONE else ""
+            if code == HUNG:
+                cause = f"still running after {self.time_limit:g} s, at the time {reached(folder):.4g} s; ended"
+            elif code not in self.verdicts:
+                words = (folder / OUTPUT).read_text(encoding="utf-8", errors="replace").strip()
+                raise Ended(code if code > 0 else 1, f"{words}\nthe run with {setting} ended with exit code {code}: the "
+                                                     f"study stops; see {folder}")
+            record = Record(setting, folder, code, cause, age, self.threads, self.jobs)
+            if self.study.timing:
+                record.loops = [asdict(loop) for loop in (self.loops.pop(setting.key), timing.run_loop(self.bin))]
+            write_record(record)
+            yield record
+
+    def _end_overdue(self):
+        """A launcher that is asked to end kills its processes if they do not."""
+        for process, (_, _, began) in self.running.items():
+            if self.time_limit and process not in self.overdue and time.monotonic() - began > self.time_limit:
+                self.overdue.add(process)
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(process.pid, signal.SIGINT)
+
+    def _interrupted(self, *_):
+        """The launchers pass the first request on and wait, the second makes them kill."""
+        self.interruptions += 1
+        self._ask()
+
+    def _ask(self):
+        for process in self.running:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process.pid, signal.SIGINT)
+
+    def _end_all(self):
+        """Ends what still runs when the study stops early."""
+        self._ask()
+        for process in self.running:
+            process.wait()
