@@ -9,14 +9,17 @@ import contextlib
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 
 from toryu import PROGRAMS, results, summary_text
 from toryu.folder_lock import FolderTaken, lock_folder
-from toryu.processes import BAD_INPUT, BUG, DONE, Run
+from toryu.processes import BAD_INPUT, BUG, DONE, Run, says_yes
+from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
+ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
 # beside other programs a spinning thread keeps the one it waits for from its core (dam break: 3 to 5 times slower).
 # A short spin first bridges the gaps within a step (gate: 13 % faster on idle cores).
@@ -27,10 +30,15 @@ def parse(arguments):
     parser = argparse.ArgumentParser(
         prog="run.sh", allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself. A file "
         "with a table [study] is a study; its options: ./run.sh STUDY.toml --help.",
-        epilog="All other options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
+        epilog="Ctrl-C asks the programs to write a last checkpoint and to end; a second one ends them at once. All other "
+               "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
                "4 a process was lost, 130 interrupted.")
     parser.add_argument("case", metavar="CASE")
-    parser.add_argument("--out", metavar="DIR", help="results folder; default out/<case name>")
+    parser.add_argument("--out", metavar="DIR", help="results folder; default out/<case name>. Results of a former run "
+                        "that are there are kept in DIR.1, DIR.2, ...")
+    parser.add_argument("--overwrite", action="store_true", help="remove the results of a former run")
+    parser.add_argument("--restart", metavar="FOLDER", nargs="?", const="", help="go on with the run in the results "
+                        "folder, or in FOLDER, from its newest checkpoint; with --end-time beyond its end")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[],
                         help="another value for a key of the case file; repeatable")
     parser.add_argument("--end-time", metavar="SECONDS")
@@ -51,8 +59,25 @@ def parse(arguments):
     for name in ("end_time", "threads", "log_level"):
         if (value := getattr(options, name)) is not None:
             options.passed_on.append(f"--{name.replace('_', '-')}={value}")
-    options.out = pathlib.Path(options.out or pathlib.Path("out") / results.case_name(options.case))
+    settle_folder(options)
     return options
+
+
+def settle_folder(options):
+    """Where the results go, or are."""
+    given, options.out = options.out, pathlib.Path(options.restart or options.out or
+                                                   pathlib.Path("out") / results.case_name(options.case))
+    if options.restart is None:
+        return
+    if options.overwrite:
+        raise SystemExit(complain("--overwrite: error: would remove what --restart goes on from; give one of them"))
+    if given and pathlib.Path(given).resolve() != options.out.resolve():
+        raise SystemExit(complain(f"--out {given}: error: the run of --restart {options.out} goes on where it is; give one "
+                                  "of them"))
+    if not newest_checkpoint(options.out):
+        raise SystemExit(complain(f"--restart: error: {options.out} holds no whole checkpoint; it holds "
+                                  f"{what_is_there(options.out)}"))
+    options.passed_on.append("--restart")
 
 
 def is_study(path):
@@ -122,6 +147,16 @@ def check(commands, show_warnings):
     return BAD_INPUT if errors else BUG
 
 
+def warn_without_checkpoints(options, guests):
+    """Asks the programs that take a solver's place whether they can write checkpoints: a run has none if one cannot."""
+    for executable in guests:
+        if says_yes([executable, "--can-checkpoint"], ANSWER_LIMIT):
+            continue
+        if options.restart is not None:
+            raise SystemExit(complain(f"--restart: error: {executable} cannot write checkpoints, so it cannot go on from one"))
+        print(f"warning: {executable} cannot write checkpoints: this run goes on without them", file=sys.stderr)
+
+
 def describe(commands):
     """The keys of all sections; a section that several programs read is shown once."""
     seen = set()
@@ -136,20 +171,38 @@ def describe(commands):
     return DONE
 
 
-def hold(out):
-    """Holds the results folder for this run. A coupler that was started by hand holds it by its own lock."""
+def hold(out, name):
+    """Holds the results folder by the lock `name`."""
     held = contextlib.ExitStack()
     try:
-        held.enter_context(lock_folder(out, "launch.lock"))
-        if (out / "coupler.lock").exists():
-            with lock_folder(out, "coupler.lock"):
-                pass
+        held.enter_context(lock_folder(out, name))
     except FolderTaken:
         raise SystemExit(complain(f"{out}: error: another run writes its results here; wait for it or give --out "
                                   "another folder"))
     except OSError as error:
         raise SystemExit(complain(f"--out {out}: error: no results can be written there: {error.strerror}"))
     return held
+
+
+def set_former_aside(options):
+    """Former results are kept beside the new ones, or removed if that was asked for."""
+    # A coupler that was started by hand holds the folder by its own lock.
+    by_hand = (options.out / "coupler.lock").exists()
+    with hold(options.out, "coupler.lock") if by_hand else contextlib.nullcontext():
+        try:
+            if options.overwrite:
+                remove_former(options.out)
+            elif words := keep_former(options.out):
+                print(words, file=sys.stderr)
+        except OSError as error:
+            done, hint = ("removed", "") if options.overwrite else ("kept beside it", "; --overwrite removes them")
+            raise SystemExit(complain(f"{options.out}: error: the former results cannot be {done}: {error}{hint}"))
+
+
+def go_on_with(arguments, options):
+    """The command that goes on with this run: the same one, but that it restarts."""
+    kept = [word for word in arguments if word != "--overwrite"] + ["--restart"] * (options.restart is None)
+    return shlex.join(["./run.sh", *kept])
 
 
 def report(options, content, code, words):
@@ -178,18 +231,22 @@ def main(arguments):
     own = {name: command for name, command in commands.items() if pathlib.Path(command[0]).parent == options.bin}
     if code := check(own, show_warnings=options.check):
         return code
+    warn_without_checkpoints(options, [command[0] for name, command in commands.items() if name not in own])
     if options.check:
         print(f"{results.case_file(options.case)}: no errors")
         return DONE
 
     # what the user has set, stays
     environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ
-    with hold(options.out):
-        results.remove_old(options.out)
+    with hold(options.out, "launch.lock"):
+        if options.restart is None:
+            set_former_aside(options)
         code, words = Run(commands, lead=next(iter(commands)), environment=environment)()
         if words:
             print(words, file=sys.stderr)
         reported = report(options, content, code, words)
+        if code not in (DONE, BAD_INPUT) and newest_checkpoint(options.out):
+            print(f"go on with: {go_on_with(arguments, options)}")
     return code or (DONE if reported else BUG)
 
 

@@ -1,5 +1,6 @@
 """The processes of a run: started together, watched together, ended together. None is ever left behind."""
 
+import contextlib
 import ctypes
 import os
 import re
@@ -11,7 +12,8 @@ import time
 from dataclasses import dataclass, field
 
 GRACE = 4.0  # [s] in which the others end by themselves after one has failed: they notice by the link
-PATIENCE = 10.0  # [s] to end in order when asked to: the last frame and the series are written
+PATIENCE = 60.0  # [s] to end in order when asked to: the last checkpoint, frame and series are written
+QUIET = 3.0  # [s] after a request to end in which nothing is said of those that have not ended yet
 LAST_PATIENCE = 3.0  # [s] between the request and the kill for those that outlived their grace
 
 # Exit codes, as in common/run/failure.hpp.
@@ -44,6 +46,23 @@ def start(command, stream, environment=None):
                             preexec_fn=end_with_the_parent)
 
 
+def says_yes(command, limit):
+    """Whether a program answers "yes" within `limit` [s]; one that does not know the question may do anything."""
+    try:
+        asked = start(command, subprocess.PIPE)
+    except OSError:
+        return False
+    try:
+        answer = asked.communicate(timeout=limit)[0]
+    except subprocess.TimeoutExpired:
+        return False
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(asked.pid, signal.SIGKILL)  # whatever it started, too
+        asked.wait()
+    return asked.returncode == DONE and b"yes" in answer.split(b"\n")
+
+
 @dataclass
 class Process:
     name: str
@@ -71,6 +90,11 @@ class Process:
         return f"was killed by signal {-self.status} ({signal.strsignal(-self.status)})"
 
 
+def tell(line):
+    """On standard error, over the progress line if there is one."""
+    print(f"\r\x1b[K{line}" if sys.stderr.isatty() else line, file=sys.stderr, flush=True)
+
+
 def weight(process):
     """Orders failures: what can only be a cause comes before what may be a consequence."""
     if process.asked_to_end:
@@ -92,6 +116,7 @@ class Run:
         self.failed = []  # in the order in which they failed
         self.interruptions = 0
         self.deadline = None  # when those that remain are asked to end, then killed
+        self.notice = None  # when it is said who has not ended since the interruption
 
     def __call__(self):
         """Runs to the end; returns the exit code of the run and what to say of it ("" if all is well)."""
@@ -116,9 +141,11 @@ class Run:
             self.selector.register(process.popen.stdout.fileno(), selectors.EVENT_READ, lambda: self._pass_on(process))
 
     def _wait(self):
-        limit = None if self.deadline is None else max(0.0, self.deadline - time.monotonic())
-        for key, _ in self.selector.select(limit):
+        limits = [limit for limit in (self.deadline, self.notice) if limit is not None]
+        for key, _ in self.selector.select(max(0.0, min(limits) - time.monotonic()) if limits else None):
             key.data()
+        if self.notice is not None and time.monotonic() >= self.notice:
+            self._tell_who_is_waited_for()
         if self.deadline is not None and time.monotonic() >= self.deadline:
             self._end_the_rest()
 
@@ -151,8 +178,15 @@ class Run:
         for line in (line.decode(errors="replace") for line in lines):
             if re.search(r"\berror\b", line, re.IGNORECASE):
                 process.held_lines.append(line)
-            else:  # over the progress line, if there is one
-                print(f"\r\x1b[K{line}" if sys.stderr.isatty() else line, file=sys.stderr)
+            else:
+                tell(line)
+
+    def _tell_who_is_waited_for(self):
+        self.notice = None
+        rest = [p.name for p in self.processes if not p.ended]
+        if rest:
+            tell(f"waiting for {', '.join(rest)} to write a last checkpoint, for {PATIENCE:.0f} s at most; Ctrl-C again "
+                 "ends them at once")
 
     def _end_the_rest(self):
         rest = [p for p in self.processes if not p.ended]
@@ -202,6 +236,7 @@ class Run:
         if self.interruptions == 1:
             self._signal(rest, signal.SIGINT)
             self.deadline = time.monotonic() + PATIENCE
+            self.notice = time.monotonic() + QUIET
         elif signal.SIGINT in numbers:  # the user insists
             self._signal(rest, signal.SIGKILL)
 

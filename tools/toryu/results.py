@@ -13,18 +13,6 @@ from dataclasses import dataclass
 from toryu.processes import DONE
 
 PARTICIPANTS = ("fluid", "solid", "coupler")
-# All that the programs and the report write into a results folder; nothing else there is ever removed.
-WRITTEN = ["used_case.toml", "log.txt", "interface.h5", "surface.h5", "detached.csv", "report.html"]
-WRITTEN += [pattern.format(p) for p in PARTICIPANTS
-            for pattern in ("{}.csv", "{}.hdf.series", "{}_summary.toml", "frames/{}_??????.hdf")]
-
-
-def remove_old(out):
-    """Removes the results of an earlier run, complete or not."""
-    for pattern in WRITTEN:
-        for name in (pattern, pattern + ".part"):
-            for path in out.glob(name):
-                path.unlink()
 
 
 def case_file(case):
@@ -70,12 +58,17 @@ def read_columns(path):
     return {name.strip(): [number(row[i]) for row in body] for i, name in enumerate(header)}
 
 
+def newest(path):
+    """`path` or, if that is newer, what a run that was killed has left of it; None if there is neither. A run that went
+    on and was killed leaves both."""
+    found = [p for p in (path, path.with_name(path.name + ".part")) if p.is_file()]
+    return max(found, key=lambda p: p.stat().st_mtime_ns, default=None)
+
+
 def read_series(out, name):
     """Columns of `NAME.csv`, or of what an ended run left of it; {} if there is none."""
-    for path in (out / f"{name}.csv", out / f"{name}.csv.part"):
-        if path.is_file():
-            return read_columns(path)
-    return {}
+    path = newest(out / f"{name}.csv")
+    return read_columns(path) if path else {}
 
 
 def read_summaries(out):

@@ -34,6 +34,20 @@ class Plan:
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: sys.exit(int(code)))
 
+    def checkpoint_when_asked(self, seconds):
+        """Takes so long for a last checkpoint, then ends."""
+        def write_and_end(*_):
+            time.sleep(float(seconds))
+            self.checkpoint("000007")
+            sys.exit(130)
+
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, write_and_end)
+
+    def checkpoint(self, number):
+        (out / "checkpoint" / number).mkdir(parents=True, exist_ok=True)
+        (out / "checkpoint" / number / "manifest.toml").touch()
+
     def ready(self):
         (out / f"{me.name}.ready").touch()
 
@@ -49,6 +63,9 @@ class Plan:
     def print_fails(self, code, *lines):
         """How `--print-case` ends."""
 
+    def answers(self, seconds, code, text):
+        """What `--can-checkpoint` says, after a while."""
+
 
 def end_as_planned(method):
     """Ends as the plan's line `METHOD CODE LINES` says, else well."""
@@ -60,6 +77,13 @@ def end_as_planned(method):
     sys.exit(0)
 
 
+if case == "--can-checkpoint":
+    (me.parent / "asked").touch()
+    for seconds, code, text in (line.split(" ")[1:] for line in plan if line.startswith("answers ")):
+        time.sleep(float(seconds))
+        print(text)
+        sys.exit(int(code))
+    sys.exit(2)
 if "--print-case" in arguments:
     sections = (pathlib.Path(case) / "case.toml").read_text()
     for away in (a.removeprefix("--set=").removesuffix("=false") for a in arguments if a.endswith("=false")):

@@ -4,6 +4,7 @@
 import h5py
 import numpy as np
 
+from toryu import results
 from toryu.report import data, frames
 
 # What can be drawn: label, dataset, unit, and how it is taken over the time between two frames.
@@ -19,7 +20,7 @@ QUANTITIES = [
 
 def read(out):
     """The open surface.h5 of a run, or None."""
-    path = next((p for p in (out / "surface.h5", out / "surface.h5.part") if p.is_file()), None)
+    path = results.newest(out / "surface.h5")
     try:
         return path and h5py.File(path)
     except OSError:  # of a run that was killed

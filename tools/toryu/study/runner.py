@@ -14,9 +14,10 @@ from dataclasses import asdict, dataclass, field
 from toryu import results
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, start
+from toryu.results_folder import newest_checkpoint
 from toryu.study import timing
 
-RECORD = "run.json"  # in the folder of a run that is done: without it the run is started afresh
+RECORD = "run.json"  # in the folder of a run that is done: without it the run goes on or starts afresh
 KEPT = ("exit_code", "cause", "elapsed", "threads", "jobs", "loops")  # of a Record, in its file
 OUTPUT = "output.txt"  # what the run printed
 POLL = 0.05  # [s]
@@ -76,13 +77,18 @@ def hold(out):
     return held
 
 
-def clear(folder):
-    """Removes a run that was left half done. Its launcher may still be ending: it holds the folder's lock."""
+def prepare(folder, may_go_on):
+    """Makes the folder of a run ready; returns whether a run that was left half done goes on there from a checkpoint,
+    else removes it. Its launcher may still be ending: it holds the folder's lock."""
     try:
         with lock_folder(folder, "launch.lock", PATIENCE + LAST_PATIENCE):
+            if may_go_on and newest_checkpoint(folder):
+                return True
             shutil.rmtree(folder, ignore_errors=True)
     except FolderTaken:
         raise Ended(BAD_INPUT, f"{folder}: error: another run writes its results here")
+    folder.mkdir()
+    return False
 
 
 def cause_of(folder, code):
@@ -100,6 +106,16 @@ def reached(folder):
     return max((times[-1] for times in series if times), default=0.0)
 
 
+@dataclass
+class Running:
+    """A run that has not ended yet."""
+
+    setting: object
+    folder: pathlib.Path
+    began: float
+    goes_on: bool  # from a checkpoint
+
+
 class Runner:
     """Runs the settings that are not done yet, at most `jobs` at a time."""
 
@@ -108,7 +124,7 @@ class Runner:
         self.progress = progress
         self.time_limit = study.map.time_limit if study.map else None  # [s] by the clock
         self.verdicts = {DONE, PHYSICS_FAILED} | ({BAD_INPUT} if study.map else set())  # exit codes that are results
-        self.running = {}  # process -> (setting, folder, start)
+        self.running = {}  # process -> Running
         self.overdue = set()  # processes that were asked to end at the time limit
         self.loops = {}  # setting key -> the reference loop before its run
         self.interruptions = 0
@@ -137,7 +153,7 @@ class Runner:
                 self._end_overdue()
                 for record in self._ended():
                     records[record.setting.key] = record
-                self.progress.show(len(records), [time.monotonic() - s for _, _, s in self.running.values()])
+                self.progress.show(len(records), [time.monotonic() - r.began for r in self.running.values()])
         finally:
             self._end_all()
             for number, handler in old.items():
@@ -151,25 +167,29 @@ class Runner:
     def command(self, setting, *options):
         return [sys.executable, "-m", "toryu.launch", str(self.study.case), f"--bin={self.bin}", *setting.options(), *options]
 
-    def _start(self, setting):
+    def _start(self, setting, may_go_on=True):
+        """A run that was left half done goes on from its newest checkpoint; one whose time counts is run whole."""
         folder = self.folder(setting)
-        clear(folder)
-        folder.mkdir()
-        report = [] if self.study.keep_frames else ["--no-report"]
-        command = self.command(setting, f"--out={folder}", f"--threads={self.threads}", *report)
+        goes_on = prepare(folder, may_go_on and not self.study.timing)
+        extra = ["--restart"] * goes_on + ["--no-report"] * (not self.study.keep_frames)
+        command = self.command(setting, f"--out={folder}", f"--threads={self.threads}", *extra)
         if self.study.timing:
             self.loops[setting.key] = timing.run_loop(self.bin)
         with open(folder / OUTPUT, "wb") as output:
-            self.running[start(command, output)] = (setting, folder, time.monotonic())
+            self.running[start(command, output)] = Running(setting, folder, time.monotonic(), goes_on)
 
     def _ended(self):
         """Records of the runs that ended since; a failure of physics is a result, any other ends the study."""
         for process in [p for p in self.running if p.poll() is not None]:
-            setting, folder, began = self.running.pop(process)
+            run = self.running.pop(process)
+            setting, folder = run.setting, run.folder
             if self.interruptions:
                 continue  # how it ended says nothing
-            age = time.monotonic() - began
+            age = time.monotonic() - run.began
             code = HUNG if process in self.overdue else process.returncode
+            if code == BAD_INPUT and run.goes_on:  # its checkpoint is of no use
+                self._start(setting, may_go_on=False)
+                continue
             cause = cause_of(folder, code) if code != DONE else ""
             if code == HUNG:
                 cause = f"still running after {self.time_limit:g} s, at the time {reached(folder):.4g} s; ended"
@@ -185,8 +205,8 @@ class Runner:
 
     def _end_overdue(self):
         """A launcher that is asked to end kills its processes if they do not."""
-        for process, (_, _, began) in self.running.items():
-            if self.time_limit and process not in self.overdue and time.monotonic() - began > self.time_limit:
+        for process, run in self.running.items():
+            if self.time_limit and process not in self.overdue and time.monotonic() - run.began > self.time_limit:
                 self.overdue.add(process)
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(process.pid, signal.SIGINT)
