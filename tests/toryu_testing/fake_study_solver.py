@@ -10,6 +10,8 @@ Every start of a run is written into `starts.txt` beside it. What an overridden 
     fluid.hangs          does not end by itself if above 0
     fluid.cost           processor time [s] that the summary states
     fluid.error          of the displacement's period, which is 1 s without; it loses a tenth of its amplitude a second
+    fluid.checkpoints    writes one before it waits if above 0, a whole one if 1; restarted it does not wait
+    fluid.refuses        does not restart if above 0
     fluid.removes        a surface.h5 from which that depth [m] comes off in each cycle of 1 s, twice that at the corners
 """
 
@@ -20,7 +22,8 @@ import sys
 import time
 
 KEYS = {"fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
-        "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.cost": 0.25, "fluid.error": 0.0}
+        "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.checkpoints": 0,
+        "fluid.refuses": 0, "fluid.cost": 0.25, "fluid.error": 0.0}
 HERE = pathlib.Path(__file__).resolve().parent
 case, arguments = sys.argv[1], sys.argv[2:]
 if case == "--version":
@@ -44,7 +47,17 @@ out = pathlib.Path(next(a.removeprefix("--out=") for a in arguments if a.startsw
 with open(HERE / "starts.txt", "a") as starts:
     starts.write(out.name + "\n")
 (out / "half.txt").write_text("a run that ends here is half done")
-time.sleep(values["fluid.seconds"])
+restart = "--restart" in arguments
+if restart:
+    with open(HERE / "restarts.txt", "a") as restarts:
+        restarts.write(out.name + "\n")
+    if values["fluid.refuses"]:
+        sys.exit(2)
+elif values["fluid.checkpoints"]:
+    (out / "checkpoint/000001").mkdir(parents=True)
+    if values["fluid.checkpoints"] == 1:
+        (out / "checkpoint/000001/manifest.toml").touch()
+time.sleep(0 if restart else values["fluid.seconds"])
 while values["fluid.hangs"]:
     time.sleep(1)
 code = int(values["fluid.fails"])

@@ -64,8 +64,8 @@ class Study(unittest.TestCase):
         self.assertEqual(ended.returncode, 0, ended.stderr)
         return ended
 
-    def starts(self):
-        path = self.bin / "starts.txt"
+    def starts(self, kind="starts"):
+        path = self.bin / f"{kind}.txt"
         return path.read_text().split() if path.exists() else []
 
     def table(self, name="table.csv"):

@@ -86,6 +86,60 @@ y = "end"
         self.assertRegex(words, r"6 of 6 runs done, 0 running, 0 s left")
 
 
+class HalfDone(Study):
+    """A run that a killed study has left."""
+
+    AXES = '[[axis]]\nname = "x"\nvalues = [1, 2]\nkeys = ["fluid.x"]\n'
+
+    def kill_the_study(self, *options):
+        """While its first run waits; returns the key of that run."""
+        process = subprocess.Popen(self.command("--jobs", "1", *options), stderr=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, cwd=self.folder)
+        self.wait_for(self.starts)
+        half = self.out / "runs" / self.starts()[0]
+        self.wait_for((half / "half.txt").exists)
+        time.sleep(0.2)  # for the checkpoint
+        process.kill()
+        process.communicate()
+        (half / "left.txt").touch()
+        return half.name
+
+    def go_on(self, *settings, axes=AXES):
+        self.write(axes)
+        options = ["--set", "fluid.seconds=3", *(f"--set={setting}" for setting in settings)]
+        half = self.kill_the_study(*options)
+        self.done("--jobs", "1", *options)
+        return half
+
+    def assert_afresh(self, half):
+        self.assertEqual(self.starts().count(half), 2)
+        self.assertFalse((self.out / "runs" / half / "left.txt").exists())
+
+    def test_it_goes_on_from_its_checkpoint(self):
+        half = self.go_on("fluid.checkpoints=1")
+        self.assertEqual(self.starts("restarts"), [half])
+        self.assertTrue((self.out / "runs" / half / "left.txt").exists())
+        self.assertEqual(len(self.table()), 2)
+        self.assertEqual(list(self.out.glob("runs/*.1")), [])
+
+    def test_it_starts_afresh_without_a_whole_one(self):
+        half = self.go_on("fluid.checkpoints=2")
+        self.assertEqual(self.starts("restarts"), [])
+        self.assert_afresh(half)
+
+    def test_it_starts_afresh_if_its_time_counts(self):
+        half = self.go_on("fluid.checkpoints=1", axes=self.AXES + "[timing]\nrepeat = 1\n")
+        self.assertEqual(self.starts("restarts"), [])
+        self.assert_afresh(half)
+
+    def test_it_starts_afresh_if_the_checkpoint_is_refused(self):
+        half = self.go_on("fluid.checkpoints=1", "fluid.refuses=1")
+        self.assertEqual(self.starts("restarts"), [half])
+        self.assertEqual(self.starts().count(half), 3)
+        self.assertFalse((self.out / "runs" / half / "left.txt").exists())
+        self.assertEqual({row["exit_code"] for row in self.table()}, {"0"})
+
+
 class Stopped(Study):
     SLOW = '[[axis]]\nname = "x"\nvalues = [1, 2, 3, 4, 5, 6]\nkeys = ["fluid.x"]\n'
 
