@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from launch_case import NAMES, Launch
+from launch_case import CASE, NAMES, Launch
 
 
 class WhatIsStarted(Launch):
@@ -23,6 +23,14 @@ class WhatIsStarted(Launch):
         self.write_case("[solid]\n")
         self.assertEqual(self.launch().returncode, 0)
         self.assertEqual([p.name for p in self.out.glob("*.pid")], ["solid_solver.pid"])
+
+    def test_a_side_that_is_taken_away_does_not_start(self):
+        self.assertEqual(self.launch("--set", "solid=false").returncode, 0)
+        self.assertEqual([p.name for p in self.out.glob("*.pid")], ["fluid_solver.pid"])
+
+    def test_the_case_is_printed_by_the_coupler(self):
+        done = self.launch("--print-case", "--set", "solid=false")
+        self.assertEqual((done.returncode, done.stdout, self.pids()), (0, CASE + "[fluid]\n\n", []))
 
     def test_another_program_takes_a_side(self):
         self.fake(self.folder / "my_fluid")

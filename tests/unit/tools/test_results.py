@@ -1,6 +1,7 @@
 """Reading results back, and the figures taken from them."""
 
 import math
+import os
 import pathlib
 import tempfile
 import tomllib
@@ -66,6 +67,14 @@ class Files(unittest.TestCase):
         (self.out / "solid.csv.part").write_text("time[s],a[m]\n0,1\n")
         self.assertEqual(results.read_series(self.out, "solid"), {"time[s]": [0], "a[m]": [1]})
         self.assertEqual(results.read_series(self.out, "fluid"), {})
+
+    def test_what_a_run_that_went_on_and_was_killed_left_counts(self):
+        for name, age in (("solid.csv", 60), ("solid.csv.part", 10)):
+            (self.out / name).write_text(f"time[s]\n{age}\n")
+            os.utime(self.out / name, (1e9 - age, 1e9 - age))
+        self.assertEqual(results.read_series(self.out, "solid"), {"time[s]": [10]})
+        os.utime(self.out / "solid.csv", (1e9, 1e9))
+        self.assertEqual(results.read_series(self.out, "solid"), {"time[s]": [60]})
 
     def test_the_summary_of_a_run(self):
         made_up_run.make_results(self.out, frames=2)
