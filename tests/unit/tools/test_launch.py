@@ -88,6 +88,10 @@ class BadInput(Launch):
         done = self.launch("--solid", "/absent/solid")
         self.assertEqual((done.returncode, done.stderr),
                          (2, "/absent/solid: error: no such program, needed as solid_solver\n"))
+        (self.bin / "coupler").unlink()
+        done = self.launch()
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, f"{self.bin}/coupler: error: cannot be started: No such file or directory\n"))
 
     def test_check_alone_runs_nothing(self):
         done = self.launch("--check")

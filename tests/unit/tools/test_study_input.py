@@ -64,6 +64,12 @@ answer = { wanted_depth = 1e-6, pressure_at_most = -1 }
         self.assertEqual(faults, ["window.toml:3: error: 'case' must be a case file beside the study, found "
                                   "'absent.toml', which is no file"])
 
+    def test_a_case_that_the_coupler_cannot_read(self):
+        (self.bin / "coupler").write_text("#!/bin/sh\necho case.toml:1:1: error: not valid TOML >&2\nexit 2\n")
+        self.assertEqual(self.faults(TWO_AXES), ["case.toml:1:1: error: not valid TOML"])
+        (self.bin / "coupler").unlink()
+        self.assertEqual(self.faults(TWO_AXES), [f"{self.bin}/coupler: error: cannot be started: No such file or directory"])
+
     def test_no_toml(self):
         self.assertEqual(self.faults("[[axis]\n"), ["window.toml:4:7: error: Expected ']]' at the end of an array declaration"])
 
