@@ -7,8 +7,8 @@ from launch_case import Launch
 
 from toryu import results_folder
 
-OURS = ["fluid.csv", "solid.csv.part", "frames/fluid_000003.hdf", "fluid.hdf.series", "report.html", "coupler_summary.toml",
-        "log.txt", "checkpoint/000001/fluid.h5", "checkpoint/000001/manifest.toml"]
+OURS = ["fluid.csv", "solid.csv.part", "frames/fluid_000003.hdf", "fluid.hdf.series", "report.html", "log.txt",
+        "coupler_summary.toml", "checkpoint/000001/fluid.h5", "checkpoint/000001/manifest.toml"]
 OTHERS = ["notes.txt", "measured.csv", "frames/picture.png"]
 
 
@@ -75,8 +75,8 @@ class FormerResults(Launch):
         self.leave_results()
         done = self.launch()
         self.assertEqual(done.returncode, 2)
-        self.assertRegex(done.stderr, "x{254}: error: the former results cannot be kept beside it: .*File name too long.*; "
-                                      "--overwrite removes them")
+        self.assertRegex(done.stderr, "x{254}: error: the former results cannot be kept beside it: .*File name too long.*"
+                                      "; --overwrite removes them")
         for name in OURS:
             self.assertEqual((self.out / name).read_text(), "old")
         self.assertEqual(self.pids(), [])

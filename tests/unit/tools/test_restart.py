@@ -112,8 +112,8 @@ class LastCheckpoint(Launch):
         process.send_signal(signal.SIGTERM)
         said, words = process.communicate(timeout=30)
         self.assertEqual(process.returncode, 130)
-        self.assertIn("waiting for coupler to write a last checkpoint, for 60 s at most; Ctrl-C again ends them at once\n",
-                      words)
+        self.assertIn("waiting for coupler to write a last checkpoint, for 60 s at most; Ctrl-C again ends them at "
+                      "once\n", words)
         self.assertIn("go on with: ./run.sh", said)
         self.assertEqual(newest_checkpoint(self.out).name, "000007")
 
