@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/run/provenance.hpp"
 #include "common/case/document.hpp"
+#include "common/run/provenance.hpp"
 
 namespace toryu {
 namespace {
