@@ -68,15 +68,15 @@ TORYU_INLINE Lanes dot(const VecLanes& a, const VecLanes& b) {
   return sum;
 }
 
-/// Puts field values into a new order: element k becomes what stood at order[k]. The padding repeats the last
-/// one, so that idle lanes hold finite values.
-template <class Order>
-void reorder(Field& field, const Order& order, Field& scratch) {
-  scratch.resize(field.size());
-  for (std::size_t k = 0; k < order.size(); ++k) scratch[k] = field[order[k]];
+/// Puts values into a new order: element k becomes what stood at order[k]. The padding repeats the last one,
+/// so that idle lanes hold finite values.
+template <class T, class Allocator, class Order>
+void reorder(std::vector<T, Allocator>& values, const Order& order, std::vector<T, Allocator>& scratch) {
+  scratch.resize(values.size());
+  for (std::size_t k = 0; k < order.size(); ++k) scratch[k] = values[order[k]];
   if (!order.empty())
     for (std::size_t k = order.size(); k < scratch.size(); ++k) scratch[k] = scratch[order.size() - 1];
-  field.swap(scratch);
+  values.swap(scratch);
 }
 
 }  // namespace toryu

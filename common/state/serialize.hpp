@@ -7,6 +7,9 @@
 ///       archive(time, x, v);
 ///     }
 ///
+/// The same list serves all that walks over the fields (field.hpp). What is neither written nor a field, such
+/// as neighbour lists that are built anew, is bound and left out of the second line.
+///
 /// Numbers are stored as they are in memory: a checkpoint is read by the program that wrote it, on a machine
 /// of the same kind (checkpoint.hpp).
 #pragma once
@@ -38,6 +41,11 @@ void serialize(Archive& archive, Matrix<double, rows, columns>& m) {
 }  // namespace Eigen
 
 namespace toryu {
+
+template <class Archive, class T>
+void serialize(Archive& archive, Symmetric<T>& tensor) {
+  archive(tensor.xx, tensor.yy, tensor.xy);
+}
 
 /// A derived field is not written, and stays as it is.
 template <class Archive, class Values>
