@@ -13,10 +13,11 @@ struct Options {
   std::vector<std::string> overrides;  ///< --set section.key=value, and --end-time as one of them
   int threads = 0;                     ///< 0: all cores
   std::string log_level = "info";
-  bool check = false;      ///< read and check the case, then end
-  bool describe = false;   ///< print the parameters, then end
-  bool restart = false;    ///< go on from the newest checkpoint in `out`
-  bool overwrite = false;  ///< replace results that `out` holds
+  bool check = false;       ///< read and check the case, then end
+  bool describe = false;    ///< print the parameters, then end
+  bool print_case = false;  ///< print the case as it is read, then end
+  bool restart = false;     ///< go on from the newest checkpoint in `out`
+  bool overwrite = false;   ///< replace results that `out` holds
 };
 
 /// Parses a command line without the program's name; `--version` and `--help` are not among them. Throws

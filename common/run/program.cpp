@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <new>
 
+#include "common/case/case_file.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
