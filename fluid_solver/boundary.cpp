@@ -2,16 +2,28 @@
 
 #include <numeric>
 
+#include "common/sph/neighbour_loop.hpp"
+
 namespace toryu::fluid {
+
+Vec ForceOnFluid::force() const {
+  Vec sum = friction();
+  for (const auto& part : by_cluster) sum += part;
+  return sum;
+}
+
+Vec ForceOnFluid::friction() const {
+  Vec sum = Vec::Zero();
+  for (const auto& part : friction_by_cluster) sum += part;
+  return sum;
+}
 
 void Boundary::place(const std::vector<Vec>& positions, const std::vector<double>& volumes,
                      double rest_density, double strip_width) {
   count = positions.size();
-  const std::size_t size = padded(count);
   id.resize(count);
   std::iota(id.begin(), id.end(), 0u);
-  for (auto* field : {&x, &v, &acceleration, &v_viscous, &force}) resize(*field, size);
-  for (auto* field : {&V, &m, &rho, &p, &p_rho2}) field->assign(size, 0.0);
+  resize_fields(*this, padded(count));
   for (std::size_t k = 0; k < count; ++k) {
     set(x, k, positions[k]);
     V[k] = volumes[k];
@@ -29,16 +41,25 @@ void Boundary::make_work_piece(const std::vector<Vec>& area_vectors) {
 
 void Boundary::sort() {
   const auto order = strips.sort(x[0], x[1], count);
-  Field scratch;
-  for (auto* field : {&x, &v, &acceleration, &v_viscous, &force})
-    for (auto& component : *field) reorder(component, order, scratch);
-  if (is_work_piece())
-    for (auto& component : area_vector) reorder(component, order, scratch);
-  for (auto* field : {&V, &m, &rho, &p, &p_rho2}) reorder(*field, order, scratch);
+  reorder_fields(*this, order);
   std::vector<std::uint32_t> sorted_id(count);
   for (std::size_t k = 0; k < count; ++k) sorted_id[k] = id[order[k]];
   id.swap(sorted_id);
   strips.index(x[0], count);
+}
+
+void Boundary::move(double time) {
+  std::visit(
+      [&]<class Kind>(const Kind& of_kind) {
+        if constexpr (!std::is_same_v<Kind, Still>) move_to(of_kind.at(time));
+      },
+      motion);
+}
+
+void Boundary::count_impulse(double dt) {
+  impulse.total += dt * force_on_fluid.force();
+  impulse.friction += dt * force_on_fluid.friction();
+  counted = true;
 }
 
 namespace {
@@ -53,20 +74,16 @@ void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const W&
   const std::size_t first = cluster * lane_count;
   Lanes sum_W = 0.0, sum_p = 0.0;
   VecLanes sum_v = zero_vector(), sum_rho_x = zero_vector();
-  for (const ShiftedNeighbours& near : boundary.list_for_wall.near(cluster)) {
-    const VecLanes x_w = shifted(load(boundary.x, first), near.shift);
-    for (const std::uint32_t i : near.sources) {
-      const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
-      const Lanes r2 = max(dot(x_wi, x_wi), 1e-300);
-      const Lanes W_wi = kernel.value(r2 * inverse_sqrt(r2));
-      sum_W += W_wi;
-      sum_p += fluid.p[i] * W_wi;
-      for (int a = 0; a < dim; ++a) {
-        sum_v[a] += fluid.v[a][i] * W_wi;
-        sum_rho_x[a] += (fluid.rho[i] * W_wi) * x_wi[a];
-      }
-    }
-  }
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes W_wi = kernel.value(n.r);
+                    sum_W += W_wi;
+                    sum_p += fluid.p[i] * W_wi;
+                    for (int a = 0; a < dim; ++a) {
+                      sum_v[a] += fluid.v[a][i] * W_wi;
+                      sum_rho_x[a] += (fluid.rho[i] * W_wi) * n.x_ij[a];
+                    }
+                  });
   const Lanes share = inverse(max(sum_W, smallest_sum));
   const VecLanes a_w = load(boundary.acceleration, first), v_w = load(boundary.v, first);
   Lanes p_w = sum_p;
@@ -87,17 +104,14 @@ void extrapolate_viscosity_to_cluster(Boundary& boundary, const Particles& fluid
   const std::size_t first = cluster * lane_count;
   Lanes sum_W = 0.0, sum_eta = 0.0;
   TensorLanes mean = zero_tensor();
-  for (const ShiftedNeighbours& near : boundary.list_for_wall.near(cluster)) {
-    const VecLanes x_w = shifted(load(boundary.x, first), near.shift);
-    for (const std::uint32_t i : near.sources) {
-      const VecLanes x_wi{x_w[0] - fluid.x[0][i], x_w[1] - fluid.x[1][i]};
-      const Lanes W_wi = kernel.value(square_root(dot(x_wi, x_wi)));
-      sum_W += W_wi;
-      sum_eta += fluid.eta[i] * W_wi;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b) mean[a][b] += fluid.eta_grad_v[a][b][i] * W_wi;
-    }
-  }
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes W_wi = kernel.value(n.r);
+                    sum_W += W_wi;
+                    sum_eta += fluid.eta[i] * W_wi;
+                    for (int a = 0; a < dim; ++a)
+                      for (int b = 0; b < dim; ++b) mean[a][b] += fluid.eta_grad_v[a][b][i] * W_wi;
+                  });
   const Lanes share = inverse(max(sum_W, smallest_sum));
   for (auto& row : mean)
     for (auto& component : row) component *= share;

@@ -1,70 +1,127 @@
 /// Particles that act on the fluid as a wall: rigid walls and pistons, or the elastic solid's interface.
-/// Their pressure and velocity are extrapolated from the fluid (Adami, Hu & Adams 2012; thesis eq. 27-29).
+/// Their pressure and velocity are extrapolated from the fluid (Adami, Hu & Adams 2012; thesis eq. 27-29). A
+/// boundary owns its motion, and what it has given the fluid.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "common/sph/cluster_list.hpp"
 #include "common/sph/kernel.hpp"
+#include "fluid_solver/boundary_motion.hpp"
+#include "fluid_solver/moving_interface.hpp"
 #include "fluid_solver/particles.hpp"
 
 namespace toryu::fluid {
 
-struct Kinematics {
-  Vec x, v, a;
+/// What a boundary did to the fluid in one evaluation.
+struct ForceOnFluid {
+  std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
+  std::vector<Vec> friction_by_cluster;  ///< the same of the friction alone; empty where there is none
+  Vec friction() const;
+  Vec force() const;  ///< the sum of both
 };
+
+/// Impulse since the start [N.s per metre depth], and the friction's share of it.
+struct Impulse {
+  Vec total = Vec::Zero(), friction = Vec::Zero();
+};
+template <class Archive>
+void serialize(Archive& archive, Impulse& impulse) {
+  auto& [total, friction] = impulse;
+  archive(total, friction);
+}
 
 struct Boundary {
   std::string name;
-  bool moves = false;
+  std::variant<Still, PrescribedMotion, MovingInterface> motion;
   std::size_t count = 0;
   std::vector<std::uint32_t> id;  ///< number at the start: of a wall particle, or the interface's own order
-  VecField x, v, acceleration;    ///< prescribed [m], [m/s], [m/s2]
-  Field V, m, rho;                ///< volume [m2], mass of fluid in its place [kg/m], its density
+
+  Declared<VecField> x{"position", "m", FieldKind::state}, v{"velocity", "m/s", FieldKind::state};
+  Declared<VecField> acceleration{"acceleration", "m/s2", FieldKind::state};
+  Declared<Field> V{"volume", "m2", FieldKind::state};
+  Declared<Field> m{"mass", "kg/m", FieldKind::state};  ///< of fluid in its place
+  Declared<Field> rho{"density", "kg/m3", FieldKind::state};
+  /// Outward at the start, zero inside; empty if this is no work piece.
+  Declared<VecField> area_vector{"area_vector", "m", FieldKind::state, Presence::on_demand};
   // extrapolated from the fluid
-  Field p, p_rho2;         ///< (29) [Pa]
-  Field eta;               ///< viscosity [Pa s], only where the medium is not Newtonian
-  TensorField eta_grad_v;  ///< as of the fluid's particles
-  VecField v_viscous;      ///< v_w-f = 2 v_w - v~_w, which the viscous terms use (28)
-  VecField force;          ///< what the fluid does to the particle [N per metre depth], where asked for
-  /// Outward area vector at the start [m per metre depth], zero inside; empty if this is no work piece.
-  VecField area_vector;
+  Declared<Field> p{"pressure", "Pa", FieldKind::derived},
+      p_rho2{"p/rho^2", "m5/(kg.s2)", FieldKind::derived};
+  /// v_w-f = 2 v_w - v~_w, which the viscous terms use (28).
+  Declared<VecField> v_viscous{"viscous_velocity", "m/s", FieldKind::derived};
+  /// As of the fluid's particles, where the medium is not Newtonian.
+  Declared<Field> eta{"viscosity", "Pa.s", FieldKind::derived, Presence::on_demand};
+  Declared<TensorField> eta_grad_v{"viscosity_times_velocity_gradient", "Pa", FieldKind::derived,
+                                   Presence::on_demand};
+  /// What the fluid does to the particle, where asked for.
+  Declared<VecField> force{"force", "N/m", FieldKind::derived};
   // where there is friction, of a work piece alone
-  Field friction_length;    ///< d_s of (33) [m], see terms/friction.hpp
-  VecField friction_force;  ///< on the particle [N per metre depth], where asked for
+  Declared<Field> friction_length{"friction_length", "m", FieldKind::derived,
+                                  Presence::on_demand};  ///< d_s of (33), see terms/friction.hpp
+  Declared<VecField> friction_force{"friction_force", "N/m", FieldKind::derived, Presence::on_demand};
+
+  ForceOnFluid force_on_fluid;  ///< of the last evaluation that asked for it
+  Impulse impulse;              ///< of what was counted
+  bool counted = false;         ///< whether anything was
 
   ClusterList list_for_wall;   ///< for clusters of this boundary: the fluid's particles
   ClusterList list_for_fluid;  ///< for clusters of the fluid: this boundary's particles
   StripOrder strips{1.0};
 
-  /// Sets `count` particles at `positions`, each of volume `particle_volume`, at rest.
+  /// Sets `count` particles at `positions`, each of its volume [m2], at rest.
   void place(const std::vector<Vec>& positions, const std::vector<double>& volumes, double rest_density,
              double strip_width);
   /// Makes it a work piece with these area vectors, by id.
   void make_work_piece(const std::vector<Vec>& area_vectors);
   bool is_work_piece() const { return !area_vector[0].empty(); }
+  bool moves() const { return !std::holds_alternative<Still>(motion); }
+  bool is_interface() const { return std::holds_alternative<MovingInterface>(motion); }
   /// Puts the particles in strip order again after they moved.
   void sort();
-  /// Sets position, velocity and acceleration from `motion(id)`, which gives them as a Kinematics.
-  template <class Motion>
-  void move(Motion&& motion);
+  /// Sets position, velocity and acceleration to those at `time` [s].
+  void move(double time);
+  /// The same to `kinematics(id)`.
+  template <class Of>
+  void move_to(Of&& kinematics);
+  /// Counts what the last evaluation did to the fluid for `dt` [s].
+  void count_impulse(double dt);
 };
 
-template <class Motion>
-void Boundary::move(Motion&& motion) {
+template <class Of>
+void Boundary::move_to(Of&& kinematics) {
   for (std::size_t k = 0; k < count; ++k) {
-    const Kinematics now = motion(id[k]);
+    const Kinematics now = kinematics(id[k]);
     set(x, k, now.x);
     set(v, k, now.v);
     set(acceleration, k, now.a);
   }
 }
 
+/// All but the lists, which follow from where they were built, and what one evaluation leaves.
+template <class Archive>
+void serialize(Archive& archive, Boundary& boundary) {
+  auto& [name, motion, count, id, x, v, acceleration, V, m, rho, area_vector, p, p_rho2, v_viscous, eta,
+         eta_grad_v, force, friction_length, friction_force, force_on_fluid, impulse, counted, list_for_wall,
+         list_for_fluid, strips] = boundary;
+  std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
+  archive(count, id, x, v, acceleration, V, m, rho, area_vector, p, p_rho2, v_viscous, eta, eta_grad_v, force,
+          friction_length, friction_force, impulse, counted);
+}
+
 inline Sources sources(const Boundary& b) {
-  return {pointers(b.x), pointers(b.v), pointers(b.v_viscous), {},           b.m.data(),
-          b.V.data(),    b.rho.data(),  b.p_rho2.data(),       b.eta.data(), pointers(b.eta_grad_v)};
+  return {.x = pointers(b.x),
+          .v = pointers(b.v),
+          .v_viscous = pointers(b.v_viscous),
+          .grad_rho = {},
+          .m = b.m.data(),
+          .V = b.V.data(),
+          .rho = b.rho.data(),
+          .p_rho2 = b.p_rho2.data(),
+          .eta = b.eta.data(),
+          .eta_grad_v = pointers(b.eta_grad_v)};
 }
 
 /// Extrapolates pressure (29) and velocity (27) from the fluid to the particles of `boundary` near it.

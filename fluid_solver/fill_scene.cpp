@@ -5,7 +5,7 @@
 #include <random>
 
 #include "common/scene/occupancy_index.hpp"
-#include "fluid_solver/fluid_solver.hpp"
+#include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/initial_flow.hpp"
 #include "fluid_solver/work_piece.hpp"
 
@@ -29,7 +29,7 @@ void disorder(std::vector<Vec>& points, double largest) {
 
 }  // namespace
 
-void FluidSolver::fill_regions() {
+void FluidModel::fill_regions() {
   std::vector<Box> boxes;
   for (const auto& region : parameters_.regions) boxes.push_back(region.box);
   const auto lattice = fill(boxes, parameters_.holes, parameters_.spacing);
@@ -38,22 +38,13 @@ void FluidSolver::fill_regions() {
   if (points.empty())
     throw BadInput({{"[fluid.region]", 0, 0, "the regions hold no particle at this spacing"}});
 
-  auto& f = fluid_;
+  auto& f = state_.fluid;
   f.count = points.size();
-  const std::size_t size = padded(f.count);
   f.id.resize(f.count);
   std::iota(f.id.begin(), f.id.end(), 0u);
-  for (auto* field : {&f.x, &f.v, &f.a}) resize(*field, size);
-  for (auto* field : {&f.rho, &f.m, &f.V, &f.p, &f.p_rho2, &f.drho}) field->assign(size, 0.0);
-  const auto& diffusion = parameters_.density_diffusion;
-  if (diffusion && diffusion->gradient == DiffusionGradient::renormalised) resize(f.grad_rho, size);
-  if (dynamics_.viscosity_varies()) {
-    f.gdot.assign(size, 0.0);
-    f.eta.assign(size, dynamics_.viscosity_at_rest());
-    resize(f.eta_grad_v, size);
-  }
+  resize_fields(f, padded(f.count));
 
-  const auto& state = dynamics_.equation_of_state();
+  const auto& state = equation_of_state_;
   const double volume = std::pow(parameters_.spacing, dim), g = scene_.gravity.norm();
   for (std::size_t i = 0; i < f.count; ++i) {
     set(f.x, i, points[i]);
@@ -72,28 +63,26 @@ void FluidSolver::fill_regions() {
   }
 }
 
-void FluidSolver::start_flow(std::size_t i) {
+void FluidModel::start_flow(std::size_t i) {
   if (!parameters_.initial_flow) return;
   const InitialFlow& flow = *parameters_.initial_flow;
-  const EquationOfState& state = dynamics_.equation_of_state();
+  const EquationOfState& state = equation_of_state_;
   const double central_rate = parameters_.central_force ? parameters_.central_force->rate : 0.0;
-  const Vec x = at(fluid_.x, i);
+  const Vec x = at(state_.fluid.x, i);
   const double p_rho = pressure_over_density(flow, parameters_.regions.front().box, central_rate, x);
-  set(fluid_.v, i, at(fluid_.v, i) + velocity(flow, x));
-  fluid_.rho[i] *= state.density(state.p_b + state.rho_0 * p_rho) / state.rho_0;
+  set(state_.fluid.v, i, at(state_.fluid.v, i) + velocity(flow, x));
+  state_.fluid.rho[i] *= state.density(state.p_b + state.rho_0 * p_rho) / state.rho_0;
 }
 
-void FluidSolver::fill_walls() {
+void FluidModel::fill_walls() {
   std::vector<Vec> still;
   const double volume = std::pow(parameters_.spacing, dim);
   const auto add = [&](const std::string& name, const std::vector<Vec>& points, const Wall* wall) {
-    Boundary& boundary = boundaries_.emplace_back();
+    Boundary& boundary = state_.boundaries.emplace_back();
     boundary.name = name;
-    boundary.moves = wall && wall->motion;
+    if (wall && wall->motion) boundary.motion = PrescribedMotion{*wall->motion, points};
     boundary.place(points, std::vector<double>(points.size(), volume), parameters_.density,
                    parameters_.strip_width());
-    moving_walls_.push_back(boundary.moves ? wall : nullptr);
-    wall_start_.push_back(boundary.moves ? points : std::vector<Vec>{});
     if (wall && wall->work_piece) boundary.make_work_piece(lattice_area_vectors(points, parameters_.spacing));
   };
   OccupancyIndex taken(nearest_bodies(parameters_));
@@ -119,20 +108,20 @@ void FluidSolver::fill_walls() {
   }
   if (!still.empty()) add("walls", still, nullptr);
   move_boundaries(0.0);
-  for (auto& boundary : boundaries_)
-    if (boundary.is_work_piece() && !boundary.moves)
-      cover_faces(boundary, parameters_.spacing, boundaries_, parameters_.spacing);
+  for (auto& boundary : state_.boundaries)
+    if (boundary.is_work_piece() && !boundary.moves())
+      cover_faces(boundary, parameters_.spacing, state_.boundaries, parameters_.spacing);
 }
 
-void FluidSolver::check_overlaps() const {
+void FluidModel::check_overlaps() const {
   const double nearest = nearest_bodies(parameters_);
   StripOrder strips(parameters_.strip_width());
-  const auto order = strips.sort(fluid_.x[0], fluid_.x[1], fluid_.count);
-  VecField x = fluid_.x;
+  const auto order = strips.sort(state_.fluid.x[0], state_.fluid.x[1], state_.fluid.count);
+  VecField x = state_.fluid.x;
   Field scratch;
   for (auto& component : x) reorder(component, order, scratch);
-  strips.index(x[0], fluid_.count);
-  for (const auto& boundary : boundaries_) {
+  strips.index(x[0], state_.fluid.count);
+  for (const auto& boundary : state_.boundaries) {
     ClusterList touching;
     touching.build(boundary.x, boundary.count, x, strips, nearest, period_.shifts());
     if (touching.active().empty()) continue;

@@ -1,7 +1,7 @@
 #include "fluid_solver/free_surface.hpp"
 
-#include "fluid_solver/terms/neighbour_sum.hpp"
-#include "fluid_solver/terms/renormalisation.hpp"
+#include "common/sph/neighbour_loop.hpp"
+#include "common/sph/renormalisation.hpp"
 
 namespace toryu::fluid {
 
@@ -10,9 +10,9 @@ namespace {
 template <class W>
 void add_moment(Moment& moment, const VecLanes& x_i, const Sources& sources,
                 std::span<const ShiftedNeighbours> nears, const W& kernel) {
-  over_neighbours(kernel, nears, x_i, sources, [&](std::uint32_t, const Neighbour& n) TORYU_INLINE_LAMBDA {
-    moment.add(n.x_ij, n.V_grad);
-  });
+  over_neighbours(kernel, nears, x_i, sources.x,
+                  [&](std::uint32_t j, const Neighbour& n)
+                      TORYU_INLINE_LAMBDA { moment.add(n.x_ij, n.gradient(sources.V[j])); });
 }
 
 /// 1 where particle i of the cluster has none of the `sources` that count within `support`.
@@ -20,14 +20,9 @@ template <class Counts>
 Lanes none_near(const VecLanes& x_i, const Sources& sources, std::span<const ShiftedNeighbours> nears,
                 double support, Counts&& counts) {
   Lanes none = 1.0;
-  for (const ShiftedNeighbours& near : nears) {
-    const VecLanes x = shifted(x_i, near.shift);
-    for (const std::uint32_t j : near.sources) {
-      if (!counts(j)) continue;
-      const VecLanes x_ij{x[0] - sources.x[0][j], x[1] - sources.x[1][j]};
-      none = select(dot(x_ij, x_ij) < support * support, 0.0, none);
-    }
-  }
+  over_places(nears, x_i, sources.x, [&](std::uint32_t j, const VecLanes& x_ij) TORYU_INLINE_LAMBDA {
+    if (counts(j)) none = select(dot(x_ij, x_ij) < support * support, 0.0, none);
+  });
   return none;
 }
 

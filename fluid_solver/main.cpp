@@ -11,44 +11,45 @@
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
-#include "fluid_solver/fluid_solver.hpp"
+#include "common/sph/skin.hpp"
+#include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 
 namespace {
 
 using namespace toryu;
-using fluid::FluidSolver;
+using fluid::FluidModel;
 
 /// A thread more is worth its waiting for the others only with so many particles of its own.
 constexpr int particles_per_thread = 1000;
 
-RunRecord::Counts particle_counts(const FluidSolver& solver) {
-  RunRecord::Counts counts{{"fluid", static_cast<long>(solver.particle_count())}};
-  for (const auto& boundary : solver.boundaries())
+RunRecord::Counts particle_counts(const FluidModel& model) {
+  RunRecord::Counts counts{{"fluid", static_cast<long>(model.particle_count())}};
+  for (const auto& boundary : model.boundaries())
     counts.emplace_back(boundary.name, static_cast<long>(boundary.count));
   return counts;
 }
 
-void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidSolver& solver) {
+void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidModel& model) {
   claim_folder(options, "fluid");
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
-  solver.record_surface(options.out);
-  RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
+  model.record_surface(options.out);
+  RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
   CheckpointsAlone checkpoints(options, scene, file.used());
   checkpoints.resume(record);
-  run_recorded(record, [&] { run_alone(scene, solver, record, 1, checkpoints); });
+  run_recorded(record, [&] { run_alone(scene, model, record, 1, checkpoints); });
 }
 
 /// Takes turns with the solid until the coupler ends the run.
-void take_turns(FluidLink& link, FluidSolver& solver, RunRecord& record) {
-  take_windows(link, solver, record, [&](const FluidLink::Turn& turn) {
-    solver.begin_window(turn.motion, turn.dt);
-    advance_window(solver, record, turn.time, turn.dt, 1, [&](const SubSteps&) { link.count_step(); });
-    link.send(solver.take_load(), solver.time_step_limit(),
-              {.kinetic_energy = solver.kinetic_energy(),
-               .potential_energy = solver.potential_energy(),
-               .momentum = solver.momentum()});
+void take_turns(FluidLink& link, FluidModel& model, RunRecord& record) {
+  take_windows(link, model, record, [&](const FluidLink::Turn& turn) {
+    model.begin_window(turn.motion, turn.dt);
+    advance_window(model, record, turn.time, turn.dt, 1, [&](const SubSteps&) { link.count_step(); });
+    link.send(model.take_load(), model.time_step_limit(),
+              {.kinetic_energy = model.kinetic_energy(),
+               .potential_energy = model.potential_energy(),
+               .momentum = model.momentum()});
   });
 }
 
@@ -61,7 +62,7 @@ void warn_of_coarse_work_piece(double spacing, const fluid::Parameters& paramete
 }
 
 void compute_coupled(const Options& options, const CaseFile& file, const Scene& scene,
-                     const fluid::Parameters& parameters, FluidSolver& solver) {
+                     const fluid::Parameters& parameters, FluidModel& model) {
   FluidLink link({.role = "fluid_solver",
                   .version = provenance(1).version,
                   .out = options.out,
@@ -69,21 +70,21 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .can_repeat = true,
                   .used_case = file.used()});
   try {
-    const Interface interface = link.join(solver.traits());
+    const Interface interface = link.join(model.traits());
     log::info("the solid's interface has {} particles of spacing {:g} m", interface.size(),
               interface.spacing);
-    solver.attach(interface);
-    warn_of_thin_wall(solver.boundaries().back(), interface.spacing, parameters);
+    model.attach(interface);
+    warn_of_thin_wall(model.boundaries().back(), interface.spacing, parameters);
     warn_of_coarse_work_piece(interface.spacing, parameters);
   } catch (...) {
     link.leave();
     throw;
   }
   const double joined = link.waiting_time();  // the record's time begins now
-  solver.record_surface(options.out);
-  RunRecord record("fluid", options, scene, solver, particle_counts(solver), solver.timers());
+  model.record_surface(options.out);
+  RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
   run_recorded(
-      record, [&] { take_turns(link, solver, record); }, [&] { link.leave(); },
+      record, [&] { take_turns(link, model, record); }, [&] { link.leave(); },
       [&] { return link.waiting_time() - joined; });
 }
 
@@ -109,26 +110,27 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   file.throw_if_faulty();
-  FluidSolver solver(parameters, scene);
-  omp_set_num_threads(thread_count(options, solver.particle_count(), particles_per_thread));
-  check_start(solver, "[fluid]");
-  const auto& particles = solver.particles();
-  const fluid::Start start{.speed = fluid::largest_norm(particles.v, particles.count),
+  const auto made = fluid::make_model(parameters, scene);
+  FluidModel& model = *made;
+  omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
+  check_start(model, "[fluid]");
+  const auto& particles = model.particles();
+  const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
                            .wall_speed = fluid::wall_speed_at_start(scene.walls),
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
-  for (const auto& wall : solver.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
-  if (const auto jet = fluid::beyond_thinnest_jet(particles, solver.boundaries(), parameters.spacing))
+  for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
+  if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing))
     log::warn("{}", *jet);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.number("solid.spacing").value_or(0), parameters);
     return ExitCode::done;
   }
   if (file.has("solid"))
-    compute_coupled(options, file, scene, parameters, solver);
+    compute_coupled(options, file, scene, parameters, model);
   else
-    compute_alone(options, file, scene, solver);
+    compute_alone(options, file, scene, model);
   return ExitCode::done;
 }
 

@@ -1,29 +1,14 @@
 #include "fluid_solver/neighbours.hpp"
 
-#include <cmath>
+#include "common/sph/skin.hpp"
 
 namespace toryu::fluid {
 
 namespace {
 
-double largest_distance(const VecField& x, const VecField& y, std::size_t count) {
-  double largest = 0;
-  for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, (at(x, i) - at(y, i)).squaredNorm());
-  return std::sqrt(largest);
-}
-
 void sort(Particles& f, const StripOrder& strips) {
   const auto order = strips.sort(f.x[0], f.x[1], f.count);
-  Field scratch;
-  for (int a = 0; a < dim; ++a) {
-    reorder(f.x[a], order, scratch);
-    reorder(f.v[a], order, scratch);
-  }
-  reorder(f.rho, order, scratch);
-  // kept from the last step: for the free surface, and for the symplectic step
-  reorder(f.V, order, scratch);
-  reorder(f.drho, order, scratch);
-  reorder(f.m, order, scratch);
+  reorder_fields(f, order);
   std::fill(f.m.begin() + static_cast<std::ptrdiff_t>(f.count), f.m.end(), 0.0);  // idle lanes weigh nothing
   std::vector<std::uint32_t> id(f.count);
   for (std::size_t k = 0; k < f.count; ++k) id[k] = f.id[order[k]];
@@ -32,41 +17,47 @@ void sort(Particles& f, const StripOrder& strips) {
 
 }  // namespace
 
-double largest_norm(const VecField& v, std::size_t count) {
-  double largest = 0;
-  for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, at(v, i).squaredNorm());
-  return std::sqrt(largest);
-}
-
 bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const {
-  if (builds_ == 0) return true;
+  if (state_.builds == 0) return true;
   const double moved_fluid =
-      largest_distance(fluid.x, built_fluid_, fluid.count) + dt * largest_norm(fluid.v, fluid.count);
+      largest_distance(fluid.x, state_.fluid, fluid.count) + dt * largest_norm(fluid.v, fluid.count);
   double moved = moved_fluid;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
-    if (boundaries[b].moves)
-      moved = std::max(moved, largest_distance(boundaries[b].x, built_boundaries_[b], boundaries[b].count) +
+    if (boundaries[b].moves())
+      moved = std::max(moved, largest_distance(boundaries[b].x, state_.boundaries[b], boundaries[b].count) +
                                   dt * largest_norm(boundaries[b].v, boundaries[b].count));
-  return moved_fluid + moved > skin_;
+  return skin_exhausted(moved_fluid, moved, skin_);
 }
 
 void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries) {
-  ++builds_;
+  ++state_.builds;
   sort(fluid, strips_);
-  strips_.index(fluid.x[0], fluid.count);
-  const double reach = support_ + skin_;
-  of_fluid_.build(fluid.x, fluid.count, fluid.x, strips_, reach, shifts_);
-  built_fluid_ = fluid.x;
-  built_boundaries_.resize(boundaries.size());
+  state_.fluid = fluid.x;
+  state_.boundaries.resize(boundaries.size());
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
-    auto& boundary = boundaries[b];
-    std::fill(boundary.p.begin(), boundary.p.end(), 0.0);  // where no fluid is near any more
-    if (boundary.moves) {
-      boundary.sort();
-      built_boundaries_[b] = boundary.x;
-    }
-    boundary.list_for_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, reach, shifts_);
-    boundary.list_for_wall.build(boundary.x, boundary.count, fluid.x, strips_, reach, shifts_);
+    std::fill(boundaries[b].p.begin(), boundaries[b].p.end(), 0.0);  // where no fluid is near any more
+    if (!boundaries[b].moves()) continue;
+    boundaries[b].sort();
+    state_.boundaries[b] = boundaries[b].x;
+  }
+  build_lists(fluid.count, boundaries);
+}
+
+void Neighbours::rebuild(const Particles& fluid, std::vector<Boundary>& boundaries) {
+  if (state_.builds > 0) build_lists(fluid.count, boundaries);
+}
+
+void Neighbours::build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries) {
+  const VecField& x = state_.fluid;
+  const double reach = support_ + skin_;
+  strips_.index(x[0], fluid_count);
+  of_fluid_.build(x, fluid_count, x, strips_, reach, shifts_);
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    Boundary& boundary = boundaries[b];
+    const VecField& x_b = boundary.moves() ? state_.boundaries[b] : boundary.x;
+    boundary.strips.index(x_b[0], boundary.count);
+    boundary.list_for_fluid.build(x, fluid_count, x_b, boundary.strips, reach, shifts_);
+    boundary.list_for_wall.build(x_b, boundary.count, x, strips_, reach, shifts_);
   }
 }
 

@@ -22,20 +22,32 @@ class Neighbours {
   /// Sorts the particles and builds the lists anew.
   void build(Particles& fluid, std::vector<Boundary>& boundaries);
 
+  /// Finds the lists again that were built where a checkpoint says: in a fluid and boundaries whose particles
+  /// are in that order.
+  void rebuild(const Particles& fluid, std::vector<Boundary>& boundaries);
+
   const ClusterList& of_fluid() const { return of_fluid_; }
-  long builds() const { return builds_; }
+  long builds() const { return state_.builds; }
 
  private:
+  /// Where the particles were when the lists were built: who moves, else nothing.
+  struct State {
+    VecField fluid;
+    std::vector<VecField> boundaries;
+    long builds = 0;
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, Neighbours& neighbours) {
+    auto& [fluid, boundaries, builds] = neighbours.state_;
+    archive(fluid, boundaries, builds);
+  }
+  void build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries);
+
   double support_, skin_;
   std::vector<Vec> shifts_;
   StripOrder strips_;
+  State state_;
   ClusterList of_fluid_;
-  VecField built_fluid_;
-  std::vector<VecField> built_boundaries_;
-  long builds_ = 0;
 };
-
-/// Largest |v| of the first `count` entries.
-double largest_norm(const VecField& v, std::size_t count);
 
 }  // namespace toryu::fluid

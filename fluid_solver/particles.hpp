@@ -4,62 +4,66 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/sph/points.hpp"
+#include "common/sph/neighbour_loop.hpp"
+#include "common/state/field.hpp"
 
 namespace toryu::fluid {
 
 struct Particles {
   std::size_t count = 0;
   std::vector<std::uint32_t> id;  ///< number at the start, which sorting keeps
-  // state
-  VecField x, v;  ///< [m], [m/s]
-  Field rho, m;   ///< [kg/m3], [kg per metre depth]
-  // derived at each evaluation
-  Field V, p, p_rho2;  ///< m/rho [m2], [Pa], p/rho^2
-  VecField grad_rho;   ///< renormalised <grad rho>, only where the density diffusion wants it [kg/m4]
-  Field off_surface;   ///< 1 where no free surface is in reach, else 0; only where a term asks for it
-  Field off_surface_and_walls;  ///< 1 where no wall is in reach either, else 0; only where a term asks for it
-  // only where the medium is not Newtonian
-  Field gdot, eta;         ///< shear rate [1/s], viscosity [Pa s]
-  TensorField eta_grad_v;  ///< [a][b]: eta dv_b/dx_a [Pa]
-  // rates
-  VecField a;  ///< [m/s2]
-  Field drho;  ///< [kg/m3/s]
+
+  Declared<VecField> x{"position", "m", FieldKind::state}, v{"velocity", "m/s", FieldKind::state};
+  Declared<Field> rho{"density", "kg/m3", FieldKind::state}, m{"mass", "kg/m", FieldKind::state};
+  /// m/rho of the last evaluation, which the search for the free surface reads before the next one.
+  Declared<Field> V{"volume", "m2", FieldKind::state};
+  Declared<Field> p{"pressure", "Pa", FieldKind::derived},
+      p_rho2{"p/rho^2", "m5/(kg.s2)", FieldKind::derived};
+  /// Renormalised <grad rho>, where the density diffusion wants it.
+  Declared<VecField> grad_rho{"density_gradient", "kg/m4", FieldKind::derived, Presence::on_demand};
+  /// 1 where no free surface is in reach, else 0; and 1 where no wall is in reach either.
+  Declared<Field> off_surface{"off_surface", "1", FieldKind::derived, Presence::on_demand};
+  Declared<Field> off_surface_and_walls{"off_surface_and_walls", "1", FieldKind::derived,
+                                        Presence::on_demand};
+  // where the medium is not Newtonian
+  Declared<Field> gdot{"shear_rate", "1/s", FieldKind::derived, Presence::on_demand};
+  Declared<Field> eta{"viscosity", "Pa.s", FieldKind::derived, Presence::on_demand};
+  Declared<TensorField> eta_grad_v{"viscosity_times_velocity_gradient", "Pa", FieldKind::derived,
+                                   Presence::on_demand};  ///< [a][b]: eta dv_b/dx_a
+  Declared<VecField> a{"acceleration", "m/s2", FieldKind::derived};
+  /// The symplectic step begins with that of the end of the last one.
+  Declared<Field> drho{"density_rate", "kg/(m3.s)", FieldKind::state};
 
   std::size_t clusters() const { return padded(count) / lane_count; }
 };
 
+template <class Archive>
+void serialize(Archive& archive, Particles& particles) {
+  auto& [count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
+         eta_grad_v, a, drho] = particles;
+  archive(count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
+          eta_grad_v, a, drho);
+}
+
 /// What a pair loop reads of its sources, fluid or boundary alike.
 struct Sources {
-  std::array<const double*, dim> x, v, v_viscous, grad_rho;
+  Positions x, v, v_viscous, grad_rho;
   const double *m, *V, *rho, *p_rho2, *eta;
-  std::array<std::array<const double*, dim>, dim> eta_grad_v;
+  std::array<Positions, dim> eta_grad_v;
 };
-
-inline std::array<const double*, dim> pointers(const VecField& field) {
-  std::array<const double*, dim> first{};
-  for (int a = 0; a < dim; ++a) first[a] = field[a].data();
-  return first;
-}
-
-inline std::array<std::array<const double*, dim>, dim> pointers(const TensorField& field) {
-  std::array<std::array<const double*, dim>, dim> first{};
-  for (int a = 0; a < dim; ++a) first[a] = pointers(field[a]);
-  return first;
-}
 
 inline Sources sources(const Particles& f) {
   const auto v = pointers(f.v);
-  return {pointers(f.x),
-          v,
-          v,
-          pointers(f.grad_rho),
-          f.m.data(),
-          f.V.data(),
-          f.rho.data(),
-          f.p_rho2.data(),
-          f.eta.data(),
-          pointers(f.eta_grad_v)};
+  return {.x = pointers(f.x),
+          .v = v,
+          .v_viscous = v,
+          .grad_rho = pointers(f.grad_rho),
+          .m = f.m.data(),
+          .V = f.V.data(),
+          .rho = f.rho.data(),
+          .p_rho2 = f.p_rho2.data(),
+          .eta = f.eta.data(),
+          .eta_grad_v = pointers(f.eta_grad_v)};
 }
 
 }  // namespace toryu::fluid

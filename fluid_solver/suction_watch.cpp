@@ -21,18 +21,18 @@ std::size_t least_paired(std::size_t count) {
 }  // namespace
 
 std::optional<std::string> SuctionWatch::look(const Particles& fluid, double time) {
-  const double dt = time - time_;
-  time_ = time;
-  path_.resize(fluid.count);
+  const double dt = time - state_.time;
+  state_.time = time;
+  state_.path.resize(fluid.count);
   std::size_t paired = 0;
   double lowest = 0;
-  const double rho_without_pressure = state_.density(0);
+  const double rho_without_pressure = equation_of_state_.density(0);
   for (std::size_t i = 0; i < fluid.count; ++i) {
-    double& path = path_[fluid.id[i]];
+    double& path = state_.path[fluid.id[i]];
     if (path == 0 && fluid.rho[i] >= rho_without_pressure) continue;  // nearly all of a medium that is well
     const double p = !fluid.off_surface_and_walls.empty() && fluid.off_surface_and_walls[i] > 0
                          ? 0.0
-                         : state_.pressure(fluid.rho[i]);
+                         : equation_of_state_.pressure(fluid.rho[i]);
     const double step = std::min(std::sqrt(std::abs(p) / fluid.rho[i]) * dt / spacing_, 1.0);
     path = std::max(path - std::copysign(step, p), 0.0);
     if (path < longest_path) continue;

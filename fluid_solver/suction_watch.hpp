@@ -21,20 +21,29 @@ namespace toryu::fluid {
 
 class SuctionWatch {
  public:
-  SuctionWatch(double spacing, const EquationOfState& state) : spacing_(spacing), state_(state) {}
+  SuctionWatch(double spacing, const EquationOfState& state) : spacing_(spacing), equation_of_state_(state) {}
 
   /// Looks at the fluid at `time` [s], as often as rows are written: one counts for a spacing at most. A
   /// sentence where enough paths have become too long. What tensile control takes the tension off,
   /// `fluid.off_surface_and_walls`, does not count.
   std::optional<std::string> look(const Particles& fluid, double time);
   /// All paths begin anew.
-  void forget() { path_.clear(); }
+  void forget() { state_.path.clear(); }
 
  private:
+  struct State {
+    std::vector<double> path;  ///< by number at the start [spacings]
+    double time = 0;           ///< of the last look [s]
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, SuctionWatch& watch) {
+    auto& [path, time] = watch.state_;
+    archive(path, time);
+  }
+
   double spacing_;
-  EquationOfState state_;
-  std::vector<double> path_;  ///< by number at the start [spacings]
-  double time_ = 0;           ///< of the last look [s]
+  EquationOfState equation_of_state_;
+  State state_;
 };
 
 }  // namespace toryu::fluid

@@ -65,8 +65,9 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
     }
     ++work_piece;
   }
-  for (auto* sum : {&pressure_, &speed_, &friction_work_, &sliding_pressure_}) sum->assign(size(), 0.0);
-  traction_.assign(dim * size(), 0.0);
+  for (auto* sum : {&state_.pressure, &state_.speed, &state_.friction_work, &state_.sliding_pressure})
+    sum->assign(size(), 0.0);
+  state_.traction.assign(dim * size(), 0.0);
 }
 
 void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid, const Kernel& kernel,
@@ -81,16 +82,16 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
       const Contact contact = contact_of(body, k, fluid, kernel);
       const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
       const double sliding = (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
-      pressure_[s] += contact.pressure * dt;
-      speed_[s] += sliding * dt;
-      sliding_pressure_[s] += contact.pressure * sliding * dt;
+      state_.pressure[s] += contact.pressure * dt;
+      state_.speed[s] += sliding * dt;
+      state_.sliding_pressure[s] += contact.pressure * sliding * dt;
       if (!rubbed) continue;
       const Vec tau = at(body.friction_force, k) / area_[s];
-      Eigen::Map<Vec>(&traction_[dim * s]) += tau * dt;
-      friction_work_[s] += tau.dot(contact.velocity) * dt;
+      Eigen::Map<Vec>(&state_.traction[dim * s]) += tau * dt;
+      state_.friction_work[s] += tau.dot(contact.velocity) * dt;
     }
   }
-  since_row_ += dt;
+  state_.since_row += dt;
 }
 
 void SurfaceRecord::open(const std::filesystem::path& out) {
@@ -116,16 +117,18 @@ void SurfaceRecord::write(double time) {
     for (double& value : values) value *= factor;
     return values;
   };
-  const double share = since_row_ > 0 ? 1 / since_row_ : 0.0;
-  const auto p = scaled(pressure_, share), v = scaled(speed_, share), tau = scaled(traction_, share);
-  const auto preston = scaled(sliding_pressure_, removal_.preston_coefficient);
-  const auto archard = scaled(sliding_pressure_, archard_rate());
+  const double share = state_.since_row > 0 ? 1 / state_.since_row : 0.0;
+  const auto p = scaled(state_.pressure, share), v = scaled(state_.speed, share),
+             tau = scaled(state_.traction, share);
+  const auto preston = scaled(state_.sliding_pressure, removal_.preston_coefficient);
+  const auto archard = scaled(state_.sliding_pressure, archard_rate());
   // the last two, as many of them as there are laws
   const double* first_law = removal_.preston_coefficient > 0 ? preston.data() : archard.data();
-  file_->append({&time, p.data(), v.data(), tau.data(), friction_work_.data(), sliding_pressure_.data(),
-                 first_law, archard.data()});
-  for (auto* sum : {&pressure_, &speed_, &traction_}) std::fill(sum->begin(), sum->end(), 0.0);
-  since_row_ = 0;
+  file_->append({&time, p.data(), v.data(), tau.data(), state_.friction_work.data(),
+                 state_.sliding_pressure.data(), first_law, archard.data()});
+  for (auto* sum : {&state_.pressure, &state_.speed, &state_.traction})
+    std::fill(sum->begin(), sum->end(), 0.0);
+  state_.since_row = 0;
 }
 
 std::vector<Observation> SurfaceRecord::observe() const {

@@ -41,7 +41,7 @@ class SurfaceRecord {
 
  private:
   /// Depth removed so far from surface particle k, by the law that counts [m].
-  double depth(std::size_t k) const { return wear_rate() * sliding_pressure_[k]; }
+  double depth(std::size_t k) const { return wear_rate() * state_.sliding_pressure[k]; }
   /// Depth [m] per integral of p v dt [Pa m].
   double wear_rate() const {
     return removal_.preston_coefficient > 0 ? removal_.preston_coefficient : archard_rate();
@@ -55,10 +55,21 @@ class SurfaceRecord {
   std::vector<std::uint32_t> work_piece_;
   std::vector<std::vector<std::uint32_t>> place_;  ///< by boundary: id -> place here, or `none`
   std::vector<double> position_, normal_, area_;
-  // integrals over time: since the last row, and since the start
-  std::vector<double> pressure_, speed_, traction_;       ///< [Pa s], [m], [Pa s]
-  std::vector<double> friction_work_, sliding_pressure_;  ///< [J/m2], [Pa m]
-  double since_row_ = 0;
+  /// Integrals over time: since the last row, and since the start.
+  struct State {
+    std::vector<double> pressure, speed, traction;        ///< [Pa s], [m], [Pa s]
+    std::vector<double> friction_work, sliding_pressure;  ///< [J/m2], [Pa m]
+    double since_row = 0;                                 ///< [s]
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, SurfaceRecord& record) {
+    auto& [pressure, speed, traction, friction_work, sliding_pressure, since_row] = record.state_;
+    HdfSeriesFile::State file = record.file_ ? record.file_->state() : HdfSeriesFile::State{};
+    archive(pressure, speed, traction, friction_work, sliding_pressure, since_row, file);
+    if constexpr (Archive::is_loading::value)
+      if (record.file_) record.file_->resume(file);
+  }
+  State state_;
   std::shared_ptr<HdfSeriesFile> file_;  ///< which copies of the record share
 };
 

@@ -24,7 +24,7 @@ namespace {
 /// Whether `point` lies in the cell of a particle of a wall that stands still.
 bool in_a_wall(const Vec& point, const std::vector<Boundary>& boundaries, double spacing) {
   for (const auto& wall : boundaries)
-    for (std::size_t k = 0; k < wall.count && !wall.moves; ++k)
+    for (std::size_t k = 0; k < wall.count && !wall.moves(); ++k)
       if ((at(wall.x, k) - point).lpNorm<Eigen::Infinity>() < 0.501 * spacing) return true;
   return false;
 }

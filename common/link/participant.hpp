@@ -31,6 +31,11 @@
 
 namespace toryu {
 
+/// The k-th of vectors that lie one after the other, dim values each.
+inline Vec vector_of(const std::vector<double>& values, std::size_t k) {
+  return Vec(Eigen::Map<const Vec>(values.data() + dim * k));
+}
+
 /// The solid's particles that the fluid may touch, in the reference configuration; registered once.
 struct Interface {
   std::vector<std::uint32_t> id;    ///< the solid's particle numbers

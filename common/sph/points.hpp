@@ -62,6 +62,12 @@ TORYU_INLINE TensorLanes zero_tensor() {
   return zero;
 }
 
+TORYU_INLINE Lanes trace(const TensorLanes& t) {
+  Lanes sum = t[0][0];
+  for (int a = 1; a < dim; ++a) sum += t[a][a];
+  return sum;
+}
+
 TORYU_INLINE Lanes dot(const VecLanes& a, const VecLanes& b) {
   Lanes sum = a[0] * b[0];
   for (int k = 1; k < dim; ++k) sum += a[k] * b[k];

@@ -5,8 +5,9 @@
 /// Where L_i is near singular (few neighbours, one-sided) the gradient is left out, that is zero.
 #pragma once
 
-#include "fluid_solver/terms/neighbour_sum.hpp"
-#include "fluid_solver/terms/renormalisation.hpp"
+#include "common/sph/neighbour_loop.hpp"
+#include "common/sph/renormalisation.hpp"
+#include "fluid_solver/particles.hpp"
 
 namespace toryu::fluid {
 
@@ -16,10 +17,11 @@ VecLanes density_gradient(const Particles& f, const W& kernel, std::size_t first
   const Lanes rho_i = load(f.rho, first);
   Moment moment;
   VecLanes b = zero_vector();
-  over_neighbours(kernel, neighbours, load(f.x, first), sources(f),
+  over_neighbours(kernel, neighbours, load(f.x, first), pointers(f.x),
                   [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
-                    moment.add(n.x_ij, n.V_grad);
-                    add_product(b, f.rho[j] - rho_i, n.V_grad);
+                    const VecLanes V_grad = n.gradient(f.V[j]);
+                    moment.add(n.x_ij, V_grad);
+                    add_product(b, f.rho[j] - rho_i, V_grad);
                   });
   moment.invert();
   return moment.renormalised(b);

@@ -32,12 +32,12 @@ struct FrictionTerm {
   double mu_A;
   double eps;  ///< [m/s]
 
-  /// F_sf/V_f [N/m3] for W_sf at `r2` = r_sf^2; what belongs to s or f may be lanes or numbers.
+  /// F_sf/V_f [N/m3] for W_sf at distance `r`; what belongs to s or f may be lanes or numbers.
   template <class W>
-  TORYU_INLINE VecLanes per_volume(const W& kernel, Lanes d_s, Lanes p_f, Lanes r2,
+  TORYU_INLINE VecLanes per_volume(const W& kernel, Lanes d_s, Lanes p_f, Lanes r,
                                    const VecLanes& v_fs) const {
     const Lanes t = inverse_sqrt(dot(v_fs, v_fs) + eps * eps);
-    const Lanes factor = mu_A * positive_part(p_f) * d_s * kernel.value(square_root(r2)) * t;
+    const Lanes factor = mu_A * positive_part(p_f) * d_s * kernel.value(r) * t;
     VecLanes force;
     for (int a = 0; a < dim; ++a) force[a] = factor * v_fs[a];
     return force;

@@ -6,8 +6,9 @@
 /// is seen. Exact in a linear velocity. A particle without enough neighbours (L_i near singular) has none.
 #pragma once
 
-#include "fluid_solver/terms/neighbour_sum.hpp"
-#include "fluid_solver/terms/renormalisation.hpp"
+#include "common/sph/neighbour_loop.hpp"
+#include "common/sph/renormalisation.hpp"
+#include "fluid_solver/particles.hpp"
 
 namespace toryu::fluid {
 
@@ -18,11 +19,12 @@ class VelocityGradient {
   template <class W>
   TORYU_INLINE void add(const Sources& source, std::span<const ShiftedNeighbours> neighbours,
                         const W& kernel) {
-    over_neighbours(kernel, neighbours, x_i_, source,
+    over_neighbours(kernel, neighbours, x_i_, source.x,
                     [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
-                      moment_.add(n.x_ij, n.V_grad);
+                      const VecLanes V_grad = n.gradient(source.V[j]);
+                      moment_.add(n.x_ij, V_grad);
                       for (int b = 0; b < dim; ++b)
-                        add_product(sums_[b], source.v_viscous[b][j] - v_i_[b], n.V_grad);
+                        add_product(sums_[b], source.v_viscous[b][j] - v_i_[b], V_grad);
                     });
   }
 

@@ -20,7 +20,7 @@ struct WallRepulsionTerm {
   /// Between the fluid and a wall only.
   TORYU_INLINE void at_wall(const Targets&, const Sources& source, std::size_t j, const Pair& pair,
                             Rates& rates) const {
-    const Lanes inverse_r = inverse_sqrt(max(pair.r2, 1e-300));
+    const Lanes inverse_r = inverse_sqrt(pair.r2);
     const Lanes push = (factor * source.m[j]) * positive_part(inverse_r - inverse_range);
     for (int a = 0; a < dim; ++a) rates.a[a] += push * pair.x_ij[a];
   }

@@ -18,7 +18,7 @@
 #include <functional>
 #include <numeric>
 
-#include "fluid_solver/fluid_solver.hpp"
+#include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
 namespace {
 
@@ -93,14 +93,14 @@ using Sweep = std::function<void(Square&)>;
 Sweep sweep_of(const ChosenTerms& terms) {
   return [terms](Square& square) {
     const BodyForce none;
-    std::vector<ForceOnFluid> given;
     const PairSweeps sweeps{.terms = terms,
                             .body_force = none,
                             .viscous_walls = false,
                             .wall_suction = true,
                             .rest_density = 1000,
                             .tensile_control = false};
-    sweeps.rates(CubicSpline(h), RatesOf::both, square.fluid, square.near, {}, given);
+    std::vector<Boundary> no_walls;
+    sweeps.rates(CubicSpline(h), RatesOf::both, square.fluid, square.near, no_walls);
   };
 }
 
@@ -171,7 +171,7 @@ double memory_of(const std::function<void(Parameters&)>& add) {
   const double w = 3 * spacing;
   scene.walls = {{"floor", {Vec(-w, -w), Vec(1 + w, 0)}, {}}};
   const double before = held_bytes();
-  FluidSolver fluid(p, scene);
+  WeaklyCompressible fluid(p, scene);
   fluid.advance(fluid.time_step_limit());
   return (held_bytes() - before) / static_cast<double>(fluid.particle_count());
 }

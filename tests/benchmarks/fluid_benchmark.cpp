@@ -9,7 +9,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "fluid_solver/fluid_solver.hpp"
+#include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
 namespace toryu::fluid {
 namespace {
@@ -37,7 +37,7 @@ std::pair<Parameters, Scene> tank(int n) {
 void step(benchmark::State& state) {
   omp_set_num_threads(static_cast<int>(state.range(1)));
   const auto [parameters, scene] = tank(static_cast<int>(state.range(0)));
-  FluidSolver fluid(parameters, scene);
+  WeaklyCompressible fluid(parameters, scene);
   double evaluations = 0;
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();

@@ -14,7 +14,7 @@ namespace {
 constexpr double H = 1.0, nu = 0.1, U = 0.01, pi = std::numbers::pi;
 
 /// A channel four times as long as wide; its open ends are not seen in the middle.
-FluidSolver channel(int rows) {
+WeaklyCompressible channel(int rows) {
   Parameters p;
   p.density = 1000;
   p.sound_speed = 5;
@@ -27,18 +27,18 @@ FluidSolver channel(int rows) {
   const double depth = 3 * p.spacing;
   scene.walls = {{"still", {Vec(-H, -depth), Vec(5 * H, 0)}, {}},
                  {"moving", {Vec(-H, H), Vec(5 * H, H + depth)}, Motion{{{0.0, U, 0.0}}}}};
-  return FluidSolver(p, scene);
+  return WeaklyCompressible(p, scene);
 }
 
 template <class Visit>
-void in_the_middle(const FluidSolver& solver, Visit&& visit) {
+void in_the_middle(const WeaklyCompressible& solver, Visit&& visit) {
   const auto& f = solver.particles();
   for (std::size_t k = 0; k < f.count; ++k)
     if (std::abs(f.x[0][k] - 2 * H) < 0.25 * H) visit(f.x[1][k], f.v[0][k]);
 }
 
 /// The amplitude of the first sine wave.
-double first_wave(const FluidSolver& solver) {
+double first_wave(const WeaklyCompressible& solver) {
   double product = 0, square = 0;
   in_the_middle(solver, [&](double y, double u) {
     const double wave = std::sin(pi * y / H);
@@ -57,7 +57,7 @@ double profile(double y, double t) {
 }
 
 TEST(Couette, HasTheViscosityThatWasAskedFor) {
-  FluidSolver solver = channel(20);
+  WeaklyCompressible solver = channel(20);
   run_until(solver, 1.0);
   const double before = first_wave(solver);
   run_until(solver, 2.5);
@@ -67,7 +67,7 @@ TEST(Couette, HasTheViscosityThatWasAskedFor) {
 }
 
 TEST(Couette, FollowsTheExactProfile) {
-  FluidSolver solver = channel(20);
+  WeaklyCompressible solver = channel(20);
   for (const double t : {0.2, 0.5, 1.0, 2.0}) {
     run_until(solver, t);
     double largest = 0;

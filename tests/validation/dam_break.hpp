@@ -55,7 +55,7 @@ inline Fit best_fit(const Front& front) {
 inline Fit run_dam_break(const std::vector<std::string>& overrides) {
   const FluidCase the_case("dam_break", overrides);
   const double a = 0.05715, unit = std::sqrt(a / (2 * the_case.scene.gravity.norm()));  // of T [s]
-  FluidSolver solver = the_case.solver();
+  WeaklyCompressible solver = the_case.solver();
   const std::size_t particles = solver.particle_count();
   Front front{0.02, {}};
   for (int n = 0; n * front.interval < 7.41; ++n) {

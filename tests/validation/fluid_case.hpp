@@ -4,7 +4,7 @@
 #include <omp.h>
 
 #include "common/case/case_file.hpp"
-#include "fluid_solver/fluid_solver.hpp"
+#include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
 namespace toryu::fluid {
 
@@ -15,7 +15,7 @@ struct FluidCase {
   /// `overrides` as after --set: "fluid.spacing=0.1".
   explicit FluidCase(const std::string& name, const std::vector<std::string>& overrides = {})
       : FluidCase(CaseFile(std::string(CASES "/") + name, overrides)) {}
-  FluidSolver solver() const { return FluidSolver(parameters, scene); }
+  WeaklyCompressible solver() const { return WeaklyCompressible(parameters, scene); }
 
   Scene scene;
   Parameters parameters;
@@ -27,7 +27,7 @@ struct FluidCase {
   }
 };
 
-inline void run_until(FluidSolver& solver, double end) {
+inline void run_until(WeaklyCompressible& solver, double end) {
   while (solver.time() < end - 1e-12) solver.advance(std::min(solver.time_step_limit(), end - solver.time()));
 }
 

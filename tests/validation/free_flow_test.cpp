@@ -16,7 +16,7 @@ struct History {
   std::vector<double> time, amplitude;
 };
 History history(const FluidCase& the_case, double end) {
-  FluidSolver solver = the_case.solver();
+  WeaklyCompressible solver = the_case.solver();
   History seen;
   while (solver.time() < end) {
     solver.advance(solver.time_step_limit());

@@ -19,7 +19,7 @@ struct TankAtRest {
     return rho_0 * c_0 * c_0 / gamma * (std::pow(rho_ratio, gamma) - 1);
   }
   /// Largest |p - p_exact| of any particle over rho_0 g H.
-  double pressure_error(const FluidSolver& solver) const {
+  double pressure_error(const WeaklyCompressible& solver) const {
     const EquationOfState state{rho_0, c_0, static_cast<int>(gamma)};
     const auto& f = solver.particles();
     double largest = 0;
@@ -28,7 +28,7 @@ struct TankAtRest {
     return largest / (rho_0 * g * depth);
   }
   /// Kinetic energy over m g H, m the mass of the water.
-  double motion(const FluidSolver& solver) const {
+  double motion(const WeaklyCompressible& solver) const {
     double mass = 0;
     for (const double m : solver.particles().m) mass += m;
     return solver.kinetic_energy() / (mass * g * depth);
@@ -42,7 +42,7 @@ inline void expect_rest(const std::vector<std::string>& overrides, double end_ti
   const auto& p = the_case.parameters;
   const TankAtRest tank{the_case.scene.gravity.norm(), p.hydrostatic_start->surface_level, p.sound_speed,
                         p.density, static_cast<double>(p.stiffness_exponent)};
-  FluidSolver solver = the_case.solver();
+  WeaklyCompressible solver = the_case.solver();
   double pressure = 0, motion = 0;
   for (int n = 1; 0.1 * n < end_time + 0.05; ++n) {
     run_until(solver, 0.1 * n);

@@ -10,7 +10,7 @@ namespace {
 double suction(const std::vector<std::string>& overrides) {
   std::vector<std::string> all{"fluid.spacing=0.05", "fluid.background_pressure.pressure=250"};
   all.insert(all.end(), overrides.begin(), overrides.end());
-  FluidSolver solver = FluidCase("retreating_piston", all).solver();
+  WeaklyCompressible solver = FluidCase("retreating_piston", all).solver();
   run_until(solver, 0.2);
   for (const auto& seen : solver.observe())
     if (seen.name == "force_from_retreating_piston_x") return (250 + seen.value / 0.5) / 500;
@@ -26,7 +26,7 @@ TEST(RetreatingPiston, IsNotTornFromByTensileControl) {
 }
 
 TEST(RotatingSquarePatch, StaysWholeAndKeepsItsEnergy) {
-  FluidSolver solver = FluidCase("rotating_square_patch", {"fluid.spacing=0.04"}).solver();
+  WeaklyCompressible solver = FluidCase("rotating_square_patch", {"fluid.spacing=0.04"}).solver();
   const auto seen = [&](const std::string& name) {
     for (const auto& observation : solver.observe())
       if (observation.name == name) return observation.value;

@@ -16,7 +16,7 @@ struct Left {
 /// At t = 0.25.
 Left left(int across) {
   const FluidCase the_case("taylor_green", {"fluid.spacing=" + std::to_string(1.0 / across)});
-  FluidSolver solver = the_case.solver();
+  WeaklyCompressible solver = the_case.solver();
   run_until(solver, 0.25);
   const auto& p = the_case.parameters;
   const double nu = p.laminar_viscosity->dynamic_viscosity / p.density;

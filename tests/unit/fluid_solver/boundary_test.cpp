@@ -45,7 +45,7 @@ Taken extrapolated(const std::vector<Vec>& places, const Fluid& fluid, const Vec
                    const Vec& a_w = {0, 0}) {
   Boundary boundary;
   boundary.place(places, std::vector<double>(places.size(), d_0 * d_0), 1000, 0.3);
-  boundary.move([&](std::uint32_t k) { return Kinematics{places[k], v_w, a_w}; });
+  boundary.move_to([&](std::uint32_t k) { return Kinematics{places[k], v_w, a_w}; });
   const auto [particles, strips] = in_order(fluid);
   boundary.list_for_wall.build(boundary.x, boundary.count, particles.x, strips, 1.1 * kernel.support());
 #pragma omp parallel

@@ -14,7 +14,7 @@ Setting one_block(const Vec& velocity = Vec::Zero()) {
   return setting;
 }
 
-std::string failure(const FluidSolver& solver) {
+std::string failure(const WeaklyCompressible& solver) {
   try {
     solver.check(solver.time());
   } catch (const PhysicsFailure& error) {
@@ -62,7 +62,7 @@ TEST(Bounds, NameAParticleThatLeavesTheDomain) {
   Setting setting = one_block(Vec(4, 0));
   setting.scene.gravity = Vec::Zero();
   setting.scene.domain.max = Vec(0.35, 10);
-  FluidSolver solver = setting.solver();
+  WeaklyCompressible solver = setting.solver();
   run_until(solver, 0.03);
   EXPECT_EQ(failure(solver), "none");
   run_until(solver, 0.05);

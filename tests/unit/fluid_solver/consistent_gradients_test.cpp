@@ -1,5 +1,5 @@
 // Rates that are exact in linear fields, however the particles lie.
-#include "fluid_solver/consistent_gradients.hpp"
+#include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

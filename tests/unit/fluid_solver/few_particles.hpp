@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numeric>
 #include <vector>
 
 #include "fluid_solver/terms/pair.hpp"
@@ -37,8 +38,16 @@ struct FewSources {
     }
   }
   Sources view() const {
-    return {pointers(x), pointers(v), pointers(v),   pointers(grad_rho), m.data(),
-            V.data(),    rho.data(),  p_rho2.data(), eta.data(),         pointers(eta_grad_v)};
+    return {.x = pointers(x),
+            .v = pointers(v),
+            .v_viscous = pointers(v),
+            .grad_rho = pointers(grad_rho),
+            .m = m.data(),
+            .V = V.data(),
+            .rho = rho.data(),
+            .p_rho2 = p_rho2.data(),
+            .eta = eta.data(),
+            .eta_grad_v = pointers(eta_grad_v)};
   }
   VecField x, v, grad_rho;
   TensorField eta_grad_v;
@@ -65,9 +74,13 @@ Rates sum_over(const Point& i, const std::vector<Point>& others, const W& kernel
   const FewSources sources(others);
   const Sources view = sources.view();
   const Targets target = targets(i);
+  std::vector<std::uint32_t> all(others.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const ShiftedNeighbours list{Vec::Zero(), all};
   Rates rates;
-  for (std::size_t j = 0; j < others.size(); ++j)
-    add(target, view, j, make_pair(kernel, target, view, j), rates);
+  over_neighbours(kernel, std::span(&list, 1), target.x, view.x, [&](std::uint32_t j, const Neighbour& n) {
+    add(target, view, j, make_pair(kernel, n, target, view, j), rates);
+  });
   return rates;
 }
 

@@ -1,5 +1,5 @@
 // Friction on work pieces (33), by pairs worked by hand, and what the solver makes of it.
-#include "fluid_solver/friction.hpp"
+#include "fluid_solver/weakly_compressible/friction.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& poi
   for (const auto& s : piece) places.push_back(s.x), area_vectors.push_back(s.area_vector);
   boundary.place(places, std::vector<double>(piece.size(), d_0 * d_0), 1000, 0.3);
   boundary.make_work_piece(area_vectors);
-  boundary.move([&](std::uint32_t k) { return Kinematics{piece[k].x, piece[k].v, Vec::Zero()}; });
+  boundary.move_to([&](std::uint32_t k) { return Kinematics{piece[k].x, piece[k].v, Vec::Zero()}; });
   boundary.list_for_wall.build(boundary.x, boundary.count, fluid.x, strips, 1.1 * kernel.support());
   boundary.list_for_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, 1.1 * kernel.support());
 
@@ -236,7 +236,7 @@ Setting sliding_water() {
 TEST(FrictionInTheSolver, NeedsNoMemoryWhereItIsAbsent) {
   Setting setting = sliding_water();
   setting.parameters.friction.reset();
-  FluidSolver solver = setting.solver();
+  WeaklyCompressible solver = setting.solver();
   solver.advance(1e-4);
   for (const auto& boundary : solver.boundaries()) {
     EXPECT_TRUE(boundary.friction_length.empty());
@@ -248,7 +248,7 @@ TEST(FrictionInTheSolver, NeedsNoMemoryWhereItIsAbsent) {
 TEST(FrictionInTheSolver, BrakesTheSurge) {
   Setting with = sliding_water(), without = sliding_water();
   without.parameters.friction.reset();
-  FluidSolver a = with.solver(), b = without.solver();
+  WeaklyCompressible a = with.solver(), b = without.solver();
   run_until(a, 0.15);
   run_until(b, 0.15);
   EXPECT_GT(b.momentum()[0], 0);
@@ -258,7 +258,7 @@ TEST(FrictionInTheSolver, BrakesTheSurge) {
 TEST(FrictionInTheSolver, LimitsTheStepAsALinearDragAtRest) {
   Setting setting = sliding_water();
   setting.parameters.friction->regularisation_speed = 1e-4;
-  const FluidSolver solver = setting.solver();
+  const WeaklyCompressible solver = setting.solver();
   EXPECT_EQ(solver.time_step_rule(), "friction");
   double p = 0;
   for (const double rho : solver.particles().rho) p = std::max(p, EquationOfState{1000, 20, 7}.pressure(rho));
@@ -273,7 +273,7 @@ TEST(FrictionInTheSolver, StaysAtRestAtItsLimit) {
   setting.parameters.regions.front().box.max = Vec(1.0, 0.4);
   setting.parameters.hydrostatic_start = HydrostaticStart{0.4};
   setting.parameters.friction->regularisation_speed = 2e-3;
-  FluidSolver solver = setting.solver();
+  WeaklyCompressible solver = setting.solver();
   ASSERT_EQ(solver.time_step_rule(), "friction");
   run_until(solver, 0.05);
   double sliding = 0;  // of the row on the floor

@@ -25,7 +25,7 @@ Setting pushed_water() {
 }
 
 /// Vectors of the series by name, without _x and _y.
-std::map<std::string, Vec> vectors(const FluidSolver& solver) {
+std::map<std::string, Vec> vectors(const WeaklyCompressible& solver) {
   std::map<std::string, Vec> found;
   for (const auto& seen : solver.observe()) {
     const std::string name = seen.name.substr(0, seen.name.size() - 2), end = seen.name.substr(name.size());
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Impulses,
 TEST_P(Impulses, SumToTheChangeOfMomentum) {
   Setting setting = pushed_water();
   setting.parameters.integrator = GetParam();
-  FluidSolver solver = setting.solver();
+  WeaklyCompressible solver = setting.solver();
   const Vec start = vectors(solver)["momentum"];
   EXPECT_GT(start[0], 0);
   for (const double time : {0.01, 0.12}) {
@@ -64,7 +64,7 @@ TEST(FrictionImpulse, IsToldApart) {
   Setting setting = pushed_water();
   setting.parameters.laminar_viscosity.reset();
   setting.parameters.wall_model.slip = WallSlip::free_slip;
-  FluidSolver solver = setting.solver();
+  WeaklyCompressible solver = setting.solver();
   run_until(solver, 0.1);
   const auto seen = vectors(solver);
   EXPECT_LT(seen.at("friction_impulse_from_floor")[0], 0);
@@ -76,7 +76,7 @@ TEST(FrictionImpulse, IsToldApart) {
 }
 
 TEST(OtherImpulses, AreTheForcesOverTheSteps) {
-  FluidSolver solver = pushed_water().solver();
+  WeaklyCompressible solver = pushed_water().solver();
   Vec total = Vec::Zero(), friction = Vec::Zero();
   for (int n = 0; n < 20; ++n) {
     const double dt = solver.time_step_limit();

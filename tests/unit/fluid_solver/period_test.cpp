@@ -58,7 +58,7 @@ Flow after_some_steps(const Vec& move) {
   s.parameters.laminar_viscosity = LaminarViscosity{1.0};
   s.parameters.regions = {{"all", s.scene.domain, Vec(3, 0.5)}};
   s.parameters.initial_flow = InitialFlow{FlowProfile::taylor_green, 1.0, 1.0, 0, move};
-  FluidSolver solver = s.solver();
+  WeaklyCompressible solver = s.solver();
   const Vec before = solver.momentum();
   for (int n = 0; n < 100; ++n) solver.advance(5e-4);  // 0.15 to the right: across the seam
   EXPECT_GT(solver.list_builds(), 3);
@@ -85,7 +85,7 @@ TEST(PeriodicFlow, LetsAWallGoRoundAndRound) {
   s.scene.walls = {{"floor", {Vec(0, -0.2), Vec(0.5, 0)}, {}, false},
                    {"belt", {Vec(0, 0.4), Vec(0.5, 0.6)}, Motion{{{0.0, 2.0, 0.0}}}, false}};
   s.parameters.regions = {{"medium", {Vec(0, 0), Vec(0.5, 0.4)}, Vec(0, 0)}};
-  FluidSolver solver = s.solver();
+  WeaklyCompressible solver = s.solver();
   run_until(solver, 0.6);  // the belt has gone round twice and a bit
   const auto& f = solver.particles();
   for (std::size_t k = 0; k < f.count; ++k) EXPECT_NEAR(f.v[0][k], 5 * f.x[1][k], 0.1);

@@ -149,10 +149,10 @@ Setting sheared_column(std::optional<PowerLaw> law) {
 }
 
 TEST(FluidOfExponentOne, HasOneViscosityAndFlowsAsANewtonianOne) {
-  FluidSolver law = sheared_column(PowerLaw{20, 1.0, 0.1, 200}).solver();
+  WeaklyCompressible law = sheared_column(PowerLaw{20, 1.0, 0.1, 200}).solver();
   Setting newtonian = sheared_column({});
   newtonian.parameters.laminar_viscosity = LaminarViscosity{20};
-  FluidSolver same = newtonian.solver();
+  WeaklyCompressible same = newtonian.solver();
   run_until(law, 0.05);
   run_until(same, 0.05);
   const auto& f = law.particles();
@@ -165,7 +165,7 @@ TEST(FluidOfExponentOne, HasOneViscosityAndFlowsAsANewtonianOne) {
 
 TEST(ThinningFluid, HasTheViscosityOfItsShearRateAndShowsBoth) {
   const PowerLaw law{20, 0.5, 0.1, 200};
-  FluidSolver solver = sheared_column(law).solver();
+  WeaklyCompressible solver = sheared_column(law).solver();
   run_until(solver, 0.05);
   const auto& f = solver.particles();
   const auto frame = solver.frame();
@@ -186,7 +186,7 @@ TEST(ThinningFluid, GivesTheSameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<Vec>> x;
   for (const int threads : {1, 2}) {
     omp_set_num_threads(threads);
-    FluidSolver solver = sheared_column(PowerLaw{20, 0.5, 0.1, 200}).solver();
+    WeaklyCompressible solver = sheared_column(PowerLaw{20, 0.5, 0.1, 200}).solver();
     run_until(solver, 0.02);
     x.push_back(positions(solver));
   }
@@ -195,7 +195,7 @@ TEST(ThinningFluid, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(ThinningFluid, TakesTheStepOfItsLargestViscosity) {
-  FluidSolver solver = sheared_column(PowerLaw{20, 0.5, 0.1, 2e4}).solver();
+  WeaklyCompressible solver = sheared_column(PowerLaw{20, 0.5, 0.1, 2e4}).solver();
   const double h = 0.065;
   const auto limit = [&](double eta) { return 0.125 * h * h * 1000 / eta; };
   // with the artificial viscosity's 0.049 alpha h c_0 beside it

@@ -1,7 +1,7 @@
 /// Small scenes to run the solver in.
 #pragma once
 
-#include "fluid_solver/fluid_solver.hpp"
+#include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
 namespace toryu::fluid {
 
@@ -9,7 +9,7 @@ namespace toryu::fluid {
 struct Setting {
   Parameters parameters;
   Scene scene;
-  FluidSolver solver() const { return FluidSolver(parameters, scene); }
+  WeaklyCompressible solver() const { return WeaklyCompressible(parameters, scene); }
 };
 
 inline Setting empty_space() {
@@ -42,18 +42,18 @@ inline Setting collapsing_column() {
   return s;
 }
 
-inline void run_until(FluidSolver& solver, double end) {
+inline void run_until(WeaklyCompressible& solver, double end) {
   while (solver.time() < end - 1e-12) solver.advance(std::min(solver.time_step_limit(), end - solver.time()));
 }
 
 /// A field by the particles' numbers at the start.
-inline std::vector<Vec> by_id(const FluidSolver& solver, const VecField& field) {
+inline std::vector<Vec> by_id(const WeaklyCompressible& solver, const VecField& field) {
   const auto& f = solver.particles();
   std::vector<Vec> values(f.count);
   for (std::size_t k = 0; k < f.count; ++k) values[f.id[k]] = at(field, k);
   return values;
 }
-inline std::vector<Vec> positions(const FluidSolver& solver) {
+inline std::vector<Vec> positions(const WeaklyCompressible& solver) {
   return by_id(solver, solver.particles().x);
 }
 

@@ -1,5 +1,5 @@
 // Particle shifting, who is inside, and tensile control.
-#include "fluid_solver/shifting.hpp"
+#include "fluid_solver/weakly_compressible/shifting.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -30,7 +30,7 @@ struct Sorted {
   Neighbours lists;
 };
 Sorted sorted(const WendlandC2& kernel) {
-  const FluidSolver solver = block().solver();
+  const WeaklyCompressible solver = block().solver();
   Sorted s{solver.particles(), {kernel.support(), 0.1 * kernel.support(), 0.1, {Vec::Zero()}}};
   std::vector<Boundary> none;
   s.lists.build(s.fluid, none);
@@ -110,7 +110,7 @@ std::vector<Vec> acceleration(double p, bool controlled) {
   s.parameters.regions.front().box.max = Vec(1.2, 1.2);
   if (controlled) s.parameters.tensile_control = TensileControl{};
   s.parameters.background_pressure = BackgroundPressure{p};  // a suction, for once
-  FluidSolver solver = s.solver();
+  WeaklyCompressible solver = s.solver();
   solver.advance(1e-9);
   return by_id(solver, solver.particles().a);
 }
@@ -133,7 +133,7 @@ std::vector<Vec> beside_a_wall(double skin, bool controlled) {
   s.parameters.background_pressure = BackgroundPressure{-500};
   s.scene.walls = {{"wall", {Vec(-0.2, 0), Vec(0, 0.7)}, {}}};
   if (controlled) s.parameters.tensile_control = TensileControl{};
-  FluidSolver solver = s.solver();
+  WeaklyCompressible solver = s.solver();
   for (int n = 0; n < 2; ++n) solver.advance(1e-3);
   return positions(solver);
 }

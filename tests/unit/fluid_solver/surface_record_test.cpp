@@ -30,7 +30,7 @@ struct Contacting {
     body.place({Vec(0, 0), Vec(0, -d_0)}, {d_0 * d_0, d_0 * d_0}, 1000, 0.3);
     body.make_work_piece({Vec(0, d_0), Vec(0, 0)});
     resize(body.friction_force, padded(body.count));
-    body.move([&](std::uint32_t id) {
+    body.move_to([&](std::uint32_t id) {
       return Kinematics{Vec(0, id == 0 ? 0.0 : -d_0), surface_velocity, Vec::Zero()};
     });
     for (std::size_t k = 0; k < body.count; ++k)

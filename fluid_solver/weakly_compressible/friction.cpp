@@ -1,6 +1,8 @@
-#include "fluid_solver/friction.hpp"
+#include "fluid_solver/weakly_compressible/friction.hpp"
 
 #include <fmt/format.h>
+
+#include "common/sph/neighbour_loop.hpp"
 
 namespace toryu::fluid {
 
@@ -23,13 +25,9 @@ void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& f
       const std::size_t first = active[k] * lane_count;
       const VecLanes A_s = load(work_piece.area_vector, first);
       Lanes sum = 0.0;
-      for (const ShiftedNeighbours& near : work_piece.list_for_wall.near(active[k])) {
-        const VecLanes x_s = shifted(load(work_piece.x, first), near.shift);
-        for (const std::uint32_t f : near.sources) {
-          const VecLanes x_sf{x_s[0] - fluid.x[0][f], x_s[1] - fluid.x[1][f]};
-          sum += fluid.V[f] * W.value(square_root(dot(x_sf, x_sf)));
-        }
-      }
+      over_neighbours(
+          W, work_piece.list_for_wall.near(active[k]), load(work_piece.x, first), pointers(fluid.x),
+          [&](std::uint32_t f, const Neighbour& n) TORYU_INLINE_LAMBDA { sum += fluid.V[f] * W.value(n.r); });
       store(square_root(dot(A_s, A_s)) * inverse(max(sum, least_contact)), d, first);
     }
   });
@@ -53,19 +51,14 @@ Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, const Bo
   const VecLanes v_f = load(fluid.v, first);
   const Lanes p_f = load(fluid.p, first), V_f = load(fluid.V, first);
   VecLanes sum = zero_vector();
-  for (const ShiftedNeighbours& near : work_piece.list_for_fluid.near(cluster)) {
-    const VecLanes x_f = shifted(load(fluid.x, first), near.shift);
-    for (const std::uint32_t s : near.sources) {
-      VecLanes x_fs, v_fs;
-      for (int a = 0; a < dim; ++a) {
-        x_fs[a] = x_f[a] - work_piece.x[a][s];
-        v_fs[a] = v_f[a] - work_piece.v[a][s];
-      }
-      const VecLanes on_s =
-          term_.per_volume(kernel, work_piece.friction_length[s], p_f, dot(x_fs, x_fs), v_fs);
-      for (int a = 0; a < dim; ++a) sum[a] -= on_s[a];
-    }
-  }
+  over_neighbours(kernel, work_piece.list_for_fluid.near(cluster), load(fluid.x, first),
+                  pointers(work_piece.x), [&](std::uint32_t s, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    VecLanes v_fs;
+                    for (int a = 0; a < dim; ++a) v_fs[a] = v_f[a] - work_piece.v[a][s];
+                    const VecLanes on_s =
+                        term_.per_volume(kernel, work_piece.friction_length[s], p_f, n.r, v_fs);
+                    for (int a = 0; a < dim; ++a) sum[a] -= on_s[a];
+                  });
   const Lanes inverse_rho = inverse(load(fluid.rho, first));
   Vec force;
   for (int a = 0; a < dim; ++a) {
@@ -91,18 +84,13 @@ void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, cons
   const VecLanes v_s = load(work_piece.v, first);
   const Lanes d_s = load(work_piece.friction_length, first);
   VecLanes sum = zero_vector();
-  for (const ShiftedNeighbours& near : work_piece.list_for_wall.near(cluster)) {
-    const VecLanes x_s = shifted(load(work_piece.x, first), near.shift);
-    for (const std::uint32_t f : near.sources) {
-      VecLanes x_fs, v_fs;
-      for (int a = 0; a < dim; ++a) {
-        x_fs[a] = fluid.x[a][f] - x_s[a];
-        v_fs[a] = fluid.v[a][f] - v_s[a];
-      }
-      const VecLanes on_s = term_.per_volume(kernel, d_s, fluid.p[f], dot(x_fs, x_fs), v_fs);
-      for (int a = 0; a < dim; ++a) sum[a] += fluid.V[f] * on_s[a];
-    }
-  }
+  over_neighbours(kernel, work_piece.list_for_wall.near(cluster), load(work_piece.x, first),
+                  pointers(fluid.x), [&](std::uint32_t f, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    VecLanes v_fs;
+                    for (int a = 0; a < dim; ++a) v_fs[a] = fluid.v[a][f] - v_s[a];
+                    const VecLanes on_s = term_.per_volume(kernel, d_s, fluid.p[f], n.r, v_fs);
+                    for (int a = 0; a < dim; ++a) sum[a] += fluid.V[f] * on_s[a];
+                  });
   store(sum, work_piece.friction_force, first);
 }
 

@@ -8,22 +8,26 @@
 
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
-#include "fluid_solver/friction.hpp"
-#include "fluid_solver/pair_sweeps.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/rheology.hpp"
+#include "fluid_solver/weakly_compressible/friction.hpp"
+#include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
 
 namespace toryu::fluid {
 
 class Dynamics {
  public:
-  Dynamics(const Parameters& parameters, const Vec& gravity);
+  Dynamics(const Parameters& parameters, const Vec& gravity, const Kernel& kernel,
+           const EquationOfState& state);
 
-  /// Fills p, V, the boundaries' extrapolated values and the wanted rates a, drho of `fluid` from its state.
-  /// `given[b]` becomes the force that boundary b exerted on the fluid, where the velocity's rate is wanted.
+  /// Gives the fields that only this case's terms need their place.
+  void allocate(Particles& fluid) const;
+
+  /// Fills p, V, the boundaries' extrapolated values and the wanted rates a, drho of `fluid` from its state,
+  /// and what each boundary did to the fluid where the velocity's rate is wanted.
   void evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given, Timers& timers) const;
+                std::vector<Boundary>& boundaries, Timers& timers) const;
 
   /// Fills `boundary.force`, the exact reaction to what the boundary did to the fluid in the last evaluation,
   /// gathered pair by pair on the boundary's side, and its `friction_force` where there is friction.
@@ -46,8 +50,7 @@ class Dynamics {
   void wall_densities(Boundary& boundary) const;
   void density_gradients(Particles& fluid, const ClusterList& neighbours) const;
   void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
-  void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries,
-                         std::vector<ForceOnFluid>& given) const;
+  void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const;
   bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
   bool renormalised_diffusion() const {
     return std::holds_alternative<DensityDiffusionTerm<true>>(terms_.diffusion);

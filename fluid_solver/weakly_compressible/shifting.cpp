@@ -1,7 +1,7 @@
-#include "fluid_solver/shifting.hpp"
+#include "fluid_solver/weakly_compressible/shifting.hpp"
 
-#include "fluid_solver/terms/neighbour_sum.hpp"
-#include "fluid_solver/terms/renormalisation.hpp"
+#include "common/sph/neighbour_loop.hpp"
+#include "common/sph/renormalisation.hpp"
 
 namespace toryu::fluid {
 
@@ -21,13 +21,14 @@ struct Sums {
 template <bool fluid_sources, class W>
 void add(Sums& sums, const VecLanes& x_i, const VecLanes& v_i, const Lanes& rho_i, const Sources& source,
          std::span<const ShiftedNeighbours> nears, const W& kernel, double inverse_W_d0) {
-  over_neighbours(kernel, nears, x_i, source, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+  over_neighbours(kernel, nears, x_i, source.x, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+    const VecLanes V_grad = n.gradient(source.V[j]);
     const Lanes share = kernel.value(n.r) * inverse_W_d0, share_2 = share * share;
-    add_product(sums.crowding, 1.0 + R * (share_2 * share_2), n.V_grad);
+    add_product(sums.crowding, 1.0 + R * (share_2 * share_2), V_grad);
     if constexpr (fluid_sources) {
-      sums.moment.add(n.x_ij, n.V_grad);
-      add_product(sums.rho, source.rho[j] - rho_i, n.V_grad);
-      for (int b = 0; b < dim; ++b) add_product(sums.v[b], source.v[b][j] - v_i[b], n.V_grad);
+      sums.moment.add(n.x_ij, V_grad);
+      add_product(sums.rho, source.rho[j] - rho_i, V_grad);
+      for (int b = 0; b < dim; ++b) add_product(sums.v[b], source.v[b][j] - v_i[b], V_grad);
     }
   });
 }
@@ -49,6 +50,7 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
       add<true>(sums, x_i, v_i, rho_i, sources(fluid), neighbours.near(c), W, inverse_W_d0);
       for (const auto& wall : boundaries)
         add<false>(sums, x_i, v_i, rho_i, sources(wall), wall.list_for_fluid.near(c), W, inverse_W_d0);
+      static_assert(dim == 2, "written out: loops over the axes are contracted otherwise");
       VecLanes dx{factor * sums.crowding[0], factor * sums.crowding[1]};
       const Lanes length = square_root(dot(dx, dx));
       const Lanes share = load(fluid.off_surface, first) * min(1.0, longest * inverse(max(length, 1e-300)));

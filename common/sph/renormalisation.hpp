@@ -5,9 +5,9 @@
 /// by whose inverse a gradient of a linear field comes out exact, however the neighbours lie.
 #pragma once
 
-#include "fluid_solver/terms/pair.hpp"
+#include "common/sph/points.hpp"
 
-namespace toryu::fluid {
+namespace toryu {
 
 /// Smallest eigenvalue of L^-1 (1 in a full lattice, about 1/2 at a straight free surface) that is inverted.
 inline constexpr double smallest_moment = 0.1;
@@ -43,4 +43,4 @@ class Moment {
   Lanes xx_ = 0.0, xy_ = 0.0, yy_ = 0.0, share_ = 0.0;
 };
 
-}  // namespace toryu::fluid
+}  // namespace toryu

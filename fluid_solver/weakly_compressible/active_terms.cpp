@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "fluid_solver/dynamics.hpp"
+#include "fluid_solver/weakly_compressible/dynamics.hpp"
 
 namespace toryu::fluid {
 

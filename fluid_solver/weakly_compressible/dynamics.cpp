@@ -1,38 +1,14 @@
-#include "fluid_solver/dynamics.hpp"
+#include "fluid_solver/weakly_compressible/dynamics.hpp"
 
-#include "fluid_solver/consistent_gradients.hpp"
 #include "fluid_solver/terms/density_gradient.hpp"
 #include "fluid_solver/terms/velocity_gradient.hpp"
+#include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 
 namespace toryu::fluid {
 
-namespace {
-
-Kernel kernel_of(const Parameters& parameters) {
-  if (parameters.kernel == KernelForm::wendland_c2) return WendlandC2(parameters.h());
-  return CubicSpline(parameters.h());
-}
-
-}  // namespace
-
-Vec ForceOnFluid::force() const {
-  Vec sum = friction();
-  for (const auto& part : by_cluster) sum += part;
-  return sum;
-}
-
-Vec ForceOnFluid::friction() const {
-  Vec sum = Vec::Zero();
-  for (const auto& part : friction_by_cluster) sum += part;
-  return sum;
-}
-
-Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity)
-    : parameters_(parameters),
-      body_force_{.gravity = gravity},
-      kernel_(kernel_of(parameters)),
-      state_{parameters.density, parameters.sound_speed, parameters.stiffness_exponent,
-             parameters.background_pressure ? parameters.background_pressure->pressure : 0.0} {
+Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kernel& kernel,
+                   const EquationOfState& state)
+    : parameters_(parameters), body_force_{.gravity = gravity}, kernel_(kernel), state_(state) {
   if (const auto& force = parameters.central_force) {
     body_force_.centre = force->centre;
     body_force_.central_rate_squared = force->rate * force->rate;
@@ -57,6 +33,15 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity)
   if (parameters.carreau) rheology_ = *parameters.carreau;
   if (viscosity_varies()) terms_.viscous = VariableViscosityTerm{};
   if (const auto& f = parameters.friction) friction_.emplace(*f, parameters.spacing, c_0, kernel_);
+}
+
+void Dynamics::allocate(Particles& fluid) const {
+  const std::size_t size = padded(fluid.count);
+  if (renormalised_diffusion()) resize(fluid.grad_rho, size);
+  if (!viscosity_varies()) return;
+  fluid.gdot.assign(size, 0.0);
+  fluid.eta.assign(size, viscosity_at_rest());
+  resize(fluid.eta_grad_v, size);
 }
 
 void Dynamics::pressures(Particles& fluid) const {
@@ -131,11 +116,9 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
 }
 
 void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                        std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given,
-                        Timers& timers) const {
+                        std::vector<Boundary>& boundaries, Timers& timers) const {
   const bool density = wanted != RatesOf::velocity, velocity = wanted != RatesOf::density;
-  given.resize(boundaries.size());
-  for (auto& part : given) part.by_cluster.resize(fluid.clusters());
+  for (auto& boundary : boundaries) boundary.force_on_fluid.by_cluster.resize(fluid.clusters());
   if (viscosity_varies())
     for (auto& boundary : boundaries) {
       boundary.eta.resize(boundary.V.size());
@@ -160,19 +143,18 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
     viscosities(fluid, neighbours, boundaries);
   }
   const auto timer = timers.measure("rates");
-  kernel_.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries, given); });
+  kernel_.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries); });
   if (parameters_.consistent_gradients)
     make_gradients_consistent(wanted, viscosity_varies() ? 0.0 : viscosity_at_rest(), fluid, neighbours,
                               kernel_);
-  if (velocity && friction_) brake_by_friction(fluid, boundaries, given);
+  if (velocity && friction_) brake_by_friction(fluid, boundaries);
 }
 
-void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries,
-                                 std::vector<ForceOnFluid>& given) const {
-  for (std::size_t b = 0; b < boundaries.size(); ++b)
-    if (boundaries[b].is_work_piece()) {
-      friction_->measure_contact(boundaries[b], fluid);
-      friction_->brake_fluid(fluid, boundaries[b], given[b].friction_by_cluster);
+void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const {
+  for (Boundary& boundary : boundaries)
+    if (boundary.is_work_piece()) {
+      friction_->measure_contact(boundary, fluid);
+      friction_->brake_fluid(fluid, boundary, boundary.force_on_fluid.friction_by_cluster);
     }
 }
 

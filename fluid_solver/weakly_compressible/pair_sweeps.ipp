@@ -3,10 +3,10 @@
 
 #include <utility>
 
-#include "fluid_solver/pair_sweeps.hpp"
 #include "fluid_solver/terms/continuity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
+#include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
 
 namespace toryu::fluid {
 
@@ -86,14 +86,13 @@ Vec lane_sums(const Lanes& m, const VecLanes& v) {
   return sum;
 }
 
-/// Adds the sums over `sources` near a cluster of targets `i`, which stand at `x_i`, pair by pair.
+/// Adds the sums over `sources` near a cluster of targets `i`, pair by pair.
 template <class W, class Add>
-TORYU_INLINE void over_pairs(const W& kernel, std::span<const ShiftedNeighbours> nears, Targets& i,
-                             const VecLanes& x_i, const Sources& sources, Add&& add) {
-  for (const ShiftedNeighbours& near : nears) {
-    i.x = shifted(x_i, near.shift);
-    for (const std::uint32_t j : near.sources) add(j, make_pair(kernel, i, sources, j));
-  }
+TORYU_INLINE void over_pairs(const W& kernel, std::span<const ShiftedNeighbours> lists, const Targets& i,
+                             const Sources& sources, Add&& add) {
+  over_neighbours(kernel, lists, i.x, sources.x,
+                  [&](std::uint32_t j, const Neighbour& n)
+                      TORYU_INLINE_LAMBDA { add(j, make_pair(kernel, n, i, sources, j)); });
 }
 
 template <RatesOf wanted>
@@ -104,16 +103,15 @@ inline constexpr bool of_density = wanted != RatesOf::velocity;
 /// The rates of one cluster of `fluid` by `terms`.
 template <RatesOf wanted, class W, class... Terms>
 void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& fluid,
-                      const ClusterList& neighbours, const std::vector<Boundary>& boundaries,
-                      std::vector<ForceOnFluid>& given, std::size_t cluster, const Terms... term) {
+                      const ClusterList& neighbours, std::vector<Boundary>& boundaries, std::size_t cluster,
+                      const Terms... term) {
   const std::size_t first = cluster * lane_count;
   const Sources own = sources(fluid);
   Targets i = load_targets(fluid, first);
-  const VecLanes x_i = i.x;
   const Lanes p_rho2_i = i.p_rho2;
   if (sweeps.tensile_control) i.p_rho2 = without_tension(p_rho2_i, load(fluid.off_surface_and_walls, first));
   Rates rates;
-  over_pairs(kernel, neighbours.near(cluster), i, x_i, own,
+  over_pairs(kernel, neighbours.near(cluster), i, own,
              [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
                if constexpr (of_density<wanted>) {
                  (add_density(term, i, own, j, pair, rates), ...);
@@ -126,14 +124,14 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
              });
   i.p_rho2 = p_rho2_i;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
-    if constexpr (of_velocity<wanted>) given[b].by_cluster[cluster].setZero();
+    if constexpr (of_velocity<wanted>) boundaries[b].force_on_fluid.by_cluster[cluster].setZero();
     const auto near = boundaries[b].list_for_fluid.near(cluster);
     if (near.size() == 1 && near[0].sources.empty()) continue;
     const Sources wall = sources(boundaries[b]);
     // Summed apart: where a wall is only grazed, its share of the acceleration is below the rounding of the
     // rest.
     const VecLanes others = std::exchange(rates.a, zero_vector());
-    over_pairs(kernel, near, i, x_i, wall, [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+    over_pairs(kernel, near, i, wall, [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
       if constexpr (of_density<wanted>) (add_density_at_wall(term, i, wall, j, pair, rates), ...);
       if constexpr (of_velocity<wanted>) {
         (add_at_wall(term, i, wall, j, pair, rates), ...);
@@ -141,14 +139,14 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
       }
     });
     if constexpr (of_velocity<wanted>)
-      given[b].by_cluster[cluster] = lane_sums(load(fluid.m, first), rates.a);
+      boundaries[b].force_on_fluid.by_cluster[cluster] = lane_sums(load(fluid.m, first), rates.a);
     for (int a = 0; a < dim; ++a) rates.a[a] += others[a];
   }
   if constexpr (of_density<wanted>) store(i.rho * rates.compression + rates.diffusion, fluid.drho, first);
   if constexpr (of_velocity<wanted>) {
     const BodyForce& f = sweeps.body_force;
     for (int a = 0; a < dim; ++a)
-      store(rates.a[a] + f.gravity[a] - f.central_rate_squared * (x_i[a] - f.centre[a]), fluid.a[a], first);
+      store(rates.a[a] + f.gravity[a] - f.central_rate_squared * (i.x[a] - f.centre[a]), fluid.a[a], first);
   }
 }
 
@@ -159,9 +157,8 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
   const std::size_t first = cluster * lane_count;
   const Sources own = sources(fluid);
   Targets w = load_targets(boundary, first);
-  const VecLanes x_w = w.x;
   Rates rates;
-  over_pairs(kernel, boundary.list_for_wall.near(cluster), w, x_w, own,
+  over_pairs(kernel, boundary.list_for_wall.near(cluster), w, own,
              [&](std::size_t i, const Pair& pair) TORYU_INLINE_LAMBDA {
                (add_at_wall(term, w, own, i, pair, rates), ...);
                if (sweeps.viscous_walls) (add_viscous(term, w, own, i, pair, rates), ...);
@@ -171,23 +168,22 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
 
 template <RatesOf wanted, class W, class... Terms>
 void rates_of_all(const PairSweeps& sweeps, const W& kernel, Particles& fluid, const ClusterList& neighbours,
-                  const std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given,
-                  const Terms... term) {
+                  std::vector<Boundary>& boundaries, const Terms... term) {
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c)
-    rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, given, c, term...);
+    rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, c, term...);
 }
 
 }  // namespace
 
 template <class W>
 void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                       const std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given) const {
+                       std::vector<Boundary>& boundaries) const {
   // Terms that a sweep does not ask for are not told apart: each combination is compiled once.
   if (wanted == RatesOf::both)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, given,
+          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries,
                                       Continuity{rest_density, wall_suction}, Pressure{wall_suction},
                                       term...);
         },
@@ -195,14 +191,14 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
   else if (wanted == RatesOf::velocity)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries, given,
+          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries,
                                           Pressure{wall_suction}, term...);
         },
         terms.artificial, terms.viscous, terms.repulsion);
   else
     std::visit(
         [&](const auto& diffusion) {
-          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, given,
+          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries,
                                          Continuity{rest_density, wall_suction}, diffusion);
         },
         terms.diffusion);

@@ -35,14 +35,6 @@ struct BodyForce {
   double central_rate_squared = 0;  ///< acceleration towards the centre over the distance from it [1/s2]
 };
 
-/// What a boundary gave the fluid in one evaluation.
-struct ForceOnFluid {
-  std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
-  std::vector<Vec> friction_by_cluster;  ///< the same of the friction alone; empty where there is none
-  Vec force() const;                     ///< the sum of both
-  Vec friction() const;
-};
-
 struct PairSweeps {
   const ChosenTerms& terms;
   const BodyForce& body_force;
@@ -51,11 +43,11 @@ struct PairSweeps {
   double rest_density;   ///< [kg/m3]
   bool tensile_control;  ///< needs `off_surface_and_walls` of the fluid
 
-  /// Fills the rates a, drho of `fluid`, and `given` where the velocity is among them. Opens a parallel
-  /// region. Defined for CubicSpline and WendlandC2.
+  /// Fills the rates a, drho of `fluid`, and what each boundary did to it where the velocity is among them.
+  /// Opens a parallel region. Defined for CubicSpline and WendlandC2.
   template <class W>
   void rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-             const std::vector<Boundary>& boundaries, std::vector<ForceOnFluid>& given) const;
+             std::vector<Boundary>& boundaries) const;
 
   /// Fills `boundary.force`: the forces on the fluid's side gathered pair by pair on the boundary's.
   template <class W>

@@ -16,7 +16,7 @@
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
-#include "fluid_solver/pair_sweeps.hpp"
+#include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
 
 namespace toryu::fluid {
 

@@ -1,7 +1,7 @@
-#include "fluid_solver/consistent_gradients.hpp"
+#include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 
-#include "fluid_solver/terms/neighbour_sum.hpp"
-#include "fluid_solver/terms/renormalisation.hpp"
+#include "common/sph/neighbour_loop.hpp"
+#include "common/sph/renormalisation.hpp"
 
 namespace toryu::fluid {
 
@@ -23,17 +23,18 @@ Sums sums_of(const Particles& f, double mu, const W& kernel, std::size_t first,
   const Lanes p_i = load(f.p, first), p_rho2_i = load(f.p_rho2, first);
   const Lanes two_nu = 2.0 * mu * inverse(load(f.rho, first));
   Sums sums;
-  over_neighbours(kernel, nears, load(f.x, first), sources(f),
+  over_neighbours(kernel, nears, load(f.x, first), pointers(f.x),
                   [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
-                    sums.moment.add(n.x_ij, n.V_grad);
-                    add_product(sums.p, f.p[j] - p_i, n.V_grad);
+                    const VecLanes V_grad = n.gradient(f.V[j]);
+                    sums.moment.add(n.x_ij, V_grad);
+                    add_product(sums.p, f.p[j] - p_i, V_grad);
                     const Lanes push = f.m[j] * (f.p_rho2[j] + p_rho2_i) * n.G, k = two_nu * (f.V[j] * n.G);
                     for (int a = 0; a < dim; ++a) {
                       sums.a[a] -= push * n.x_ij[a];
                       sums.k_v[a] += k * (v_i[a] - f.v[a][j]);
                     }
                     add_product(sums.k_x, k, n.x_ij);
-                    for (int b = 0; b < dim; ++b) add_product(sums.v[b], f.v[b][j] - v_i[b], n.V_grad);
+                    for (int b = 0; b < dim; ++b) add_product(sums.v[b], f.v[b][j] - v_i[b], V_grad);
                   });
   return sums;
 }
@@ -49,7 +50,7 @@ struct Difference {
   const VecLanes grad_p = sums.moment.renormalised(sums.p);
   const Lanes inverse_rho = inverse(rho);
   const Lanes share = 2.0 * inverse(max(sums.moment.trace(), 1.0));
-  Difference found{-(sums.v[0][0] + sums.v[1][1]), {}};
+  Difference found{-trace(sums.v), {}};
   for (int a = 0; a < dim; ++a) {
     const VecLanes grad_v_a = sums.moment.renormalised(sums.v[a]);
     found.divergence += grad_v_a[a];

@@ -3,16 +3,17 @@
 #pragma once
 
 #include "common/link/participant.hpp"
-#include "fluid_solver/boundary.hpp"
+#include "fluid_solver/boundary_motion.hpp"
 
 namespace toryu::fluid {
 
+struct Boundary;
+
 class MovingInterface {
  public:
-  /// `interface` as the solid registered it; the boundary takes its places.
-  /// `response_time` [s] is the time over which its acceleration is averaged.
-  void attach(const Interface& interface, Boundary& boundary, double rest_density, double strip_width,
-              double response_time);
+  /// `interface` as the solid registered it. `response_time` [s] is the time over which its acceleration is
+  /// averaged.
+  MovingInterface(const Interface& interface, double response_time);
 
   /// Begins a window of `dt` [s] at `time` [s], in which the interface is brought to where `motion` says.
   /// Each particle goes there in a straight line from where the last window left it: displacement and
@@ -24,8 +25,13 @@ class MovingInterface {
   /// grows where that exceeds 1. Averaged over tau, the recursion is stable up to rho_f d_0/m_s = 2 tau/dt
   /// + 1. Left out altogether, the gate of cases/elastic_gate rings.
   void begin_window(const InterfaceMotion& motion, double time, double dt);
-  /// Moves the boundary's particles to where they are at `time`.
-  void move(Boundary& boundary, double time) const;
+  /// Gives what particle k does at `time` [s].
+  auto at(double time) const {
+    return [this, since = time - state_.window_start](std::uint32_t k) {
+      return Kinematics{state_.start[k] + state_.velocity[k] * since, state_.velocity[k],
+                        state_.acceleration[k]};
+    };
+  }
 
   /// Adds the boundary's force over `dt` [s] to the load; `received` is the force that the fluid got from it.
   void add_load(const Boundary& boundary, const Vec& received, double dt);
@@ -33,11 +39,23 @@ class MovingInterface {
   InterfaceLoad take_load();
 
  private:
-  std::size_t count_ = 0;
-  double response_time_ = 0, window_start_ = 0, last_dt_ = 0;
-  std::vector<Vec> start_, end_, velocity_, acceleration_;  ///< over the present window
-  double load_time_ = 0;
-  InterfaceLoad sum_;
+  struct State {
+    double window_start = 0, last_dt = 0;                 ///< [s]
+    std::vector<Vec> start, end, velocity, acceleration;  ///< over the present window
+    double load_time = 0;                                 ///< [s]
+    InterfaceLoad sum;                                    ///< of load times time
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, MovingInterface& interface) {
+    auto& [window_start, last_dt, start, end, velocity, acceleration, load_time, sum] = interface.state_;
+    auto& [pressure, force, friction_force, impulse_on_fluid] = sum;
+    archive(window_start, last_dt, start, end, velocity, acceleration, load_time, pressure, force,
+            friction_force, impulse_on_fluid);
+  }
+
+  std::size_t count_;
+  double response_time_;
+  State state_;
 };
 
 }  // namespace toryu::fluid

@@ -1,0 +1,125 @@
+#include "fluid_solver/fluid_model.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/run/log.hpp"
+#include "common/state/serialize.hpp"
+#include "fluid_solver/work_piece.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+Kernel kernel_of(const Parameters& parameters) {
+  if (parameters.kernel == KernelForm::wendland_c2) return WendlandC2(parameters.h());
+  return CubicSpline(parameters.h());
+}
+
+}  // namespace
+
+FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
+    : parameters_(parameters),
+      scene_(scene),
+      kernel_(kernel_of(parameters)),
+      equation_of_state_{parameters.density, parameters.sound_speed, parameters.stiffness_exponent,
+                         parameters.background_pressure ? parameters.background_pressure->pressure : 0.0},
+      period_(scene, parameters.spacing, (1 + parameters.neighbour_skin) * 2 * parameters.h()),
+      state_{.neighbours = Neighbours(2 * parameters.h(), parameters.neighbour_skin * 2 * parameters.h(),
+                                      parameters.strip_width(), period_.shifts())} {
+  if (!parameters.particle_shifting) state_.suction_watch.emplace(parameters.spacing, equation_of_state_);
+  fill_regions();
+  fill_walls();
+  check_overlaps();
+  start_momentum_ = momentum();
+}
+
+void FluidModel::write_state(std::ostream& stream) const {
+  write_states(stream, state_);
+}
+
+void FluidModel::read_state(std::istream& stream) {
+  read_states(stream, state_);
+  state_.neighbours.rebuild(state_.fluid, state_.boundaries);
+}
+
+void FluidModel::attach(const Interface& interface) {
+  std::vector<Vec> positions, area_vectors;
+  for (std::size_t k = 0; k < interface.size(); ++k) {
+    positions.push_back(vector_of(interface.position, k));
+    area_vectors.push_back(vector_of(interface.area_vector, k));
+  }
+  Boundary& boundary = state_.boundaries.emplace_back();
+  boundary.name = "interface";
+  boundary.motion = MovingInterface(interface, reach() / parameters_.sound_speed);
+  boundary.place(positions, interface.volume, parameters_.density, parameters_.strip_width());
+  boundary.make_work_piece(area_vectors);
+  cover_faces(boundary, interface.spacing, state_.boundaries, parameters_.spacing);
+  check_overlaps();
+}
+
+MovingInterface& FluidModel::interface() {
+  return std::get<MovingInterface>(state_.boundaries.back().motion);
+}
+
+void FluidModel::begin_window(const InterfaceMotion& motion, double dt) {
+  interface().begin_window(motion, state_.time, dt);
+  state_.boundaries.back().move(state_.time);
+}
+
+InterfaceLoad FluidModel::take_load() {
+  return interface().take_load();
+}
+
+void FluidModel::move_boundaries(double time) {
+  for (Boundary& boundary : state_.boundaries) boundary.move(time);
+}
+
+void FluidModel::move_back_into_domain() {
+  if (!period_.any()) return;
+  for (std::size_t i = 0; i < state_.fluid.count; ++i) {
+    const Vec x = at(state_.fluid.x, i);
+    set(state_.fluid.x, i, x + period_.back_into_domain(x));
+  }
+  for (Boundary& boundary : state_.boundaries)
+    if (auto* prescribed = std::get_if<PrescribedMotion>(&boundary.motion))
+      for (std::size_t k = 0; k < boundary.count; ++k)
+        prescribed->start[boundary.id[k]] += period_.back_into_domain(at(boundary.x, k));
+  move_boundaries(state_.time);
+}
+
+void FluidModel::update_neighbours(double dt) {
+  const auto timer = timers_.measure("neighbours");
+  if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt)) return;
+  move_back_into_domain();
+  state_.neighbours.build(state_.fluid, state_.boundaries);
+}
+
+void FluidModel::record_surface(const std::filesystem::path& out) {
+  if (!parameters_.removal) return;
+  state_.surface_record.emplace(*parameters_.removal);
+  state_.surface_record->attach(state_.boundaries);
+  state_.surface_record->open(out);
+}
+
+void FluidModel::record(double time) {
+  if (state_.surface_record) state_.surface_record->write(time);
+  if (state_.suction_watch) watch_suction(time);
+}
+
+/// Who has a free surface in reach is not known in every run, and asked where it matters alone.
+void FluidModel::watch_suction(double time) {
+  const auto suction = state_.suction_watch->look(state_.fluid, time);
+  if (!suction) return;
+  free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+  if (!is_closed(state_.fluid)) return state_.suction_watch->forget();
+  log::warn("{}", *suction);
+  state_.suction_watch.reset();
+}
+
+void FluidModel::count_impulses(double dt) {
+  for (Boundary& boundary : state_.boundaries) boundary.count_impulse(dt);
+  state_.gravity_impulse += dt * std::reduce(state_.fluid.m.begin(), state_.fluid.m.end()) * scene_.gravity;
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,134 @@
+/// What all models of the fluid share: the particles, the walls and the solid's interface, records, observers
+/// and checks. A model adds how the state advances.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "common/run/solver.hpp"
+#include "common/run/timers.hpp"
+#include "fluid_solver/boundary.hpp"
+#include "fluid_solver/free_surface.hpp"
+#include "fluid_solver/neighbours.hpp"
+#include "fluid_solver/parameters.hpp"
+#include "fluid_solver/period.hpp"
+#include "fluid_solver/suction_watch.hpp"
+#include "fluid_solver/surface_record.hpp"
+#include "fluid_solver/terms/equation_of_state.hpp"
+
+namespace toryu::fluid {
+
+/// What limits the time step.
+struct Extremes {
+  double speed = 0, acceleration = 0;  ///< [m/s], [m/s2]
+  double viscosity = 0;                ///< of the medium [Pa s]
+  double friction_rate = 0;            ///< of the fastest drag by friction, 0 without [1/s]
+};
+template <class Archive>
+void serialize(Archive& archive, Extremes& extremes) {
+  auto& [speed, acceleration, viscosity, friction_rate] = extremes;
+  archive(speed, acceleration, viscosity, friction_rate);
+}
+
+class FluidModel : public Solver {
+ public:
+  /// Fills the regions and the walls of the scene. Throws BadInput if bodies overlap or nothing is filled.
+  FluidModel(const Parameters& parameters, const Scene& scene);
+
+  void save() override { saved_ = state_; }
+  void restore() override { state_ = *saved_; }
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
+  void check(double time) const override;
+  Frame frame() const override;
+  std::vector<Observation> observe() const override;
+  /// A row of surface.h5, where `record_surface` was called. Warns of suction that the fluid does not bear.
+  void record(double time) override;
+  std::size_t particle_count() const override { return state_.fluid.count; }
+
+  /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.
+  void record_surface(const std::filesystem::path& out);
+
+  // the coupled run's side
+  /// How far the kernel sees [m].
+  double reach() const { return kernel_.support(); }
+  FluidTraits traits() const {
+    return {reach(), time_step_limit(), parameters_.density, parameters_.sound_speed, parameters_.spacing};
+  }
+  void attach(const Interface& interface);
+  void begin_window(const InterfaceMotion& motion, double dt);
+  InterfaceLoad take_load();
+
+  double time() const { return state_.time; }
+  double kinetic_energy() const;
+  double potential_energy() const;  ///< against gravity [J per metre]
+  double elastic_energy() const;    ///< of compression [J per metre]
+  Vec momentum() const;
+  const Particles& particles() const { return state_.fluid; }
+  const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
+  Timers& timers() { return timers_; }
+  long list_builds() const { return state_.neighbours.builds(); }
+
+ protected:
+  /// All that a step, a window or an observer changes. The lists are among it: what is summed in another
+  /// order rounds otherwise. A model that has more to keep adds it here.
+  struct State {
+    double time = 0;  ///< [s]
+    Particles fluid = {};
+    std::vector<Boundary> boundaries = {};
+    Neighbours neighbours;
+    Vec gravity_impulse = Vec::Zero();  ///< since the start [N.s per metre]
+    Extremes largest = {};
+    bool density_rate_known = false;  ///< of the symplectic step, from the last one
+    std::optional<SurfaceRecord> surface_record = {};
+    std::optional<SuctionWatch> suction_watch = {};
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, State& state) {
+    auto& [time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known, surface_record,
+           suction_watch] = state;
+    archive(time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known);
+    if (surface_record) archive(*surface_record);
+    bool watched = suction_watch.has_value();  // until it has warned
+    archive(watched);
+    if (!watched) suction_watch.reset();
+    if (suction_watch) archive(*suction_watch);
+  }
+
+  /// Sorts and lists anew if a step of `dt` [s] may exhaust the skin.
+  void update_neighbours(double dt);
+  void move_boundaries(double time);
+  /// Counts what the last evaluation is about to do in `dt` [s], so that the sum is the change of momentum to
+  /// rounding.
+  void count_impulses(double dt);
+
+  Parameters parameters_;
+  Scene scene_;
+  Kernel kernel_;
+  EquationOfState equation_of_state_;
+  Period period_;
+  State state_;
+  FreeSurface free_surface_;
+  Timers timers_;
+
+ private:
+  void fill_regions();
+  void start_flow(std::size_t particle);
+  void fill_walls();
+  void check_overlaps() const;
+  void move_back_into_domain();
+  void watch_suction(double time);
+  MovingInterface& interface();
+  /// What no force gave the fluid: shifting, tensile control, consistent gradients [N.s per metre].
+  Vec numerical_impulse() const;
+  [[noreturn]] void fail(std::size_t particle, double time, const std::string& quantity, double value,
+                         const std::string& limit) const;
+
+  Vec start_momentum_ = Vec::Zero();
+  std::optional<State> saved_;
+};
+
+/// The model that the case asks for.
+std::unique_ptr<FluidModel> make_model(const Parameters& parameters, const Scene& scene);
+
+}  // namespace toryu::fluid

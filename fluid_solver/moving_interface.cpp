@@ -1,0 +1,61 @@
+#include "fluid_solver/moving_interface.hpp"
+
+#include "fluid_solver/boundary.hpp"
+
+namespace toryu::fluid {
+
+MovingInterface::MovingInterface(const Interface& interface, double response_time)
+    : count_(interface.size()), response_time_(response_time) {
+  for (std::size_t k = 0; k < count_; ++k) state_.start.push_back(vector_of(interface.position, k));
+  state_.end = state_.start;
+  state_.velocity.assign(count_, Vec::Zero());
+  state_.acceleration = state_.velocity;
+  take_load();
+}
+
+void MovingInterface::begin_window(const InterfaceMotion& motion, double time, double dt) {
+  const bool first = state_.last_dt == 0;
+  const double share = state_.last_dt / (state_.last_dt + response_time_);
+  for (std::size_t k = 0; k < count_; ++k) {
+    const Vec now = vector_of(motion.position, k);
+    state_.start[k] = first ? Vec(now - vector_of(motion.velocity, k) * dt) : state_.end[k];
+    state_.end[k] = now;
+    const Vec mean = (state_.end[k] - state_.start[k]) / dt;
+    const Vec change = first ? Vec(Vec::Zero()) : Vec((mean - state_.velocity[k]) / state_.last_dt);
+    state_.acceleration[k] += share * (change - state_.acceleration[k]);
+    state_.velocity[k] = mean;
+  }
+  state_.window_start = time;
+  state_.last_dt = dt;
+}
+
+void MovingInterface::add_load(const Boundary& boundary, const Vec& received, double dt) {
+  for (std::size_t k = 0; k < boundary.count; ++k) {
+    const std::size_t n = boundary.id[k];
+    state_.sum.pressure[n] += boundary.p[k] * dt;
+    for (int a = 0; a < dim; ++a)
+      state_.sum.force[dim * n + static_cast<std::size_t>(a)] += boundary.force[a][k] * dt;
+  }
+  if (!boundary.friction_force[0].empty()) {
+    state_.sum.friction_force.resize(dim * count_);
+    for (std::size_t k = 0; k < boundary.count; ++k)
+      for (int a = 0; a < dim; ++a)
+        state_.sum.friction_force[dim * boundary.id[k] + static_cast<std::size_t>(a)] +=
+            boundary.friction_force[a][k] * dt;
+  }
+  state_.sum.impulse_on_fluid += received * dt;
+  state_.load_time += dt;
+}
+
+InterfaceLoad MovingInterface::take_load() {
+  InterfaceLoad mean = std::move(state_.sum);
+  for (auto* values : {&mean.pressure, &mean.force, &mean.friction_force})
+    for (double& value : *values) value /= state_.load_time;
+  state_.sum = InterfaceLoad{};
+  state_.sum.pressure.assign(count_, 0.0);
+  state_.sum.force.assign(dim * count_, 0.0);
+  state_.load_time = 0;
+  return mean;
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,171 @@
+#include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/sph/skin.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+// Shares of the limits, Monaghan 1992 and thesis section 5. A drag is stable up to 2 over its rate.
+constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.25, friction_share = 0.5;
+
+struct StepLimit {
+  double value;  ///< [s]
+  std::string_view rule;
+};
+
+StepLimit smallest_limit(const Parameters& p, const Extremes& largest) {
+  const double h = p.h(), never = std::numeric_limits<double>::infinity();
+  double nu = largest.viscosity / p.density;
+  if (p.artificial_viscosity)
+    nu += effective_kinematic_viscosity(p.artificial_viscosity->alpha, h, p.sound_speed);
+  const std::array<StepLimit, 4> limits{
+      {{acoustic_share * h / (p.sound_speed + largest.speed), "acoustic"},
+       {nu > 0 ? viscous_share * h * h / nu : never, "viscous"},
+       {largest.acceleration > 0 ? force_share * std::sqrt(h / largest.acceleration) : never, "force"},
+       {largest.friction_rate > 0 ? friction_share / largest.friction_rate : never, "friction"}}};
+  return *std::min_element(limits.begin(), limits.end(),
+                           [](const auto& a, const auto& b) { return a.value < b.value; });
+}
+
+/// field += dt rate.
+void add(VecField& field, double dt, const VecField& rate, std::size_t clusters) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t c = 0; c < clusters; ++c)
+    for (int a = 0; a < dim; ++a)
+      store(load(field[a], c * lane_count) + dt * load(rate[a], c * lane_count), field[a], c * lane_count);
+}
+void add(Field& field, double dt, const Field& rate, std::size_t clusters) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t c = 0; c < clusters; ++c)
+    store(load(field, c * lane_count) + dt * load(rate, c * lane_count), field, c * lane_count);
+}
+
+}  // namespace
+
+WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene& scene)
+    : FluidModel(parameters, scene), dynamics_(parameters, scene.gravity, kernel_, equation_of_state_) {
+  dynamics_.allocate(state_.fluid);
+  if (parameters.particle_shifting)
+    shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
+  state_.largest.viscosity = dynamics_.viscosity_at_rest();
+  note_extremes();
+}
+
+std::unique_ptr<FluidModel> make_model(const Parameters& parameters, const Scene& scene) {
+  return std::make_unique<WeaklyCompressible>(parameters, scene);
+}
+
+double WeaklyCompressible::time_step_limit() const {
+  return parameters_.time_step_share * smallest_limit(parameters_, state_.largest).value;
+}
+
+std::string_view WeaklyCompressible::time_step_rule() const {
+  return smallest_limit(parameters_, state_.largest).rule;
+}
+
+void WeaklyCompressible::advance_from(const Start& start, double dt) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t c = 0; c < state_.fluid.clusters(); ++c) {
+    const std::size_t first = c * lane_count;
+    for (int a = 0; a < dim; ++a) {
+      // x before v: its rate is the velocity of the evaluation, not the new one
+      store(load(start.x[a], first) + dt * load(state_.fluid.v[a], first), state_.fluid.x[a], first);
+      store(load(start.v[a], first) + dt * load(state_.fluid.a[a], first), state_.fluid.v[a], first);
+    }
+    store(load(start.rho, first) + dt * load(state_.fluid.drho, first), state_.fluid.rho, first);
+  }
+}
+
+void WeaklyCompressible::advance(double dt) {
+  update_neighbours(dt);
+  if (parameters_.seeks_free_surface()) {
+    const auto timer = timers_.measure("free surface");
+    free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+    if (parameters_.keeps_off_walls()) find_off_surface_and_walls(state_.fluid, state_.boundaries, kernel_);
+  }
+  if (parameters_.integrator == Integrator::symplectic)
+    step_symplectic(dt);
+  else
+    step_midpoint(dt);
+  if (shifting_) shift(dt);
+  note_extremes();
+}
+
+void WeaklyCompressible::evaluate(RatesOf wanted) {
+  dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_);
+}
+
+void WeaklyCompressible::step_midpoint(double dt) {
+  start_.x = state_.fluid.x, start_.v = state_.fluid.v, start_.rho = state_.fluid.rho;
+  evaluate(RatesOf::both);
+  advance_from(start_, 0.5 * dt);
+  move_boundaries(state_.time + 0.5 * dt);
+  evaluate(RatesOf::both);
+  accumulate_reaction(dt);
+  const auto timer = timers_.measure("step");
+  advance_from(start_, dt);
+  state_.time += dt;
+  move_boundaries(state_.time);
+}
+
+void WeaklyCompressible::step_symplectic(double dt) {
+  const std::size_t clusters = state_.fluid.clusters();
+  if (!state_.density_rate_known) evaluate(RatesOf::density);
+  state_.density_rate_known = true;
+  add(state_.fluid.x, 0.5 * dt, state_.fluid.v, clusters);
+  add(state_.fluid.rho, 0.5 * dt, state_.fluid.drho, clusters);
+  move_boundaries(state_.time + 0.5 * dt);
+  evaluate(RatesOf::velocity);
+  accumulate_reaction(dt);
+  add(state_.fluid.v, dt, state_.fluid.a, clusters);
+  add(state_.fluid.x, 0.5 * dt, state_.fluid.v, clusters);
+  state_.time += dt;
+  move_boundaries(state_.time);
+  evaluate(RatesOf::density);
+  add(state_.fluid.rho, 0.5 * dt, state_.fluid.drho, clusters);
+}
+
+/// Notes what the forces of the evaluation by which the velocity advances do to others over `dt`.
+void WeaklyCompressible::accumulate_reaction(double dt) {
+  for (Boundary& boundary : state_.boundaries)
+    if (auto* interface = std::get_if<MovingInterface>(&boundary.motion)) {
+      const auto timer = timers_.measure("reaction on the interface");
+      dynamics_.react(state_.fluid, boundary);
+      interface->add_load(boundary, boundary.force_on_fluid.force(), dt);
+    }
+  note_surface(dt);
+  count_impulses(dt);
+}
+
+void WeaklyCompressible::note_surface(double dt) {
+  if (!state_.surface_record) return;
+  const auto timer = timers_.measure("surface of the work pieces");
+  for (Boundary& boundary : state_.boundaries)
+    if (!boundary.is_interface()) dynamics_.react_by_friction(state_.fluid, boundary);
+  state_.surface_record->add(state_.boundaries, state_.fluid, kernel_, dt);
+}
+
+void WeaklyCompressible::shift(double dt) {
+  const auto timer = timers_.measure("shifting");
+  shifting_->shift(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, state_.largest.speed, dt);
+}
+
+void WeaklyCompressible::note_extremes() {
+  const Particles& fluid = state_.fluid;
+  Extremes& largest = state_.largest;
+  largest.speed = largest_norm(fluid.v, fluid.count);
+  largest.acceleration = largest_norm(fluid.a, fluid.count);
+  if (dynamics_.viscosity_varies())
+    largest.viscosity = *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
+  if (const auto& friction = dynamics_.friction()) {
+    const double densest = *std::max_element(fluid.rho.begin(), fluid.rho.end());
+    largest.friction_rate = friction->rate(equation_of_state_.pressure(densest), parameters_.density);
+  }
+}
+
+}  // namespace toryu::fluid
