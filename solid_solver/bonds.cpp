@@ -49,42 +49,43 @@ Stretches Bonds::stretches(const std::vector<Vec>& x) const {
   return found;
 }
 
-void BondWatch::look(const std::vector<Vec>& x, double time) {
+void BondWatch::check(State& state, const std::vector<Vec>& x, double time) const {
   const Stretches found = bonds_.stretches(x);
-  worst_.torn = std::max(worst_.torn, found.torn);
-  worst_.clumped = std::max(worst_.clumped, found.clumped);
+  Stretches& worst = state.worst;
+  worst.torn = std::max(worst.torn, found.torn);
+  worst.clumped = std::max(worst.clumped, found.clumped);
   if (limits_.stop && found.torn > 0)
     throw PhysicsFailure("solid", found.longest, time, "stretch of a bond",
                          fmt::format("{:.4g}", found.largest), fmt::format("{:g}", limits_.torn_at));
   if (limits_.stop && found.clumped > 0)
     throw PhysicsFailure("solid", found.shortest, time, "stretch of a bond",
                          fmt::format("{:.4g}", found.smallest), fmt::format("{:g}", limits_.clumped_at));
-  const auto tell = [&](long count, long& told, const char* what, const char* than, double limit,
+  const auto warn = [&](long count, long& warned, const char* what, const char* than, double limit,
                         std::uint32_t particle) {
-    if (count == 0 || count < 2 * told) return;
-    told = count;
+    if (count == 0 || count < 2 * warned) return;
+    warned = count;
     log::warn(
         "the solid has {} at t = {:.6g} s: {} bonds are {} than {:g} times their first length, most "
         "that of particle {} at ({:.4g}, {:.4g}) m",
         what, time, count, than, limit, particle, x[particle][0], x[particle][1]);
   };
-  tell_of_stress(found, time);
-  worst_.turn = std::max(worst_.turn, found.turn);
-  worst_.largest = std::max(worst_.largest, found.largest);
-  worst_.smallest = std::min(worst_.smallest, found.smallest);
-  tell(found.torn, told_torn_, "torn", "longer", limits_.torn_at, found.longest);
-  tell(found.clumped, told_clumped_, "clumped", "shorter", limits_.clumped_at, found.shortest);
+  warn_of_stress(state, found, time);
+  worst.turn = std::max(worst.turn, found.turn);
+  worst.largest = std::max(worst.largest, found.largest);
+  worst.smallest = std::min(worst.smallest, found.smallest);
+  warn(found.torn, state.warned_torn, "torn", "longer", limits_.torn_at, found.longest);
+  warn(found.clumped, state.warned_clumped, "clumped", "shorter", limits_.clumped_at, found.shortest);
 }
 
-void BondWatch::tell_of_stress(const Stretches& found, double time) {
-  if (found.turn > edges_.turn && worst_.turn <= edges_.turn)
+void BondWatch::warn_of_stress(const State& state, const Stretches& found, double time) const {
+  if (found.turn > edges_.turn && state.worst.turn <= edges_.turn)
     log::warn(
         "bonds of the solid have turned by {:.3g} rad at t = {:.6g} s: plain gradients take a turn near a "
         "surface for a strain, beyond the edge at {:g} rad; take gradients = \"renormalised\" or formulation "
         "= "
         "\"total_lagrangian\", see cases/rigid_rotation/turn_map.toml",
         found.turn, time, edges_.turn);
-  if (found.strain() > edges_.strain && worst_.strain() <= edges_.strain)
+  if (found.strain() > edges_.strain && state.worst.strain() <= edges_.strain)
     log::warn(
         "bonds of the solid are strained by {:.3g} at t = {:.6g} s: stress under the Jaumann rate is then 5 "
         "% "

@@ -2,7 +2,7 @@
 /// length, tells whether the body has torn or its particles have clumped. The updated Lagrangian form can do
 /// both by itself, by its tensile instability, while no value of any particle leaves physics: so it always
 /// watches its bonds, and says in the log and in the summary what it sees. [solid.bonds] adds columns to
-/// solid.csv, and can make it end the run (`stop`). They are looked at every 50 steps. The bonds also tell
+/// solid.csv, and can make it end the run (`stop`). They are checked every 50 steps. The bonds also tell
 /// when the body has turned or been sheared so far that the form's stress is wrong without a sign of it.
 #pragma once
 
@@ -23,6 +23,11 @@ struct Stretches {
   std::uint32_t longest = 0, shortest = 0;  ///< a particle of the bond that is stretched most and least
   double strain() const { return std::max(largest - 1.0, 1.0 - smallest); }
 };
+template <class Archive>
+void serialize(Archive& archive, Stretches& stretches) {
+  auto& [largest, smallest, turn, torn, clumped, longest, shortest] = stretches;
+  archive(largest, smallest, turn, torn, clumped, longest, shortest);
+}
 
 /// What the bonds of an updated Lagrangian solid may do before its stress is wrong; infinite where it never
 /// is.
@@ -47,27 +52,34 @@ class Bonds {
   BondLimits limits_;
 };
 
-/// Looks at the bonds now and then, and warns in the log when some are torn or clumped, again whenever their
+/// Checks the bonds now and then, and warns in the log when some are torn or clumped, again whenever their
 /// number has doubled, and when they are beyond the edges of the stress.
 class BondWatch {
  public:
+  struct State {
+    Stretches worst;  ///< most bonds torn, most clumped, the largest turn [rad] and strain at any check
+    long warned_torn = 0, warned_clumped = 0;  ///< of so many
+  };
+
   BondWatch(const Body& body, const BondLimits& limits, const StressEdges& edges)
       : bonds_(body, limits), limits_(limits), edges_(edges) {}
 
-  /// Looks at positions x [m] at `time` [s]. Throws PhysicsFailure where the limits say so.
-  void look(const std::vector<Vec>& x, double time);
+  /// At positions x [m] at `time` [s]. Throws PhysicsFailure where the limits say so.
+  void check(State& state, const std::vector<Vec>& x, double time) const;
   Stretches stretches(const std::vector<Vec>& x) const { return bonds_.stretches(x); }
-  /// Most bonds torn, most clumped, the largest turn [rad] and the largest strain at any look.
-  const Stretches& worst() const { return worst_; }
 
  private:
-  void tell_of_stress(const Stretches& found, double time);
+  void warn_of_stress(const State& state, const Stretches& found, double time) const;
 
   Bonds bonds_;
   BondLimits limits_;
   StressEdges edges_;
-  Stretches worst_;
-  long told_torn_ = 0, told_clumped_ = 0;
 };
+
+template <class Archive>
+void serialize(Archive& archive, BondWatch::State& state) {
+  auto& [worst, warned_torn, warned_clumped] = state;
+  archive(worst, warned_torn, warned_clumped);
+}
 
 }  // namespace toryu::solid

@@ -9,7 +9,7 @@ namespace toryu::solid {
 
 namespace {
 
-constexpr std::size_t told_one_by_one = 5;
+constexpr std::size_t warned_one_by_one = 5;
 
 std::string table(const std::vector<DetachedParticle>& particles) {
   std::string text = "time[s],particle[1],mass[kg/m],start_x[m],start_y[m],x[m],y[m]\n";
@@ -23,20 +23,19 @@ std::string table(const std::vector<DetachedParticle>& particles) {
 
 DetachedList::DetachedList(const std::filesystem::path& out) : path_(out / "detached.csv") {
   std::filesystem::create_directories(out);
-  write_atomically(path_, table({}));
 }
 
 void DetachedList::write(const std::vector<DetachedParticle>& all) {
   write_atomically(path_, table(all));
-  for (; told_ < std::min(all.size(), told_one_by_one); ++told_) {
-    const auto& p = all[told_];
+  for (; warned_ < std::min(all.size(), warned_one_by_one); ++warned_) {
+    const auto& p = all[warned_];
     log::warn("particle {} of the solid has come off at t = {:.6g} s: {:.4g} kg/m from ({:.4g}, {:.4g}) m",
               p.particle, p.time, p.mass, p.start[0], p.start[1]);
   }
-  if (all.size() >= 2 * told_) {
+  if (all.size() > warned_ && all.size() >= 2 * warned_) {
     log::warn("{} particles of the solid have come off by t = {:.6g} s; detached.csv lists them", all.size(),
               all.back().time);
-    told_ = all.size();
+    warned_ = all.size();
   }
 }
 

@@ -1,5 +1,6 @@
 /// `detached.csv`: a row a particle that has come off, in the order of time. It is there, if empty, in every
-/// run that looks for such particles, and complete at any moment.
+/// run that looks for such particles, and complete at any moment: it is always written whole, so that a run
+/// that goes on from a checkpoint doubles and misses none.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +13,13 @@ namespace toryu::solid {
 class DetachedList {
  public:
   explicit DetachedList(const std::filesystem::path& out);
-  /// Writes all that have come off so far, and says so in the log: of the first few one by one, then
+  /// Writes all that have come off so far, and warns in the log: of the first few one by one, then
   /// whenever they have doubled.
   void write(const std::vector<DetachedParticle>& all);
 
  private:
   std::filesystem::path path_;
-  std::size_t told_ = 0;
+  std::size_t warned_ = 0;  ///< of so many
 };
 
 }  // namespace toryu::solid

@@ -11,11 +11,16 @@ DetachmentObserver::DetachmentObserver(const Body& body, const Parameters& param
       density_(parameters.material.density),
       bond_length_(parameters.detachment->bond_length > 0 ? parameters.detachment->bond_length * body.spacing
                                                           : 2.0 * parameters.h()),
-      interval_(parameters.detachment->interval),
-      detached_(body.size(), 0),
-      ever_detached_(body.size(), 0) {}
+      interval_(parameters.detachment->interval) {}
 
-std::vector<char> DetachmentObserver::reached_from_clamps(const std::vector<Vec>& x) {
+DetachmentObserver::State DetachmentObserver::start() const {
+  State state;
+  state.detached.resize(body_->size());
+  state.ever_detached.resize(body_->size());
+  return state;
+}
+
+std::vector<char> DetachmentObserver::reached_from_clamps(const std::vector<Vec>& x) const {
   const SortedPoints points(x, bond_length_);
   std::vector<char> reached(body_->held);
   std::vector<std::uint32_t> front;
@@ -34,17 +39,17 @@ std::vector<char> DetachmentObserver::reached_from_clamps(const std::vector<Vec>
   return reached;
 }
 
-bool DetachmentObserver::look(const std::vector<Vec>& x, double time) {
-  next_ = (std::floor(time / interval_ + 1e-9) + 1) * interval_;
+bool DetachmentObserver::record(State& state, const std::vector<Vec>& x, double time) const {
+  state.next = (std::floor(time / interval_ + 1e-9) + 1) * interval_;
   const auto reached = reached_from_clamps(x);
-  const std::size_t before = list_.size();
+  const std::size_t before = state.list.size();
   for (std::uint32_t i = 0; i < x.size(); ++i) {
-    detached_[i] = !reached[i];
-    if (!detached_[i] || ever_detached_[i]) continue;
-    ever_detached_[i] = 1;
-    list_.push_back({i, time, density_ * body_->volume(i), body_->X[i], x[i]});
+    state.detached[i] = !reached[i];
+    if (!state.detached[i] || state.ever_detached[i]) continue;
+    state.ever_detached[i] = 1;
+    state.list.push_back({i, time, density_ * body_->volume(i), body_->X[i], x[i]});
   }
-  return list_.size() > before;
+  return state.list.size() > before;
 }
 
 }  // namespace toryu::solid

@@ -19,31 +19,41 @@ struct DetachedParticle {
   Vec start;     ///< position in the unloaded body [m]
   Vec position;  ///< when found [m]
 };
+template <class Archive>
+void serialize(Archive& archive, DetachedParticle& detached) {
+  auto& [particle, time, mass, start, position] = detached;
+  archive(particle, time, mass, start, position);
+}
 
 class DetachmentObserver {
  public:
+  struct State {
+    double next = 0;  ///< time of the next search [s]
+    /// 1 where the particle was detached at the last search. A particle that touches the body again is not.
+    std::vector<char> detached;
+    std::vector<char> ever_detached;
+    std::vector<DetachedParticle> list;  ///< all that have come off so far, each once, in the order of time
+  };
+
   /// `parameters` are those of a body that has clamps; `body` must outlive the observer.
   DetachmentObserver(const Body& body, const Parameters& parameters);
 
-  /// Whether a look is due at `time` [s].
-  bool due(double time) const { return time >= next_; }
-  /// Looks for what has come off; `x` [m] holds the present positions, by number of the particle. Returns
-  /// whether a particle has come off for the first time.
-  bool look(const std::vector<Vec>& x, double time);
-
-  /// 1 where the particle was detached at the last look. A particle that touches the body again is not.
-  const std::vector<char>& detached() const { return detached_; }
-  /// All that have come off so far, each once, in the order of time.
-  const std::vector<DetachedParticle>& list() const { return list_; }
+  State start() const;
+  /// Records what has come off by `time` [s]; `x` [m] holds the present positions, by number of the particle.
+  /// Returns whether a particle has come off for the first time.
+  bool record(State& state, const std::vector<Vec>& x, double time) const;
 
  private:
-  std::vector<char> reached_from_clamps(const std::vector<Vec>& x);
+  std::vector<char> reached_from_clamps(const std::vector<Vec>& x) const;
 
   const Body* body_;
   double density_, bond_length_, interval_;
-  double next_ = 0;  ///< time of the next look [s]
-  std::vector<char> detached_, ever_detached_;
-  std::vector<DetachedParticle> list_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, DetachmentObserver::State& state) {
+  auto& [next, detached, ever_detached, list] = state;
+  archive(next, detached, ever_detached, list);
+}
 
 }  // namespace toryu::solid

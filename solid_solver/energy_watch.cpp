@@ -6,14 +6,14 @@
 
 namespace toryu::solid {
 
-void EnergyWatch::look(double kinetic, double given, double time) {
-  constexpr double gain_to_tell = 0.02;
-  most_ = std::max(most_, kinetic);
-  if (!(most_ > 0)) return;
-  const double gain = (kinetic - given) / most_;
-  largest_gain_ = std::max(largest_gain_, gain);
-  if (gain < std::max(gain_to_tell, 2 * told_)) return;
-  told_ = gain;
+void EnergyWatch::warn_of_gain(double kinetic, double given, double time) {
+  constexpr double gain_to_warn_of = 0.02;
+  most = std::max(most, kinetic);
+  if (!(most > 0)) return;
+  const double gain = (kinetic - given) / most;
+  largest_gain = std::max(largest_gain, gain);
+  if (gain < std::max(gain_to_warn_of, 2 * warned)) return;
+  warned = gain;
   log::warn(
       "the solid has gained energy of motion from nowhere by t = {:.6g} s: {:.2g} of it; artificial stress "
       "or "

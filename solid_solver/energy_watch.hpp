@@ -5,17 +5,20 @@
 
 namespace toryu::solid {
 
-class EnergyWatch {
- public:
+struct EnergyWatch {
+  double most = 0;          ///< kinetic energy, at any check [J per metre depth]
+  double largest_gain = 0;  ///< of the most, at any check
+  double warned = 0;        ///< of this gain
+
   /// The body moves with `kinetic` [J per metre depth]; `given` is what it started with and what loads and
   /// the fluid have given it since: all that it could have in motion if it held nothing by deformation. Warns
   /// in the log when it has more, by 2 % of the most that it has had, and whenever that has doubled.
-  void look(double kinetic, double given, double time);
-  /// Of the most that it has had, at any look.
-  double largest_gain() const { return largest_gain_; }
-
- private:
-  double most_ = 0, largest_gain_ = 0, told_ = 0;
+  void warn_of_gain(double kinetic, double given, double time);
 };
+template <class Archive>
+void serialize(Archive& archive, EnergyWatch& watch) {
+  auto& [most, largest_gain, warned] = watch;
+  archive(most, largest_gain, warned);
+}
 
 }  // namespace toryu::solid

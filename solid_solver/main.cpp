@@ -35,7 +35,7 @@ RunRecord::Counts particle_counts(const SolidModel& model) {
 /// Lists what comes off the solid, if the case asks for it, in the folder of results.
 void list_detached(const Options& options, const Parameters& parameters, SolidModel& model) {
   if (!parameters.detachment) return;
-  model.tell_detached([list = DetachedList(options.out)](const auto& all) mutable { list.write(all); });
+  model.record_detached([list = DetachedList(options.out)](const auto& all) mutable { list.write(all); });
 }
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene,

@@ -10,10 +10,10 @@ namespace toryu::solid {
 
 std::vector<std::pair<std::string, double>> SolidModel::figures() const {
   if (!bonds_) return {};
-  const Stretches& worst = bonds_->worst();
+  const Stretches& worst = state_.bonds.worst;
   return {{"torn_bonds", static_cast<double>(worst.torn)},
           {"clumped_bonds", static_cast<double>(worst.clumped)},
-          {"largest_energy_gain", energy_.largest_gain()},
+          {"largest_energy_gain", state_.energy.largest_gain},
           {"largest_bond_strain", worst.strain()},
           {"largest_bond_turn", worst.turn}};
 }
@@ -51,7 +51,7 @@ void SolidModel::observe_detachment(std::vector<Observation>& row) const {
   double count = 0, sum = 0, largest = 0;
   for (std::size_t i = 0; i < particle_count(); ++i) {
     largest = std::max(largest, stress(i).von_mises());
-    if (!detachment_->detached()[i]) continue;
+    if (!state_.detachment.detached[i]) continue;
     count += 1;
     sum += mass(i);
   }
@@ -103,9 +103,9 @@ std::vector<Observation> SolidModel::observe() const {
     row.push_back({"impulse_from_" + name + "_x", "N.s/m", impulse[0]});
     row.push_back({"impulse_from_" + name + "_y", "N.s/m", impulse[1]});
   };
-  append("load", impulses_.load);
-  append("clamps", impulses_.clamps);
-  if (walls_) append("walls", impulses_.walls);
+  append("load", state_.impulses.loads);
+  append("clamps", state_.impulses.clamps);
+  if (walls_) append("walls", state_.impulses.walls);
   if (detachment_) observe_detachment(row);
   if (detachment_ || parameters_.bonds) observe_bonds(row);
   return row;
@@ -135,7 +135,7 @@ Frame SolidModel::frame() const {
   frame.fields = {std::move(velocity_field),  std::move(displacement_field), std::move(stress_field),
                   std::move(von_mises_field), std::move(pressure_field),     std::move(held_field)};
   if (detachment_) {
-    const auto& detached = detachment_->detached();
+    const auto& detached = state_.detachment.detached;
     frame.fields.push_back({"detached",
                             "1",
                             "1 where no chain of neighbours joins the particle to a clamp",

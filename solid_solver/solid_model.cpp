@@ -7,16 +7,16 @@
 #include <numeric>
 
 #include "common/error/failure.hpp"
-#include "common/run/snapshot.hpp"
 #include "common/sph/strip_order.hpp"
+#include "common/state/serialize.hpp"
 #include "solid_solver/stability_warnings.hpp"
 
 namespace toryu::solid {
 
 namespace {
 
-/// After so many steps the bonds are looked at: what tears takes longer, and the look costs little.
-constexpr long steps_between_looks = 50;
+/// After so many steps the bonds are checked: what tears takes longer, and the check costs little.
+constexpr long steps_between_checks = 50;
 
 }  // namespace
 
@@ -28,39 +28,40 @@ double Stress::von_mises() const {
 SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Scene& scene)
     : parameters_(parameters), body_(body), gravity_(scene.gravity), domain_(scene.domain) {
   const std::size_t count = body_.size(), size = padded(count);
-  for (auto* field : {&X_, &u_, &v_, &a_, &external_, &constant_}) resize(*field, size);
-  mobile_.resize(size, 0.0);
-
   VecField X;
   resize(X, size);
   for (std::size_t i = 0; i < count; ++i) set(X, i, body_.X[i]);
-  number_ = StripOrder(strip_width()).sort(X[0], X[1], count);
+  state_.number = StripOrder(strip_width()).sort(X[0], X[1], count);
+  resize_fields(state_, size);
+  resize(X_, size);
+  mobile_.resize(size);
   find_slots();
-  for (std::size_t k = 0; k < size; ++k) {
-    const std::size_t i = number_[std::min(k, count - 1)];  // padding repeats the last particle, held
-    set(X_, k, body_.X[i]);
-    mobile_[k] = k < count && !body_.held[i] ? 1.0 : 0.0;
-    set(v_, k, mobile_[k] * initial_velocity(i));
-    set(constant_, k, gravity_);
-  }
+  for (std::size_t k = 0; k < size; ++k)
+    set(state_.v, k, mobile_[k] * initial_velocity(state_.number[std::min(k, count - 1)]));
+  constant_.assign(count, gravity_);
   for (const auto& load : parameters_.loads) {
     const auto particles = body_.inside(load.box);
     for (const auto i : particles)
-      set(constant_, slot_[i],
-          at(constant_, slot_[i]) + load.force / (static_cast<double>(particles.size()) * mass(i)));
+      constant_[i] += load.force / (static_cast<double>(particles.size()) * mass(i));
   }
-  external_ = constant_;
+  state_.idle_external = constant_[state_.number.back()];
+  find_external();
+  state_.load_sum = sum_of_loads();
   for (const auto& observer : parameters_.observers)
     observers_.emplace_back(observer, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h()));
-  if (parameters_.wall_contact)
+  if (parameters_.wall_contact) {
     walls_.emplace(scene.walls, *parameters_.wall_contact, parameters_.material, body_.spacing,
                    parameters_.h());
-  if (walls_) resize(push_, size);
+    state_.walls = walls_->start();
+    resize(state_.push, size);
+  }
   first_energy_ = kinetic_energy();
   for (std::uint32_t i = 0; i < count; ++i)
     if (body_.held[i]) held_.push_back(i);
-  load_sum_ = sum_of_loads();
-  if (parameters_.detachment) detachment_.emplace(body_, parameters_);
+  if (parameters_.detachment) {
+    detachment_.emplace(body_, parameters_);
+    state_.detachment = detachment_->start();
+  }
   if (parameters_.detachment || parameters_.bonds) watch_bonds();
 }
 
@@ -70,32 +71,57 @@ Vec SolidModel::initial_velocity(std::size_t particle) const {
   return velocity ? velocity->at(body_.X[particle]) : Vec(Vec::Zero());
 }
 
-/// All that a step or a load changes, here and in what a formulation adds.
-void SolidModel::save() {
-  restore_ = snapshot(time_, number_, slot_, X_, u_, v_, a_, external_, constant_, mobile_, walls_, loaded_,
-                      load_, u_at_load_, past_work_, load_sum_, push_, impulses_, bodies_, detachment_,
-                      bonds_, energy_, steps_);
+void SolidModel::restore() {
+  state_ = saved_;
+  find_slots();
+}
+
+void SolidModel::write_state(std::ostream& stream) const {
+  write_states(stream, state_);
+}
+
+void SolidModel::read_state(std::istream& stream) {
+  read_states(stream, state_);
+  find_slots();
+  find_external();
+  if (walls_) walls_->complete(state_.walls, particle_count());
+  if (bodies_) bodies_->find_pairs(state_.bodies);
+  recorded_detached_.reset();
 }
 
 void SolidModel::find_slots() {
-  slot_.resize(number_.size());
-  for (std::uint32_t k = 0; k < number_.size(); ++k) slot_[number_[k]] = k;
+  const auto& number = state_.number;
+  slot_.resize(number.size());
+  for (std::uint32_t k = 0; k < number.size(); ++k) slot_[number[k]] = k;
+  for (std::size_t k = 0; k < mobile_.size(); ++k) {
+    const std::size_t i = number[std::min(k, number.size() - 1)];  // padding repeats the last particle
+    set(X_, k, body_.X[i]);
+    mobile_[k] = body_.held[i] ? 0.0 : 1.0;
+  }
 }
 
-void SolidModel::reorder_particles(const std::vector<std::uint32_t>& order) {
-  Field scratch;
-  for (auto* field : {&X_, &u_, &v_, &a_, &external_, &constant_})
-    for (auto& component : *field) reorder(component, order, scratch);
-  reorder(mobile_, order, scratch);
-  std::vector<std::uint32_t> number(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) number[k] = number_[order[k]];
-  number_ = number;
+void SolidModel::find_external() {
+  for (std::size_t k = 0; k < particle_count(); ++k) set(state_.external, k, constant_[state_.number[k]]);
+  for (std::size_t k = particle_count(); k < clusters() * lane_count; ++k)
+    set(state_.external, k, state_.idle_external);
+  for (std::size_t n = 0; n < state_.loaded.size(); ++n) {
+    const auto i = state_.loaded[n];
+    set(state_.external, slot_[i], constant_[i] + state_.load[n] / mass(i));
+  }
+}
+
+void SolidModel::sort_particles(const std::vector<std::uint32_t>& order) {
+  state_.idle_external = at(state_.external, order.back());
+  reorder_fields(state_, order);
+  std::vector<std::uint32_t> scratch;
+  reorder(state_.number, order, scratch);
   find_slots();
+  find_external();
 }
 
 void SolidModel::fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
                       const std::string& limit) const {
-  throw PhysicsFailure("solid", static_cast<long>(number_[slot]), time, quantity, value, limit);
+  throw PhysicsFailure("solid", static_cast<long>(state_.number[slot]), time, quantity, value, limit);
 }
 
 void SolidModel::check(double time) const {
@@ -103,15 +129,16 @@ void SolidModel::check(double time) const {
                                                     : parameters_.material.longitudinal_sound_speed();
   const Lanes speed_2 = speed * speed;
   for (std::size_t k = 0; k < particle_count(); k += lane_count) {
-    const VecLanes v = load(v_, k), u = load(u_, k), X = load(X_, k);
+    const VecLanes v = load(state_.v, k), u = load(state_.u, k), X = load(X_, k);
     auto good = dot(v, v) <= speed_2;
     for (int a = 0; a < dim; ++a)
       good = good && X[a] + u[a] >= domain_.min[a] && X[a] + u[a] <= domain_.max[a];
     if (all_of(good)) continue;
     for (std::size_t i = k; i < std::min(k + lane_count, particle_count()); ++i) {
-      const Vec x = at(X_, i) + at(u_, i);
-      if (!(at(v_, i).norm() <= speed))
-        fail(i, time, "speed", fmt::format("{:.4g} m/s", at(v_, i).norm()), fmt::format("{:.4g} m/s", speed));
+      const Vec x = at(X_, i) + at(state_.u, i);
+      if (!(at(state_.v, i).norm() <= speed))
+        fail(i, time, "speed", fmt::format("{:.4g} m/s", at(state_.v, i).norm()),
+             fmt::format("{:.4g} m/s", speed));
       if (!(x.array() >= domain_.min.array()).all() || !(x.array() <= domain_.max.array()).all())
         fail(i, time, "position", fmt::format("({:.4g}, {:.4g}) m", x[0], x[1]), "the domain of the case");
     }
@@ -136,7 +163,7 @@ Interface SolidModel::interface(double reach) const {
 
 Vec SolidModel::acceleration(std::size_t particle) const {
   const std::size_t k = slot_[particle];
-  return mobile_[k] * (at(a_, k) + at(external_, k));
+  return mobile_[k] * (at(state_.a, k) + at(state_.external, k));
 }
 
 InterfaceMotion SolidModel::motion(const std::vector<std::uint32_t>& particles) const {
@@ -151,66 +178,68 @@ InterfaceMotion SolidModel::motion(const std::vector<std::uint32_t>& particles) 
 }
 
 Vec SolidModel::set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load) {
-  past_work_ = interface_work();
-  loaded_ = particles;
-  load_.clear();
-  u_at_load_.clear();
+  state_.past_work = interface_work();
+  state_.loaded = particles;
+  state_.load.clear();
+  state_.u_at_load.clear();
   Vec sum = Vec::Zero();
   for (std::size_t n = 0; n < particles.size(); ++n) {
     Vec force = Eigen::Map<const Vec>(&load.force[dim * n]);
     if (!load.friction_force.empty()) force += Eigen::Map<const Vec>(&load.friction_force[dim * n]);
-    const std::size_t k = slot_[particles[n]];
-    set(external_, k, at(constant_, k) + force / mass(particles[n]));
-    load_.push_back(force);
-    u_at_load_.push_back(at(u_, k));
+    state_.load.push_back(force);
+    state_.u_at_load.push_back(displacement(particles[n]));
     sum += force;
   }
-  load_sum_ = sum_of_loads();
+  find_external();
+  state_.load_sum = sum_of_loads();
   return sum;
 }
 
 Vec SolidModel::sum_of_loads() const {
   Vec sum = Vec::Zero();
-  for (std::size_t i = 0; i < particle_count(); ++i) sum += mass(i) * at(external_, slot_[i]);
+  for (std::size_t i = 0; i < particle_count(); ++i) sum += mass(i) * at(state_.external, slot_[i]);
   return sum;
 }
 
 void SolidModel::count_impulses(double dt) {
-  impulses_.load += dt * load_sum_;
-  for (const auto i : held_) impulses_.clamps -= dt * mass(i) * (at(a_, slot_[i]) + at(external_, slot_[i]));
+  Impulses& impulses = state_.impulses;
+  impulses.loads += dt * state_.load_sum;
+  for (const auto i : held_)
+    impulses.clamps -= dt * mass(i) * (at(state_.a, slot_[i]) + at(state_.external, slot_[i]));
   if (walls_)
-    for (std::size_t i = 0; i < particle_count(); ++i) impulses_.walls += dt * mass(i) * at(push_, slot_[i]);
+    for (std::size_t i = 0; i < particle_count(); ++i)
+      impulses.walls += dt * mass(i) * at(state_.push, slot_[i]);
 }
 
 double SolidModel::interface_work() const {
-  double work = past_work_;
-  for (std::size_t n = 0; n < loaded_.size(); ++n)
-    work += load_[n].dot(displacement(loaded_[n]) - u_at_load_[n]);
+  double work = state_.past_work;
+  for (std::size_t n = 0; n < state_.loaded.size(); ++n)
+    work += state_.load[n].dot(displacement(state_.loaded[n]) - state_.u_at_load[n]);
   return work;
 }
 
 void SolidModel::add_wall_contact(const VecField& x) {
 #pragma omp single
-  walls_->prepare(x, particle_count(), time_);
+  walls_->prepare(state_.walls, x, particle_count(), state_.time);
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
-    const VecLanes push = walls_->acceleration(x, c), a = load(a_, i);
-    store(push, push_, i);
-    store(VecLanes{a[0] + push[0], a[1] + push[1]}, a_, i);
+    const VecLanes push = walls_->acceleration(state_.walls, x, c), a = load(state_.a, i);
+    store(push, state_.push, i);
+    store(VecLanes{a[0] + push[0], a[1] + push[1]}, state_.a, i);
   }
 }
 
 double SolidModel::contact_energy() const {
-  double sum = bodies_ ? bodies_->energy() : 0.0;
+  double sum = bodies_ ? bodies_->energy(state_.bodies) : 0.0;
   if (!walls_) return sum;
   VecField x = X_;
   for (int a = 0; a < dim; ++a)
-    for (std::size_t k = 0; k < x[a].size(); ++k) x[a][k] += u_[a][k];
+    for (std::size_t k = 0; k < x[a].size(); ++k) x[a][k] += state_.u[a][k];
   for (std::size_t c = 0; c < clusters(); ++c) {
-    const Lanes density = walls_->energy_density(x, c);
+    const Lanes density = walls_->energy_density(state_.walls, x, c);
     for (std::size_t k = c * lane_count; k < std::min((c + 1) * lane_count, particle_count()); ++k)
-      sum += body_.volume(number_[k]) * density[k - c * lane_count];
+      sum += body_.volume(state_.number[k]) * density[k - c * lane_count];
   }
   return sum;
 }
@@ -223,8 +252,7 @@ double SolidModel::kinetic_energy() const {
 
 double SolidModel::potential_energy() const {
   double sum = 0;
-  for (std::size_t i = 0; i < particle_count(); ++i)
-    sum -= mass(i) * at(constant_, slot_[i]).dot(displacement(i));
+  for (std::size_t i = 0; i < particle_count(); ++i) sum -= mass(i) * constant_[i].dot(displacement(i));
   return sum;
 }
 
@@ -240,43 +268,37 @@ std::vector<Vec> SolidModel::positions() const {
   return x;
 }
 
-void SolidModel::tell_detached(const HearDetached& hear) {
-  hear_detached_ = hear;
-  look_for_detached();
+void SolidModel::record_detached(const RecordDetached& record) {
+  record_detached_ = record;
+  find_detached();
   accept();
 }
 
 void SolidModel::accept() {
-  if (!hear_detached_ || detachment_->list().size() == heard_detached_) return;
-  heard_detached_ = detachment_->list().size();
-  hear_detached_(detachment_->list());
+  const auto& list = state_.detachment.list;
+  if (!record_detached_ || recorded_detached_ == list.size()) return;
+  recorded_detached_ = list.size();
+  record_detached_(list);
 }
 
-void SolidModel::look_for_detached() {
-  if (!detachment_ || !detachment_->due(time_)) return;
+void SolidModel::find_detached() {
+  if (!detachment_ || state_.time < state_.detachment.next) return;
   const auto scope = timers_.measure("detachment");
-  detachment_->look(positions(), time_);
+  detachment_->record(state_.detachment, positions(), state_.time);
 }
 
 void SolidModel::watch_bonds() {
   if (!bonds_) bonds_.emplace(body_, parameters_.bonds.value_or(BondLimits{}), stress_edges(parameters_));
 }
 
-void SolidModel::look_at_particles() {
-  look_for_detached();
-  if (!bonds_ || ++steps_ % steps_between_looks != 0) return;
+void SolidModel::end_step() {
+  find_detached();
+  if (++state_.steps % steps_between_checks != 0 || !bonds_) return;
   const auto scope = timers_.measure("bonds");
-  bonds_->look(positions(), time_);
+  bonds_->check(state_.bonds, positions(), state_.time);
   if (!walls_)  // the work of moving ones is not known
-    energy_.look(kinetic_energy(), first_energy_ + interface_work() - potential_energy(), time_);
-}
-
-void SolidModel::write_state(std::ostream&) const {
-  throw std::logic_error("not yet");
-}
-
-void SolidModel::read_state(std::istream&) {
-  throw std::logic_error("not yet");
+    state_.energy.warn_of_gain(kinetic_energy(), first_energy_ + interface_work() - potential_energy(),
+                               state_.time);
 }
 
 }  // namespace toryu::solid

@@ -12,6 +12,7 @@
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
 #include "common/sph/points.hpp"
+#include "common/state/field.hpp"
 #include "solid_solver/body.hpp"
 #include "solid_solver/bonds.hpp"
 #include "solid_solver/detachment.hpp"
@@ -30,20 +31,26 @@ struct Stress {
 /// What has acted on the solid since the start [N.s per metre depth]: the change of its momentum is the sum,
 /// but for what `damping` takes.
 struct Impulses {
-  Vec load = Vec::Zero();    ///< gravity, constant loads and the fluid, held particles included
+  Vec loads = Vec::Zero();   ///< gravity, constant loads and the fluid, held particles included
   Vec walls = Vec::Zero();   ///< of the contact with walls
   Vec clamps = Vec::Zero();  ///< what holds the held particles
 };
 
-/// Hears of all particles that have come off so far, whenever there are new ones.
-using HearDetached = std::function<void(const std::vector<DetachedParticle>&)>;
+template <class Archive>
+void serialize(Archive& archive, Impulses& impulses) {
+  auto& [loads, walls, clamps] = impulses;
+  archive(loads, walls, clamps);
+}
+
+/// Takes all particles that have come off so far, whenever there are new ones.
+using RecordDetached = std::function<void(const std::vector<DetachedParticle>&)>;
 
 class SolidModel : public Solver {
  public:
   SolidModel(const Parameters& parameters, const Body& body, const Scene& scene);
 
-  void save() override;
-  void restore() override { restore_(); }
+  void save() override { saved_ = state_; }
+  void restore() override;
   void accept() override;
   void write_state(std::ostream& stream) const override;
   void read_state(std::istream& stream) override;
@@ -62,13 +69,13 @@ class SolidModel : public Solver {
   /// that the solid takes per second, clamps included [N per metre depth].
   Vec set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load);
   Health health() const;
-  const Impulses& impulses() const { return impulses_; }
-  /// From now on `hear` is told of particles that come off. Needs [solid.detachment].
-  void tell_detached(const HearDetached& hear);
+  const Impulses& impulses() const { return state_.impulses; }
+  /// From now on `record` gets the particles that come off, once that is final. Needs [solid.detachment].
+  void record_detached(const RecordDetached& record);
 
-  Vec displacement(std::size_t particle) const { return at(u_, slot_[particle]); }  ///< [m]
-  Vec velocity(std::size_t particle) const { return at(v_, slot_[particle]); }      ///< [m/s]
-  Vec acceleration(std::size_t particle) const;                                     ///< [m/s2]
+  Vec displacement(std::size_t particle) const { return at(state_.u, slot_[particle]); }  ///< [m]
+  Vec velocity(std::size_t particle) const { return at(state_.v, slot_[particle]); }      ///< [m/s]
+  Vec acceleration(std::size_t particle) const;                                           ///< [m/s2]
   double mass(std::size_t particle) const { return parameters_.material.density * body_.volume(particle); }
   double total_mass() const { return parameters_.material.density * body_.total_volume(); }  ///< [kg/m]
   virtual Stress stress(std::size_t particle) const = 0;                                     ///< Cauchy
@@ -77,21 +84,55 @@ class SolidModel : public Solver {
   const Timers& timers() const { return timers_; }
 
  protected:
+  /// All that a step, a load or an observer changes, but for what a formulation adds.
+  struct State {
+    double time = 0;                    ///< [s]
+    long steps = 0;                     ///< taken
+    std::vector<std::uint32_t> number;  ///< of the particle stored in a slot
+    Declared<VecField> u{"displacement", "m", FieldKind::state};
+    Declared<VecField> v{"velocity", "m/s", FieldKind::state};
+    /// By stress, viscosity and contact.
+    Declared<VecField> a{"acceleration", "m/s2", FieldKind::state};
+    /// Of `a`, if walls act on the solid.
+    Declared<VecField> push{"acceleration by walls", "m/s2", FieldKind::state, Presence::on_demand};
+    /// By gravity and loads.
+    Declared<VecField> external{"external acceleration", "m/s2", FieldKind::derived};
+    /// Of the idle lanes: what the last particle bore when it was sorted there.
+    Vec idle_external = Vec::Zero();
+    std::vector<std::uint32_t> loaded;  ///< numbers of the interface's particles
+    std::vector<Vec> load, u_at_load;   ///< of the interface [N/m], [m]
+    double past_work = 0;               ///< of earlier interface loads [J/m]
+    Vec load_sum = Vec::Zero();         ///< of gravity and all loads [N/m]
+    Impulses impulses;
+    ContactWalls::State walls;
+    TouchingBodies::State bodies;
+    DetachmentObserver::State detachment;
+    BondWatch::State bonds;
+    EnergyWatch energy;
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, State& state) {
+    auto& [time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, past_work,
+           load_sum, impulses, walls, bodies, detachment, bonds, energy] = state;
+    archive(time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, past_work,
+            load_sum, impulses, walls, bodies, detachment, bonds, energy);
+  }
+
   /// Throws if the strain of a particle is beyond its limit.
   virtual void check_strain(double time) const = 0;
   [[noreturn]] void fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
                          const std::string& limit) const;
   /// Stores the particles in another order: slot k receives what stood in slot order[k]. A formulation that
   /// uses it reorders its own fields too.
-  void reorder_particles(const std::vector<std::uint32_t>& order);
+  void sort_particles(const std::vector<std::uint32_t>& order);
   double strip_width() const { return std::sqrt(static_cast<double>(lane_count)) * body_.spacing; }  ///< [m]
-  /// Adds the walls' push on the particles at x [m] and the present time to `a_`, within a parallel region.
+  /// Adds the walls' push on the particles at x [m] and the present time to `a`, within a parallel region.
   void add_wall_contact(const VecField& x);
   /// Counts what acts at present for a time `dt` [s].
   void count_impulses(double dt);
-  /// Ends a step: looks for particles that have come off and at the bonds, where that is asked for and due.
-  void look_at_particles();
-  /// From now on looks at the bonds now and then.
+  /// Records particles that have come off and checks the bonds, where that is asked for and due.
+  void end_step();
+  /// From now on checks the bonds now and then.
   void watch_bonds();
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 
@@ -99,20 +140,18 @@ class SolidModel : public Solver {
   Body body_;
   Vec gravity_;
   Box domain_;
-  double time_ = 0;                    ///< [s]
-  std::vector<std::uint32_t> number_;  ///< of the particle stored in a slot
-  std::vector<std::uint32_t> slot_;    ///< of a particle
-  VecField X_;                         ///< reference position [m]
-  VecField u_, v_;                     ///< displacement [m], velocity [m/s]
-  VecField a_;                         ///< acceleration by stress, viscosity and contact [m/s2]
-  VecField external_;                  ///< acceleration by gravity and loads [m/s2]
+  State state_, saved_;
+  // What follows from the numbers of the particles:
+  std::vector<std::uint32_t> slot_;  ///< of a particle
+  VecField X_;                       ///< reference position [m]
+  Field mobile_;                     ///< 0 where a clamp holds, else 1
   Timers timers_;
   std::optional<ContactWalls> walls_;     ///< if walls act on the solid
   std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
-  Field mobile_;                          ///< 0 where a clamp holds, else 1
 
  private:
-  void find_slots();                                 ///< after `number_` changed
+  void find_slots();     ///< and what stands in them, after the numbers have changed
+  void find_external();  ///< after the numbers or the loads have changed
   Vec initial_velocity(std::size_t particle) const;  ///< [m/s]
   double kinetic_energy() const;
   double potential_energy() const;
@@ -121,28 +160,19 @@ class SolidModel : public Solver {
   double contact_energy() const;
   Vec momentum() const;
   std::vector<Vec> positions() const;  ///< by number [m]
-  void look_for_detached();
+  void find_detached();
   void observe_regions(std::vector<Observation>& row) const;
   void observe_detachment(std::vector<Observation>& row) const;
   void observe_bonds(std::vector<Observation>& row) const;
 
-  VecField constant_;  ///< gravity and constant loads [m/s2]
-  std::vector<std::uint32_t> loaded_;
-  std::vector<Vec> load_, u_at_load_;  ///< of the interface [N/m], [m]
-  double past_work_ = 0;               ///< of earlier interface loads [J/m]
-  double first_energy_ = 0;            ///< kinetic, of the start [J/m]
+  std::vector<Vec> constant_;  ///< acceleration by gravity and constant loads, by number [m/s2]
+  double first_energy_ = 0;    ///< kinetic, of the start [J/m]
   std::vector<std::pair<PointObserver, MaterialPoint>> observers_;
   std::vector<std::uint32_t> held_;  ///< numbers of the held particles
-  Vec load_sum_;                     ///< of gravity and all loads [N/m]
-  VecField push_;                    ///< acceleration by walls, if walls act on the solid [m/s2]
-  Impulses impulses_;
   std::optional<DetachmentObserver> detachment_;
-  HearDetached hear_detached_;
+  RecordDetached record_detached_;
+  std::optional<std::size_t> recorded_detached_;  ///< how many were recorded; none yet
   std::optional<BondWatch> bonds_;
-  EnergyWatch energy_;
-  long steps_ = 0;
-  std::size_t heard_detached_ = 0;  ///< how many were told of
-  std::function<void()> restore_;   ///< what `save` kept
 };
 
 }  // namespace toryu::solid

@@ -14,8 +14,7 @@ TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size
       W_(h),
       pressure_scale_(term.stiffness * material.bulk_modulus()),
       inverse_rho_(1.0 / material.density),
-      skin_(0.5 * h),
-      S_(count, 0.0) {
+      skin_(0.5 * h) {
   S_0_ = half_plane(W_, spacing, spacing).sum;
   // Pressed in by half a spacing. Both sides push, and both move: four times the stiffness at a wall.
   highest_frequency_ =
@@ -50,35 +49,39 @@ void TouchingBodies::find_bodies(const std::vector<Vec>& X) {
   }
 }
 
-void TouchingBodies::find_pairs_if_moved(const VecField& x) {
-  double moved_2 = x_listed_.empty() ? std::numeric_limits<double>::infinity() : 0.0;
-  for (std::size_t k = 0; k < x_listed_.size(); ++k)
-    moved_2 = std::max(moved_2, (at(x, k) - x_listed_[k]).squaredNorm());
+void TouchingBodies::find_pairs_if_moved(State& state, const VecField& x) const {
+  double moved_2 = state.x_listed.empty() ? std::numeric_limits<double>::infinity() : 0.0;
+  for (std::size_t k = 0; k < state.x_listed.size(); ++k)
+    moved_2 = std::max(moved_2, (at(x, k) - state.x_listed[k]).squaredNorm());
   if (moved_2 < 0.25 * skin_ * skin_) return;
-  x_listed_ = points(x);
-  pairs_.clear();
+  state.x_listed = points(x);
+  find_pairs(state);
+}
+
+void TouchingBodies::find_pairs(State& state) const {
+  state.pairs.clear();
   const double reach = W_.support() + skin_;
-  const SortedPoints sorted(x_listed_, reach);
+  const SortedPoints sorted(state.x_listed, reach);
   for (std::uint32_t i = 0; i < count_; ++i)
-    sorted.near(x_listed_[i], reach, [&](std::uint32_t j) {
-      if (i < j && body_[i] != body_[j]) pairs_.push_back({i, j});
+    sorted.near(state.x_listed[i], reach, [&](std::uint32_t j) {
+      if (i < j && body_[i] != body_[j]) state.pairs.push_back({i, j});
     });
 }
 
-double TouchingBodies::pressure(std::size_t i) const {
-  return pressure_scale_ * std::max(0.0, S_[i] / S_0_ - 1.0);
+double TouchingBodies::pressure(const State& state, std::size_t i) const {
+  return pressure_scale_ * std::max(0.0, state.S[i] / S_0_ - 1.0);
 }
 
-void TouchingBodies::push(const VecField& x, VecField& a) {
-  find_pairs_if_moved(x);
-  std::fill(S_.begin(), S_.end(), 0.0);
-  for (const auto& [i, j] : pairs_) {
+void TouchingBodies::push(State& state, const VecField& x, VecField& a) const {
+  find_pairs_if_moved(state, x);
+  state.S.assign(count_, 0.0);
+  for (const auto& [i, j] : state.pairs) {
     const double W = W_.value((at(x, i) - at(x, j)).norm());
-    S_[i] += V_[j] * W;
-    S_[j] += V_[i] * W;
+    state.S[i] += V_[j] * W;
+    state.S[j] += V_[i] * W;
   }
-  for (const auto& [i, j] : pairs_) {
-    const double p = pressure(i) + pressure(j);
+  for (const auto& [i, j] : state.pairs) {
+    const double p = pressure(state, i) + pressure(state, j);
     if (p == 0.0) continue;
     const Vec x_ij = at(x, i) - at(x, j);
     const double r = std::max(x_ij.norm(), 1e-8 * W_.h());
@@ -88,10 +91,10 @@ void TouchingBodies::push(const VecField& x, VecField& a) {
   }
 }
 
-double TouchingBodies::energy() const {
+double TouchingBodies::energy(const State& state) const {
   double sum = 0;
   for (std::size_t i = 0; i < count_; ++i)
-    sum += V_[i] * 0.5 * S_0_ / pressure_scale_ * pressure(i) * pressure(i);
+    sum += V_[i] * 0.5 * S_0_ / pressure_scale_ * pressure(state, i) * pressure(state, i);
   return sum;
 }
 

@@ -22,15 +22,26 @@ namespace toryu::solid {
 
 class TouchingBodies {
  public:
+  struct Pair {
+    std::uint32_t i, j;
+  };
+  struct State {
+    std::vector<Vec> x_listed;  ///< positions at the last search [m]
+    Field S;                    ///< of the last push
+    std::vector<Pair> pairs;    ///< of different bodies, within the support and the skin of x_listed
+  };
+
   /// `X` [m] and `volume` [m2] of the first `count` particles in storage order, which must not change.
   /// `spacing` and `h` [m] are the solid's.
   TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
                  const ElasticMaterial& material, double spacing, double h);
 
   /// Adds the push at positions x [m] to the accelerations a [m/s2].
-  void push(const VecField& x, VecField& a);
+  void push(State& state, const VecField& x, VecField& a) const;
+  /// Finds anew the pairs, which a checkpoint leaves out.
+  void find_pairs(State& state) const;
   /// After `push` [J per metre depth].
-  double energy() const;
+  double energy(const State& state) const;
 
   std::size_t body_count() const { return bodies_; }
   double touching_sum() const { return S_0_; }
@@ -40,12 +51,9 @@ class TouchingBodies {
  private:
   std::vector<Vec> points(const VecField& x) const;
   void find_bodies(const std::vector<Vec>& X);
-  void find_pairs_if_moved(const VecField& x);
-  double pressure(std::size_t i) const;
+  void find_pairs_if_moved(State& state, const VecField& x) const;
+  double pressure(const State& state, std::size_t i) const;
 
-  struct Pair {
-    std::uint32_t i, j;
-  };
   Field V_;
   std::size_t count_;
   CubicSpline W_;
@@ -53,9 +61,12 @@ class TouchingBodies {
   double S_0_ = 0, highest_frequency_ = 0;
   std::size_t bodies_ = 0;
   std::vector<std::uint32_t> body_;  ///< of each particle
-  std::vector<Pair> pairs_;          ///< of different bodies, within the support and the skin
-  std::vector<Vec> x_listed_;        ///< at the last search [m]
-  Field S_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, TouchingBodies::State& state) {
+  auto& [x_listed, S, pairs] = state;
+  archive(x_listed, S);
+}
 
 }  // namespace toryu::solid

@@ -14,6 +14,10 @@ double largest_move_squared(const VecField& a, const VecField& b, std::size_t co
   return largest;
 }
 
+StripOrder strips_of(double spacing) {
+  return StripOrder(std::sqrt(static_cast<double>(lane_count)) * spacing);
+}
+
 }  // namespace
 
 ContactWalls::ContactWalls(const std::vector<Wall>& walls, const Contact& term,
@@ -23,8 +27,7 @@ ContactWalls::ContactWalls(const std::vector<Wall>& walls, const Contact& term,
       spacing_(spacing),
       pressure_scale_(term.stiffness * material.bulk_modulus()),
       inverse_rho_(1.0 / material.density),
-      skin_(0.3 * h),
-      strips_(std::sqrt(static_cast<double>(lane_count)) * spacing) {
+      skin_(0.3 * h) {
   const double slope = half_plane(W_, spacing, 0.5 * spacing).slope;  // pressed in by half a spacing
   S_0_ = half_plane(W_, spacing, spacing).sum;
   highest_frequency_ = slope * std::sqrt(pressure_scale_ * inverse_rho_ / S_0_);
@@ -33,43 +36,61 @@ ContactWalls::ContactWalls(const std::vector<Wall>& walls, const Contact& term,
       X_.push_back(X);
       wall_of_.push_back(w);
     }
-  number_.resize(X_.size());
-  std::iota(number_.begin(), number_.end(), 0u);
-  resize(x_, padded(X_.size()));
 }
 
-void ContactWalls::place(double time) {
+ContactWalls::State ContactWalls::start() const {
+  State state;
+  state.number.resize(X_.size());
+  std::iota(state.number.begin(), state.number.end(), 0u);
+  return state;
+}
+
+void ContactWalls::place(State& state, double time) const {
   std::vector<Vec> moved(walls_.size(), Vec::Zero());
   for (std::size_t w = 0; w < walls_.size(); ++w)
     if (walls_[w].motion) moved[w] = walls_[w].motion->displacement_at(time);
-  for (std::size_t k = 0; k < number_.size(); ++k) set(x_, k, X_[number_[k]] + moved[wall_of_[number_[k]]]);
+  resize(state.x, padded(X_.size()));
+  for (std::size_t k = 0; k < X_.size(); ++k)
+    set(state.x, k, X_[state.number[k]] + moved[wall_of_[state.number[k]]]);
+  state.time_placed = time;
 }
 
-void ContactWalls::prepare(const VecField& x, std::size_t count, double time) {
-  place(time);
-  if (!solid_listed_[0].empty()) {
-    const double solid = std::sqrt(largest_move_squared(x, solid_listed_, count));
-    const double walls = std::sqrt(largest_move_squared(x_, x_listed_, number_.size()));
+void ContactWalls::list(State& state, std::size_t count) const {
+  place(state, state.time_listed);
+  state.x_listed = state.x;
+  StripOrder strips = strips_of(spacing_);
+  strips.index(state.x[0], X_.size());
+  state.list.build(state.solid_listed, count, state.x, strips, W_.support() + skin_);
+}
+
+void ContactWalls::prepare(State& state, const VecField& x, std::size_t count, double time) const {
+  place(state, time);
+  if (!state.solid_listed[0].empty()) {
+    const double solid = std::sqrt(largest_move_squared(x, state.solid_listed, count));
+    const double walls = std::sqrt(largest_move_squared(state.x, state.x_listed, X_.size()));
     if (solid + walls < 0.9 * skin_) return;
   }
-  const auto order = strips_.sort(x_[0], x_[1], number_.size());
-  std::vector<std::uint32_t> number(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) number[k] = number_[order[k]];
-  number_ = number;
-  place(time);
-  x_listed_ = x_;
-  solid_listed_ = x;
-  strips_.index(x_[0], number_.size());
-  list_.build(x, count, x_, strips_, W_.support() + skin_);
+  std::vector<std::uint32_t> scratch;
+  reorder(state.number, strips_of(spacing_).sort(state.x[0], state.x[1], X_.size()), scratch);
+  state.solid_listed = x;
+  state.time_listed = time;
+  list(state, count);
 }
 
-Lanes ContactWalls::overlap(const VecField& x, std::size_t cluster, VecLanes& gradient) const {
+void ContactWalls::complete(State& state, std::size_t count) const {
+  const double time = state.time_placed;
+  list(state, count);
+  place(state, time);
+}
+
+Lanes ContactWalls::overlap(const State& state, const VecField& x, std::size_t cluster,
+                            VecLanes& gradient) const {
   const VecLanes x_i = load(x, cluster * lane_count);
   const double V = spacing_ * spacing_, tiny = 1e-16 * W_.h() * W_.h();
   Lanes S = 0.0;
   gradient = {0.0, 0.0};
-  for (const std::uint32_t w : list_.sources(cluster)) {
-    const VecLanes x_iw{x_i[0] - x_[0][w], x_i[1] - x_[1][w]};
+  for (const std::uint32_t w : state.list.sources(cluster)) {
+    const VecLanes x_iw{x_i[0] - state.x[0][w], x_i[1] - state.x[1][w]};
     const Lanes r_squared = dot(x_iw, x_iw) + tiny, inverse_r = inverse_sqrt(r_squared),
                 r = r_squared * inverse_r;
     const Lanes slope = V * W_.gradient_over_r(r, inverse_r);
@@ -80,16 +101,16 @@ Lanes ContactWalls::overlap(const VecField& x, std::size_t cluster, VecLanes& gr
   return S;
 }
 
-VecLanes ContactWalls::acceleration(const VecField& x, std::size_t cluster) const {
+VecLanes ContactWalls::acceleration(const State& state, const VecField& x, std::size_t cluster) const {
   VecLanes gradient;
-  const Lanes S = overlap(x, cluster, gradient);
+  const Lanes S = overlap(state, x, cluster, gradient);
   const Lanes p = pressure_scale_ * positive_part(S * (1.0 / S_0_) - 1.0);
   return {-inverse_rho_ * p * gradient[0], -inverse_rho_ * p * gradient[1]};
 }
 
-Lanes ContactWalls::energy_density(const VecField& x, std::size_t cluster) const {
+Lanes ContactWalls::energy_density(const State& state, const VecField& x, std::size_t cluster) const {
   VecLanes gradient;
-  const Lanes beyond = positive_part(overlap(x, cluster, gradient) * (1.0 / S_0_) - 1.0);
+  const Lanes beyond = positive_part(overlap(state, x, cluster, gradient) * (1.0 / S_0_) - 1.0);
   return 0.5 * pressure_scale_ * S_0_ * beyond * beyond;
 }
 

@@ -23,39 +23,56 @@ namespace toryu::solid {
 
 class ContactWalls {
  public:
+  /// Where the walls are, and what was near them at the last search.
+  struct State {
+    double time_placed = 0;             ///< of the present positions [s]
+    double time_listed = 0;             ///< of the last search [s]
+    std::vector<std::uint32_t> number;  ///< of the wall particle stored in a slot
+    VecField solid_listed;              ///< positions of the solid at the last search [m]
+    // Found anew from these:
+    VecField x, x_listed;  ///< positions at present and at the last search, in the order of that [m]
+    ClusterList list;
+  };
+
   /// `spacing` and `h` [m] are the solid's.
   ContactWalls(const std::vector<Wall>& walls, const Contact& term, const ElasticMaterial& material,
                double spacing, double h);
 
+  State start() const;
   /// Puts the walls where they are at `time` [s] and finds what they may touch among the first `count`
   /// particles at x [m].
-  void prepare(const VecField& x, std::size_t count, double time);
+  void prepare(State& state, const VecField& x, std::size_t count, double time) const;
+  /// Finds anew what a checkpoint leaves out.
+  void complete(State& state, std::size_t count) const;
   /// Acceleration [m/s2] of the particles of a cluster, after `prepare`.
-  VecLanes acceleration(const VecField& x, std::size_t cluster) const;
+  VecLanes acceleration(const State& state, const VecField& x, std::size_t cluster) const;
   /// Energy of the contact per volume of a particle [J/m3].
-  Lanes energy_density(const VecField& x, std::size_t cluster) const;
+  Lanes energy_density(const State& state, const VecField& x, std::size_t cluster) const;
 
-  std::size_t particle_count() const { return number_.size(); }
+  std::size_t particle_count() const { return X_.size(); }
   double touching_sum() const { return S_0_; }
   /// Of a particle against a wall it touches firmly [1/s].
   double highest_frequency() const { return highest_frequency_; }
 
  private:
-  void place(double time);
+  void place(State& state, double time) const;
+  /// Neighbours of the solid as it was listed, with the walls at that time.
+  void list(State& state, std::size_t count) const;
   /// S and its gradient [1/m].
-  Lanes overlap(const VecField& x, std::size_t cluster, VecLanes& gradient) const;
+  Lanes overlap(const State& state, const VecField& x, std::size_t cluster, VecLanes& gradient) const;
 
   std::vector<Wall> walls_;
   CubicSpline W_;
   double spacing_, pressure_scale_, inverse_rho_, skin_;
   double S_0_ = 0, highest_frequency_ = 0;
-  std::vector<Vec> X_;                 ///< at t = 0 [m]
-  std::vector<std::size_t> wall_of_;   ///< index in walls_
-  std::vector<std::uint32_t> number_;  ///< of the wall particle stored in a slot
-  VecField x_;                         ///< present positions, in the order of the last search [m]
-  VecField x_listed_, solid_listed_;   ///< positions at the last search [m]
-  StripOrder strips_;
-  ClusterList list_;
+  std::vector<Vec> X_;                ///< at t = 0, by number [m]
+  std::vector<std::size_t> wall_of_;  ///< index in walls_
 };
+
+template <class Archive>
+void serialize(Archive& archive, ContactWalls::State& state) {
+  auto& [time_placed, time_listed, number, solid_listed, x, x_listed, list] = state;
+  archive(time_placed, time_listed, number, solid_listed);
+}
 
 }  // namespace toryu::solid

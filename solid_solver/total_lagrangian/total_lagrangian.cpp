@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "common/run/snapshot.hpp"
+#include "common/state/serialize.hpp"
 
 namespace toryu::solid {
 
@@ -16,9 +16,9 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
   const std::size_t size = padded(particle_count());
   volume_.resize(size);
   for (std::size_t k = 0; k < size; ++k)
-    volume_[k] = body_.volume(number_[std::min(k, particle_count() - 1)]);
+    volume_[k] = body_.volume(state_.number[std::min(k, particle_count() - 1)]);
   pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width());
-  resize(H_, size);
+  resize_fields(form_, size);
   resize(T_, size);
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
@@ -32,17 +32,29 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
 
 void TotalLagrangian::save() {
   SolidModel::save();
-  restore_ = snapshot(H_, T_, inverted_);
+  saved_form_ = form_;
 }
 
 void TotalLagrangian::restore() {
   SolidModel::restore();
-  restore_();
+  form_ = saved_form_;
+}
+
+void TotalLagrangian::write_state(std::ostream& stream) const {
+  SolidModel::write_state(stream);
+  write_states(stream, form_);
+}
+
+void TotalLagrangian::read_state(std::istream& stream) {
+  SolidModel::read_state(stream);
+#pragma omp parallel
+  find_stresses();  // of the displacement, which H alone depends on
+  read_states(stream, form_);
 }
 
 void TotalLagrangian::advance(double dt) {
   const auto scope = timers_.measure("steps");
-  time_ += dt;
+  state_.time += dt;
   count_impulses(0.5 * dt);  // of the first kick
 #pragma omp parallel
   {
@@ -51,7 +63,7 @@ void TotalLagrangian::advance(double dt) {
     kick(dt);
   }
   count_impulses(0.5 * dt);
-  look_at_particles();
+  end_step();
 }
 
 void TotalLagrangian::kick_and_drift(double dt) {
@@ -61,9 +73,10 @@ void TotalLagrangian::kick_and_drift(double dt) {
     const std::size_t i = c * lane_count;
     const Lanes mobile = load(mobile_, i);
     for (int a = 0; a < dim; ++a) {
-      const Lanes v = kept * load(v_[a], i) + 0.5 * dt * mobile * (load(a_[a], i) + load(external_[a], i));
-      store(v, v_[a], i);
-      store(load(u_[a], i) + dt * v, u_[a], i);
+      const Lanes v = kept * load(state_.v[a], i) +
+                      0.5 * dt * mobile * (load(state_.a[a], i) + load(state_.external[a], i));
+      store(v, state_.v[a], i);
+      store(load(state_.u[a], i) + dt * v, state_.u[a], i);
     }
   }
 }
@@ -75,7 +88,9 @@ void TotalLagrangian::kick(double dt) {
     const std::size_t i = c * lane_count;
     const Lanes mobile = load(mobile_, i);
     for (int a = 0; a < dim; ++a)
-      store(kept * (load(v_[a], i) + 0.5 * dt * mobile * (load(a_[a], i) + load(external_[a], i))), v_[a], i);
+      store(kept * (load(state_.v[a], i) +
+                    0.5 * dt * mobile * (load(state_.a[a], i) + load(state_.external[a], i))),
+            state_.v[a], i);
   }
 }
 
@@ -90,11 +105,11 @@ void TotalLagrangian::touch() {
   for (std::size_t c = 0; c < clusters(); ++c)
     for (int a = 0; a < dim; ++a) {
       const std::size_t i = c * lane_count;
-      store(load(X_[a], i) + load(u_[a], i), x_[a], i);
+      store(load(X_[a], i) + load(state_.u[a], i), x_[a], i);
     }
   if (walls_) add_wall_contact(x_);
 #pragma omp single
-  if (bodies_) bodies_->push(x_, a_);
+  if (bodies_) bodies_->push(state_.bodies, x_, state_.a);
 }
 
 void TotalLagrangian::find_stresses() {
@@ -104,11 +119,11 @@ void TotalLagrangian::find_stresses() {
         for (std::size_t c = 0; c < clusters(); ++c) {
           const std::size_t i = c * lane_count;
           Tensor<Lanes> H;
-          pairs_->displacement_gradient(u_, c, H);
+          pairs_->displacement_gradient(state_.u, c, H);
           if (!all_of(volume_change(H) > -1.0)) look_for_inverted(H, i);
           const Tensor<Lanes> T = product(law.stress(H), pairs_->shape(c));
           const Lanes factor = held_factor_ + (1.0 - held_factor_) * load(mobile_, i);
-          store(H, H_, i);
+          store(H, form_.H, i);
           for (std::size_t n = 0; n < H.size(); ++n) store(factor * T[n] - 0.5 * penalty_ * H[n], T_[n], i);
         }
       },
@@ -120,8 +135,8 @@ void TotalLagrangian::look_for_inverted(const Tensor<Lanes>& H, std::size_t firs
   for (std::size_t k = first_slot; k < std::min(first_slot + lane_count, particle_count()); ++k) {
     const double J = 1.0 + volume_change(H)[k - first_slot];
     if (J > 0.0) continue;
-    const bool earlier = !inverted_ || (inverted_->time == time_ && k < inverted_->slot);
-    if (earlier) inverted_ = Inverted{k, time_, J};
+    const bool earlier = !form_.inverted || (form_.inverted->time == state_.time && k < form_.inverted->slot);
+    if (earlier) form_.inverted = Inverted{k, state_.time, J};
   }
 }
 
@@ -132,40 +147,40 @@ void TotalLagrangian::find_accelerations() {
       pair_viscosity(viscosity.value_or(ArtificialViscosity{}), parameters_.material, parameters_.h());
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
-    VecLanes a = pairs_->force_density(u_, T_, penalty_, c);
+    VecLanes a = pairs_->force_density(state_.u, T_, penalty_, c);
     for (int k = 0; k < dim; ++k) a[k] *= inverse_rho;
     if (viscosity) {
-      const VecLanes damped = pairs_->central_force_density(u_, v_, c, Pi);
+      const VecLanes damped = pairs_->central_force_density(state_.u, state_.v, c, Pi);
       for (int k = 0; k < dim; ++k) a[k] -= parameters_.material.density * damped[k];
     }
-    store(a, a_, c * lane_count);
+    store(a, state_.a, c * lane_count);
   }
 }
 
 double TotalLagrangian::find_highest_frequency() {
   // Power iteration on u -> -(a(u) - a), from a start that holds all modes.
   const double small = 1e-6 * body_.spacing;
-  const VecField u = u_, v = v_;
-  VecField step = u_;
+  const VecField u = state_.u, v = state_.v;
+  VecField step = state_.u;
   for (std::size_t k = 0; k < particle_count(); ++k)
     for (int n = 0; n < dim; ++n) {
       step[n][k] = small * mobile_[k] * std::cos(static_cast<double>((3 + n) * k * k));
-      v_[n][k] = 0.0;
+      state_.v[n][k] = 0.0;
     }
 #pragma omp parallel
   evaluate();
-  const VecField a = a_;
+  const VecField a = state_.a;
   double square = 0;
   for (int round = 0; round < 150; ++round) {
     for (int n = 0; n < dim; ++n)
-      for (std::size_t k = 0; k < particle_count(); ++k) u_[n][k] = u[n][k] + step[n][k];
+      for (std::size_t k = 0; k < particle_count(); ++k) state_.u[n][k] = u[n][k] + step[n][k];
 #pragma omp parallel
     evaluate();
     double length = 0, image = 0;
     for (int n = 0; n < dim; ++n)
       for (std::size_t k = 0; k < particle_count(); ++k) {
         length += step[n][k] * step[n][k];
-        step[n][k] = -mobile_[k] * (a_[n][k] - a[n][k]);
+        step[n][k] = -mobile_[k] * (state_.a[n][k] - a[n][k]);
         image += step[n][k] * step[n][k];
       }
     if (!(image > 0)) break;
@@ -174,8 +189,8 @@ double TotalLagrangian::find_highest_frequency() {
     for (auto& component : step)
       for (double& value : component) value *= scale;
   }
-  u_ = u;
-  v_ = v;
+  state_.u = u;
+  state_.v = v;
 #pragma omp parallel
   evaluate();
   return std::sqrt(square);
@@ -187,7 +202,7 @@ double TotalLagrangian::stiffening() const {
         double stiffest = law.longitudinal_modulus(1.0, 1.0);
         const double unloaded = stiffest;
         for (std::size_t i = 0; i < particle_count(); i += lane_count) {
-          const auto [larger, smaller] = principal_stretches(load(H_, i));
+          const auto [larger, smaller] = principal_stretches(load(form_.H, i));
           const Lanes modulus =
               max(law.longitudinal_modulus(larger, smaller), law.longitudinal_modulus(smaller, larger));
           // idle lanes stand still among particles that move: what they hold is no stretch
@@ -211,14 +226,15 @@ double TotalLagrangian::time_step_limit() const {
 }
 
 Tensor<double> TotalLagrangian::gradient(std::size_t slot) const {
-  return {H_[0][slot], H_[1][slot], H_[2][slot], H_[3][slot]};
+  return {form_.H[0][slot], form_.H[1][slot], form_.H[2][slot], form_.H[3][slot]};
 }
 
 void TotalLagrangian::check_strain(double time) const {
-  if (inverted_)
-    fail(inverted_->slot, inverted_->time, "volume ratio", fmt::format("{:.4g}", inverted_->volume_ratio),
-         std::isnan(inverted_->volume_ratio) ? "above 0; a row one particle thick has no gradient across"
-                                             : "above 0");
+  if (form_.inverted)
+    fail(form_.inverted->slot, form_.inverted->time, "volume ratio",
+         fmt::format("{:.4g}", form_.inverted->volume_ratio),
+         std::isnan(form_.inverted->volume_ratio) ? "above 0; a row one particle thick has no gradient across"
+                                                  : "above 0");
   const double longest = 1.0 + parameters_.limits.strain,
                shortest = std::max(1.0 - parameters_.limits.strain, 0.0);
   const auto within_limits = [&](const auto& stretches) {
@@ -226,7 +242,7 @@ void TotalLagrangian::check_strain(double time) const {
            (stretches.smaller_squared >= shortest * shortest);
   };
   for (std::size_t i = 0; i < particle_count(); i += lane_count) {
-    if (all_of(within_limits(principal_stretches(load(H_, i))))) continue;
+    if (all_of(within_limits(principal_stretches(load(form_.H, i))))) continue;
     for (std::size_t k = i; k < std::min(i + lane_count, particle_count()); ++k) {
       const auto stretches = principal_stretches(gradient(k));
       if (within_limits(stretches)) continue;
@@ -253,7 +269,7 @@ Stress TotalLagrangian::stress(std::size_t particle) const {
 std::vector<Observation> TotalLagrangian::internal_energies() const {
   double elastic = 0, penalty = 0;
   for (std::size_t c = 0; c < clusters(); ++c) {
-    const Lanes unseen = pairs_->unseen_motion(u_, H_, c);
+    const Lanes unseen = pairs_->unseen_motion(state_.u, form_.H, c);
     for (std::size_t lane = 0; lane < lane_count && c * lane_count + lane < particle_count(); ++lane) {
       const std::size_t k = c * lane_count + lane;
       const double factor = mobile_[k] > 0 ? 1.0 : held_factor_;

@@ -30,6 +30,8 @@ class TotalLagrangian final : public SolidModel {
   void advance(double dt) override;
   void save() override;
   void restore() override;
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
   std::vector<ActiveTerm> active_terms() const override;
   Stress stress(std::size_t particle) const override;
   std::vector<Observation> internal_energies() const override;
@@ -45,7 +47,7 @@ class TotalLagrangian final : public SolidModel {
   void find_stresses();
   void find_accelerations();
   void kick(double dt);
-  /// All accelerations from u_ and v_, within a parallel region.
+  /// All accelerations from u and v, within a parallel region.
   void evaluate();
   /// Largest longitudinal modulus of a particle over that of the unloaded solid, at least 1.
   double stiffening() const;
@@ -53,22 +55,35 @@ class TotalLagrangian final : public SolidModel {
   void touch();
   void look_for_inverted(const Tensor<Lanes>& H, std::size_t first_slot);
 
+  /// The first particle whose volume was no longer positive, looked for in every step.
+  struct Inverted {
+    std::size_t slot;
+    double time, volume_ratio;
+    template <class Archive>
+    friend void serialize(Archive& archive, Inverted& inverted) {
+      auto& [slot, time, volume_ratio] = inverted;
+      archive(slot, time, volume_ratio);
+    }
+  };
+  struct FormState {
+    Declared<Tensor<Field>> H{"displacement gradient", "1", FieldKind::derived};
+    std::optional<Inverted> inverted;
+    template <class Archive>
+    friend void serialize(Archive& archive, FormState& state) {
+      auto& [H, inverted] = state;
+      archive(H, inverted);
+    }
+  };
+
+  FormState form_, saved_form_;
   Field volume_;
   std::unique_ptr<ReferencePairs> pairs_;
   Law law_;
   double penalty_;                ///< k of the hourglass penalty [Pa]
   double held_factor_;            ///< of the stress of held particles
-  Tensor<Field> H_;               ///< displacement gradient
   Tensor<Field> T_;               ///< P L - (k/2) H: what a particle brings to the pairs [Pa]
   VecField x_;                    ///< present positions, if walls or other bodies act on the solid [m]
   double highest_frequency_ = 0;  ///< of the unloaded body [1/s]
-  /// The first particle whose volume was no longer positive, looked for in every step.
-  struct Inverted {
-    std::size_t slot;
-    double time, volume_ratio;
-  };
-  std::optional<Inverted> inverted_;
-  std::function<void()> restore_;  ///< what `save` kept
 };
 
 }  // namespace toryu::solid

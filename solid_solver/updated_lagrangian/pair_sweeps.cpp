@@ -36,48 +36,48 @@ PairSweeps::PairSweeps(const Parameters& parameters)
     viscosity_ = pair_viscosity(*parameters.artificial_viscosity, parameters.material, parameters.h());
 }
 
-void PairSweeps::rates(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+void PairSweeps::rates(const UpdatedParticles& particles, const ClusterList& list, std::size_t cluster,
                        UpdatedRates& rates) const {
   const std::size_t i = cluster * lane_count;
   Tensor<Lanes> grad_v, L{1.0, 0.0, 0.0, 1.0};
-  sweep(state, list, cluster, grad_v, L);
-  store(-load(state.rho, i) * (grad_v[0] + grad_v[3]), rates.rho, i);
-  store(law_.rate(load(state.s, i), grad_v), rates.s, i);
-  store_stresses(state, L, cluster, rates);
+  sweep(particles, list, cluster, grad_v, L);
+  store(-load(particles.rho, i) * (grad_v[0] + grad_v[3]), rates.rho, i);
+  store(law_.rate(load(particles.s, i), grad_v), rates.s, i);
+  store_stresses(particles, L, cluster, rates);
 }
 
-Tensor<Lanes> PairSweeps::velocity_gradient(const UpdatedState& state, const ClusterList& list,
+Tensor<Lanes> PairSweeps::velocity_gradient(const UpdatedParticles& particles, const ClusterList& list,
                                             std::size_t cluster) const {
   Tensor<Lanes> grad_v, L{1.0, 0.0, 0.0, 1.0};
-  sweep(state, list, cluster, grad_v, L);
+  sweep(particles, list, cluster, grad_v, L);
   return grad_v;
 }
 
-void PairSweeps::stresses(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+void PairSweeps::stresses(const UpdatedParticles& particles, const ClusterList& list, std::size_t cluster,
                           UpdatedRates& rates) const {
   Tensor<Lanes> grad_v, L{1.0, 0.0, 0.0, 1.0};
-  if (renormalised_) sweep(state, list, cluster, grad_v, L);
-  store_stresses(state, L, cluster, rates);
+  if (renormalised_) sweep(particles, list, cluster, grad_v, L);
+  store_stresses(particles, L, cluster, rates);
 }
 
-void PairSweeps::sweep(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+void PairSweeps::sweep(const UpdatedParticles& particles, const ClusterList& list, std::size_t cluster,
                        Tensor<Lanes>& grad_v, Tensor<Lanes>& L) const {
-  renormalised_ ? sweep<true>(state, list, cluster, grad_v, L)
-                : sweep<false>(state, list, cluster, grad_v, L);
+  renormalised_ ? sweep<true>(particles, list, cluster, grad_v, L)
+                : sweep<false>(particles, list, cluster, grad_v, L);
 }
 
 template <bool renormalised>
-void PairSweeps::sweep(const UpdatedState& state, const ClusterList& list, std::size_t cluster,
+void PairSweeps::sweep(const UpdatedParticles& particles, const ClusterList& list, std::size_t cluster,
                        Tensor<Lanes>& grad_v, Tensor<Lanes>& L) const {
   const std::size_t i = cluster * lane_count;
-  const VecLanes x_i = load(state.x, i), v_i = load(state.v, i);
+  const VecLanes x_i = load(particles.x, i), v_i = load(particles.v, i);
   Symmetric<Lanes> M{0.0, 0.0, 0.0};
   grad_v = {0.0, 0.0, 0.0, 0.0};
   for (const std::uint32_t j : list.sources(cluster)) {
-    const VecLanes x_ij{x_i[0] - state.x[0][j], x_i[1] - state.x[1][j]};
-    const VecLanes v_ij{v_i[0] - state.v[0][j], v_i[1] - state.v[1][j]};
+    const VecLanes x_ij{x_i[0] - particles.x[0][j], x_i[1] - particles.x[1][j]};
+    const VecLanes v_ij{v_i[0] - particles.v[0][j], v_i[1] - particles.v[1][j]};
     const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared);
-    const Lanes weight = state.V[j] * W_.gradient_over_r(Lanes(r_squared * inverse_r), inverse_r);
+    const Lanes weight = particles.V[j] * W_.gradient_over_r(Lanes(r_squared * inverse_r), inverse_r);
     const VecLanes V_gradW{weight * x_ij[0], weight * x_ij[1]};
     grad_v[0] -= v_ij[0] * V_gradW[0];
     grad_v[1] -= v_ij[0] * V_gradW[1];
@@ -95,11 +95,11 @@ void PairSweeps::sweep(const UpdatedState& state, const ClusterList& list, std::
   }
 }
 
-void PairSweeps::store_stresses(const UpdatedState& state, const Tensor<Lanes>& L, std::size_t cluster,
-                                UpdatedRates& rates) const {
+void PairSweeps::store_stresses(const UpdatedParticles& particles, const Tensor<Lanes>& L,
+                                std::size_t cluster, UpdatedRates& rates) const {
   const std::size_t i = cluster * lane_count;
-  const Lanes rho = load(state.rho, i), p = law_.pressure(rho), inverse_rho_squared = inverse(rho * rho);
-  const Symmetric<Lanes> s = load(state.s, i), sigma{s.xx - p, s.yy - p, s.xy};
+  const Lanes rho = load(particles.rho, i), p = law_.pressure(rho), inverse_rho_squared = inverse(rho * rho);
+  const Symmetric<Lanes> s = load(particles.s, i), sigma{s.xx - p, s.yy - p, s.xy};
   Tensor<Lanes> T = sigma.full();
   if (renormalised_) T = product(T, L);
   for (auto& component : T) component *= inverse_rho_squared;
@@ -107,33 +107,33 @@ void PairSweeps::store_stresses(const UpdatedState& state, const Tensor<Lanes>& 
   if (stress_) store(artificial_stress(sigma, inverse_rho_squared, stress_->epsilon), rates.R, i);
 }
 
-VecLanes PairSweeps::acceleration(const UpdatedState& state, const UpdatedRates& rates,
+VecLanes PairSweeps::acceleration(const UpdatedParticles& particles, const UpdatedRates& rates,
                                   const ClusterList& list, std::size_t cluster) const {
   if (viscosity_)
-    return stress_ ? acceleration_of<true, true>(state, rates, list, cluster)
-                   : acceleration_of<true, false>(state, rates, list, cluster);
-  return stress_ ? acceleration_of<false, true>(state, rates, list, cluster)
-                 : acceleration_of<false, false>(state, rates, list, cluster);
+    return stress_ ? acceleration_of<true, true>(particles, rates, list, cluster)
+                   : acceleration_of<true, false>(particles, rates, list, cluster);
+  return stress_ ? acceleration_of<false, true>(particles, rates, list, cluster)
+                 : acceleration_of<false, false>(particles, rates, list, cluster);
 }
 
 template <bool viscous, bool stressed>
-VecLanes PairSweeps::acceleration_of(const UpdatedState& state, const UpdatedRates& rates,
+VecLanes PairSweeps::acceleration_of(const UpdatedParticles& particles, const UpdatedRates& rates,
                                      const ClusterList& list, std::size_t cluster) const {
   const std::size_t i = cluster * lane_count;
-  const VecLanes x_i = load(state.x, i), v_i = load(state.v, i);
+  const VecLanes x_i = load(particles.x, i), v_i = load(particles.v, i);
   const Tensor<Lanes> T_i = load(rates.T, i);
   Symmetric<Lanes> R_i{0.0, 0.0, 0.0};
   if constexpr (stressed) R_i = load(rates.R, i);
   VecLanes a{0.0, 0.0};
   for (const std::uint32_t j : list.sources(cluster)) {
-    const VecLanes x_ij{x_i[0] - state.x[0][j], x_i[1] - state.x[1][j]};
+    const VecLanes x_ij{x_i[0] - particles.x[0][j], x_i[1] - particles.x[1][j]};
     const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared),
                 r = r_squared * inverse_r;
-    const Lanes weight = state.m[j] * W_.gradient_over_r(r, inverse_r);
+    const Lanes weight = particles.m[j] * W_.gradient_over_r(r, inverse_r);
     Tensor<Lanes> T{T_i[0] + rates.T[0][j], T_i[1] + rates.T[1][j], T_i[2] + rates.T[2][j],
                     T_i[3] + rates.T[3][j]};
     if constexpr (viscous) {
-      const VecLanes v_ij{v_i[0] - state.v[0][j], v_i[1] - state.v[1][j]};
+      const VecLanes v_ij{v_i[0] - particles.v[0][j], v_i[1] - particles.v[1][j]};
       const Lanes Pi = (*viscosity_)(dot(v_ij, x_ij), r_squared);
       T[0] -= Pi;
       T[3] -= Pi;

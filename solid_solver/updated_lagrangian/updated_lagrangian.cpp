@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/run/snapshot.hpp"
+#include "common/state/serialize.hpp"
 
 namespace toryu::solid {
 
@@ -21,31 +21,44 @@ UpdatedLagrangian::UpdatedLagrangian(const Parameters& parameters, const Body& b
       sweeps_(parameters),
       law_{parameters.material.bulk_modulus(), parameters.material.shear_modulus(),
            parameters.material.density},
-      strips_(strip_width()),
       skin_(skin_ratio * parameters.h()) {
   const std::size_t size = padded(particle_count());
-  for (auto* field : {&state_.x, &state_.v, &u_start_, &v_start_, &x_listed_}) resize(*field, size);
-  for (auto* field : {&state_.m, &state_.rho, &state_.V, &rates_.rho, &rho_start_}) field->resize(size, 0.0);
-  for (auto* field : {&state_.s, &rates_.s, &rates_.R, &s_start_}) resize(*field, size);
-  resize(rates_.T, size);
-  for (std::size_t k = 0; k < size; ++k) {
-    state_.m[k] = mass(number_[std::min(k, particle_count() - 1)]);
-    state_.rho[k] = parameters.material.density;
-  }
+  resize_fields(form_.particles, size);
+  resize_fields(form_.rates, size);
+  resize_fields(form_, size);
+  resize_fields(start_, size);
+  std::fill(form_.particles.rho.begin(), form_.particles.rho.end(), parameters.material.density);
   find_neighbours();
 #pragma omp parallel
   evaluate();
   watch_bonds();
 }
 
+void UpdatedLagrangian::find_masses() {
+  for (std::size_t k = 0; k < form_.particles.m.size(); ++k)
+    form_.particles.m[k] = mass(state_.number[std::min(k, particle_count() - 1)]);
+}
+
 void UpdatedLagrangian::save() {
   SolidModel::save();
-  restore_ = snapshot(state_, x_listed_, strips_, list_);
+  saved_form_ = form_;
 }
 
 void UpdatedLagrangian::restore() {
   SolidModel::restore();
-  restore_();
+  form_ = saved_form_;
+}
+
+void UpdatedLagrangian::write_state(std::ostream& stream) const {
+  SolidModel::write_state(stream);
+  write_states(stream, form_);
+}
+
+void UpdatedLagrangian::read_state(std::istream& stream) {
+  SolidModel::read_state(stream);
+  read_states(stream, form_);
+  find_masses();
+  list_neighbours();
 }
 
 void UpdatedLagrangian::advance(double dt) {
@@ -54,7 +67,7 @@ void UpdatedLagrangian::advance(double dt) {
     const auto scope = timers_.measure("steps");
     parameters_.integrator == Integrator::midpoint ? midpoint_step(dt) : symplectic_step(dt);
   }
-  look_at_particles();
+  end_step();
 }
 
 void UpdatedLagrangian::midpoint_step(double dt) {
@@ -67,11 +80,11 @@ void UpdatedLagrangian::midpoint_step(double dt) {
     move(dt);
   }
   count_impulses(dt);
-  time_ += dt;
+  state_.time += dt;
 }
 
 void UpdatedLagrangian::symplectic_step(double dt) {
-  time_ += dt;
+  state_.time += dt;
   count_impulses(0.5 * dt);  // of the first kick
   const double kept = parameters_.damping ? parameters_.damping->factor(0.5 * dt) : 1.0;
 #pragma omp parallel
@@ -83,7 +96,8 @@ void UpdatedLagrangian::symplectic_step(double dt) {
     drift(0.5 * dt);
     place(0.0);
 #pragma omp for schedule(static)
-    for (std::size_t c = 0; c < clusters(); ++c) sweeps_.stresses(state_, list_, c, rates_);
+    for (std::size_t c = 0; c < clusters(); ++c)
+      sweeps_.stresses(form_.particles, form_.list, c, form_.rates);
     accelerate();
     kick(dt, 1.0, kept);
   }
@@ -95,7 +109,7 @@ void UpdatedLagrangian::find_neighbours_if_moved() {
   for (std::size_t i = 0; i < X_[0].size(); i += lane_count) {
     Lanes squared = 0.0;
     for (int a = 0; a < dim; ++a) {
-      const Lanes moved = load(X_[a], i) + load(u_[a], i) - load(x_listed_[a], i);
+      const Lanes moved = load(X_[a], i) + load(state_.u[a], i) - load(form_.x_listed[a], i);
       squared += moved * moved;
     }
     furthest = max(furthest, squared);
@@ -103,36 +117,40 @@ void UpdatedLagrangian::find_neighbours_if_moved() {
   // A step adds far less than the tenth of the skin that is left to it.
   const double allowed = 0.45 * skin_;
   if (largest_of(furthest) <= allowed * allowed) return;
-  check(time_);  // particles flung to all ends would make the search take all memory
+  check(state_.time);  // particles flung to all ends would make the search take all memory
   find_neighbours();
 }
 
 void UpdatedLagrangian::find_neighbours() {
   const auto scope = timers_.measure("neighbour search");
-  const auto find_positions = [&] {
+  const auto note_positions = [&] {
     for (int a = 0; a < dim; ++a)
-      for (std::size_t k = 0; k < X_[a].size(); ++k) state_.x[a][k] = X_[a][k] + u_[a][k];
+      for (std::size_t k = 0; k < X_[a].size(); ++k) form_.x_listed[a][k] = X_[a][k] + state_.u[a][k];
   };
-  find_positions();
-  const auto order = strips_.sort(state_.x[0], state_.x[1], particle_count());
-  reorder_particles(order);
-  Field scratch;
-  for (auto* field : {&state_.m, &state_.rho, &rates_.rho, &state_.s.xx, &state_.s.yy, &state_.s.xy})
-    reorder(*field, order, scratch);
-  find_positions();
-  x_listed_ = state_.x;
-  strips_.index(state_.x[0], particle_count());
-  list_.build(state_.x, particle_count(), state_.x, strips_, 2.0 * parameters_.h() + skin_);
+  note_positions();
+  const auto order = StripOrder(strip_width()).sort(form_.x_listed[0], form_.x_listed[1], particle_count());
+  sort_particles(order);
+  reorder_fields(form_.particles, order);
+  reorder_fields(form_.rates, order);
+  find_masses();
+  note_positions();
+  list_neighbours();
+}
+
+void UpdatedLagrangian::list_neighbours() {
+  StripOrder strips(strip_width());
+  strips.index(form_.x_listed[0], particle_count());
+  form_.list.build(form_.x_listed, particle_count(), form_.x_listed, strips, 2.0 * parameters_.h() + skin_);
 }
 
 void UpdatedLagrangian::keep_start() {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
-    store(load(u_, i), u_start_, i);
-    store(load(v_, i), v_start_, i);
-    store(load(state_.rho, i), rho_start_, i);
-    store(load(state_.s, i), s_start_, i);
+    store(load(state_.u, i), start_.u, i);
+    store(load(state_.v, i), start_.v, i);
+    store(load(form_.particles.rho, i), start_.rho, i);
+    store(load(form_.particles.s, i), start_.s, i);
   }
 }
 
@@ -141,25 +159,27 @@ void UpdatedLagrangian::place(double ahead) {
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
     for (int a = 0; a < dim; ++a) {
-      store(load(X_[a], i) + load(u_[a], i), state_.x[a], i);
-      store(load(v_[a], i), state_.v[a], i);
+      store(load(X_[a], i) + load(state_.u[a], i), form_.particles.x[a], i);
+      store(load(state_.v[a], i), form_.particles.v[a], i);
     }
-    store(load(state_.m, i) * inverse(load(state_.rho, i) + ahead * load(rates_.rho, i)), state_.V, i);
+    store(
+        load(form_.particles.m, i) * inverse(load(form_.particles.rho, i) + ahead * load(form_.rates.rho, i)),
+        form_.particles.V, i);
   }
 }
 
 void UpdatedLagrangian::evaluate() {
   place(0.0);
 #pragma omp for schedule(static)
-  for (std::size_t c = 0; c < clusters(); ++c) sweeps_.rates(state_, list_, c, rates_);
+  for (std::size_t c = 0; c < clusters(); ++c) sweeps_.rates(form_.particles, form_.list, c, form_.rates);
   accelerate();
 }
 
 void UpdatedLagrangian::accelerate() {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c)
-    store(sweeps_.acceleration(state_, rates_, list_, c), a_, c * lane_count);
-  if (walls_) add_wall_contact(state_.x);
+    store(sweeps_.acceleration(form_.particles, form_.rates, form_.list, c), state_.a, c * lane_count);
+  if (walls_) add_wall_contact(form_.particles.x);
 }
 
 void UpdatedLagrangian::move(double dt) {
@@ -169,14 +189,14 @@ void UpdatedLagrangian::move(double dt) {
     const std::size_t i = c * lane_count;
     const Lanes mobile = load(mobile_, i);
     for (int a = 0; a < dim; ++a) {
-      const Lanes v = load(v_[a], i);
-      const Lanes dv = load(a_[a], i) + load(external_[a], i) - rate * v;
-      store(load(u_start_[a], i) + dt * v, u_[a], i);
-      store(load(v_start_[a], i) + dt * mobile * dv, v_[a], i);
+      const Lanes v = load(state_.v[a], i);
+      const Lanes dv = load(state_.a[a], i) + load(state_.external[a], i) - rate * v;
+      store(load(start_.u[a], i) + dt * v, state_.u[a], i);
+      store(load(start_.v[a], i) + dt * mobile * dv, state_.v[a], i);
     }
-    store(load(rho_start_, i) + dt * load(rates_.rho, i), state_.rho, i);
-    const Symmetric<Lanes> s = load(s_start_, i), ds = load(rates_.s, i);
-    store({s.xx + dt * ds.xx, s.yy + dt * ds.yy, s.xy + dt * ds.xy}, state_.s, i);
+    store(load(start_.rho, i) + dt * load(form_.rates.rho, i), form_.particles.rho, i);
+    const Symmetric<Lanes> s = load(start_.s, i), ds = load(form_.rates.s, i);
+    store({s.xx + dt * ds.xx, s.yy + dt * ds.yy, s.xy + dt * ds.xy}, form_.particles.s, i);
   }
 }
 
@@ -186,8 +206,8 @@ void UpdatedLagrangian::kick(double dt, double kept_before, double kept_after) {
     const std::size_t i = c * lane_count;
     const Lanes mobile = load(mobile_, i);
     for (int a = 0; a < dim; ++a) {
-      const Lanes dv = 0.5 * dt * mobile * (load(a_[a], i) + load(external_[a], i));
-      store(kept_after * (kept_before * load(v_[a], i) + dv), v_[a], i);
+      const Lanes dv = 0.5 * dt * mobile * (load(state_.a[a], i) + load(state_.external[a], i));
+      store(kept_after * (kept_before * load(state_.v[a], i) + dv), state_.v[a], i);
     }
   }
 }
@@ -197,7 +217,7 @@ void UpdatedLagrangian::drift(double dt) {
   for (std::size_t c = 0; c < clusters(); ++c)
     for (int a = 0; a < dim; ++a) {
       const std::size_t i = c * lane_count;
-      store(load(u_[a], i) + dt * load(v_[a], i), u_[a], i);
+      store(load(state_.u[a], i) + dt * load(state_.v[a], i), state_.u[a], i);
     }
 }
 
@@ -205,12 +225,12 @@ void UpdatedLagrangian::strain(double dt) {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
-    const Tensor<Lanes> grad_v = sweeps_.velocity_gradient(state_, list_, c);
-    const Lanes rho = load(state_.rho, i), half = 0.5 * dt * (grad_v[0] + grad_v[3]);
+    const Tensor<Lanes> grad_v = sweeps_.velocity_gradient(form_.particles, form_.list, c);
+    const Lanes rho = load(form_.particles.rho, i), half = 0.5 * dt * (grad_v[0] + grad_v[3]);
     const Lanes rho_after = rho * (1.0 - half) * inverse(1.0 + half);  // the same way back in time
-    store(rho_after, state_.rho, i);
-    store((rho_after - rho) * (1.0 / dt), rates_.rho, i);
-    store(law_.after(load(state_.s, i), grad_v, dt), state_.s, i);
+    store(rho_after, form_.particles.rho, i);
+    store((rho_after - rho) * (1.0 / dt), form_.rates.rho, i);
+    store(law_.after(load(form_.particles.s, i), grad_v, dt), form_.particles.s, i);
   }
 }
 
@@ -218,8 +238,9 @@ std::pair<double, std::string_view> UpdatedLagrangian::limit() const {
   const double h = parameters_.h();
   double speed_2 = 0, acceleration_2 = 0;
   for (std::size_t k = 0; k < particle_count(); ++k) {
-    speed_2 = std::max(speed_2, at(v_, k).squaredNorm());
-    acceleration_2 = std::max(acceleration_2, (mobile_[k] * (at(a_, k) + at(external_, k))).squaredNorm());
+    speed_2 = std::max(speed_2, at(state_.v, k).squaredNorm());
+    acceleration_2 =
+        std::max(acceleration_2, (mobile_[k] * (at(state_.a, k) + at(state_.external, k))).squaredNorm());
   }
   std::pair<double, std::string_view> least{
       parameters_.courant_number * h / (parameters_.material.longitudinal_sound_speed() + std::sqrt(speed_2)),
@@ -237,22 +258,24 @@ std::pair<double, std::string_view> UpdatedLagrangian::limit() const {
 void UpdatedLagrangian::check_strain(double time) const {
   const double bound = parameters_.limits.strain, rho_0 = parameters_.material.density;
   for (std::size_t k = 0; k < particle_count(); ++k)
-    if (!(std::abs(state_.rho[k] / rho_0 - 1.0) <= bound))
-      fail(k, time, "density", fmt::format("{:.5g} kg/m3", state_.rho[k]),
+    if (!(std::abs(form_.particles.rho[k] / rho_0 - 1.0) <= bound))
+      fail(k, time, "density", fmt::format("{:.5g} kg/m3", form_.particles.rho[k]),
            fmt::format("{:.5g} to {:.5g} kg/m3", std::max(1.0 - bound, 0.0) * rho_0, (1.0 + bound) * rho_0));
 }
 
 Stress UpdatedLagrangian::stress(std::size_t particle) const {
   const std::size_t k = slot_[particle];
-  const double p = law_.pressure(state_.rho[k]);
-  return {state_.s.xx[k] - p, state_.s.yy[k] - p, -(state_.s.xx[k] + state_.s.yy[k]) - p, state_.s.xy[k]};
+  const double p = law_.pressure(form_.particles.rho[k]);
+  return {form_.particles.s.xx[k] - p, form_.particles.s.yy[k] - p,
+          -(form_.particles.s.xx[k] + form_.particles.s.yy[k]) - p, form_.particles.s.xy[k]};
 }
 
 std::vector<Observation> UpdatedLagrangian::internal_energies() const {
   double sum = 0;
   for (std::size_t k = 0; k < particle_count(); ++k)
-    sum += state_.m[k] / state_.rho[k] *
-           law_.energy(state_.rho[k], {state_.s.xx[k], state_.s.yy[k], state_.s.xy[k]});
+    sum += form_.particles.m[k] / form_.particles.rho[k] *
+           law_.energy(form_.particles.rho[k],
+                       {form_.particles.s.xx[k], form_.particles.s.yy[k], form_.particles.s.xy[k]});
   return {{"elastic_energy", "J/m", sum}};
 }
 

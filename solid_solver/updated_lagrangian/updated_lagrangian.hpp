@@ -44,6 +44,8 @@ class UpdatedLagrangian final : public SolidModel {
   void advance(double dt) override;
   void save() override;
   void restore() override;
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
   std::vector<ActiveTerm> active_terms() const override;
   Stress stress(std::size_t particle) const override;
   std::vector<Observation> internal_energies() const override;
@@ -52,8 +54,34 @@ class UpdatedLagrangian final : public SolidModel {
   void check_strain(double time) const override;
 
  private:
+  struct FormState {
+    UpdatedParticles particles;
+    UpdatedRates rates;
+    Declared<VecField> x_listed{"position at the last search", "m", FieldKind::state};
+    ClusterList list;  ///< built from x_listed
+    template <class Archive>
+    friend void serialize(Archive& archive, FormState& state) {
+      auto& [particles, rates, x_listed, list] = state;
+      archive(particles, rates, x_listed);
+    }
+  };
+  /// What a midpoint step starts from.
+  struct StartOfStep {
+    Declared<VecField> u{"displacement", "m", FieldKind::derived};
+    Declared<VecField> v{"velocity", "m/s", FieldKind::derived};
+    Declared<Field> rho{"density", "kg/m3", FieldKind::derived};
+    Declared<Symmetric<Field>> s{"deviatoric stress", "Pa", FieldKind::derived};
+    template <class Archive>
+    friend void serialize(Archive& archive, StartOfStep& start) {
+      auto& [u, v, rho, s] = start;
+      archive(u, v, rho, s);
+    }
+  };
+
+  void find_masses();  ///< after sorting
   void find_neighbours_if_moved();
   void find_neighbours();
+  void list_neighbours();  ///< of x_listed
   void midpoint_step(double dt);
   void symplectic_step(double dt);
   void keep_start();
@@ -75,15 +103,9 @@ class UpdatedLagrangian final : public SolidModel {
 
   PairSweeps sweeps_;
   HookesLaw law_;
-  UpdatedState state_;
-  UpdatedRates rates_;
-  VecField u_start_, v_start_, x_listed_;
-  Field rho_start_;
-  Symmetric<Field> s_start_;
-  StripOrder strips_;
-  ClusterList list_;
-  double skin_;                    ///< [m]
-  std::function<void()> restore_;  ///< what `save` kept
+  FormState form_, saved_form_;
+  StartOfStep start_;
+  double skin_;  ///< [m]
 };
 
 }  // namespace toryu::solid

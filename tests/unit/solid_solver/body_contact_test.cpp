@@ -32,16 +32,17 @@ TEST(BodyContact, PushesByTheGradientOfItsEnergyEqualAndOpposite) {
   resize(x, size);
   resize(a, size);
   for (std::size_t i = 0; i < count; ++i) set(x, i, body.X[i]);
-  TouchingBodies bodies(x, V, count, *p.body_contact, p.material, p.spacing, p.h());
+  const TouchingBodies bodies(x, V, count, *p.body_contact, p.material, p.spacing, p.h());
+  TouchingBodies::State state;
   EXPECT_EQ(bodies.body_count(), 2u);
-  bodies.push(x, a);
-  EXPECT_EQ(bodies.energy(), 0) << "apart";
+  bodies.push(state, x, a);
+  EXPECT_EQ(bodies.energy(state), 0) << "apart";
 
   for (std::size_t i = 16; i < count; ++i) x[0][i] -= 0.0115;  // 2.5 mm into each other
   resize(a, size);
   for (auto& component : a) std::fill(component.begin(), component.end(), 0.0);
-  bodies.push(x, a);
-  ASSERT_GT(bodies.energy(), 0);
+  bodies.push(state, x, a);
+  ASSERT_GT(bodies.energy(state), 0);
   Vec sum = Vec::Zero();
   double largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -54,11 +55,11 @@ TEST(BodyContact, PushesByTheGradientOfItsEnergyEqualAndOpposite) {
     for (int axis = 0; axis < dim; ++axis) {
       VecField moved = x, unused = a;
       moved[axis][i] += step;
-      bodies.push(moved, unused);
-      const double ahead = bodies.energy();
+      bodies.push(state, moved, unused);
+      const double ahead = bodies.energy(state);
       moved[axis][i] -= 2 * step;
-      bodies.push(moved, unused);
-      EXPECT_NEAR(-(ahead - bodies.energy()) / (2 * step), mass * at(a, i)[axis], 1e-5 * mass * largest);
+      bodies.push(state, moved, unused);
+      EXPECT_NEAR(-(ahead - bodies.energy(state)) / (2 * step), mass * at(a, i)[axis], 1e-5 * mass * largest);
     }
 }
 

@@ -67,12 +67,13 @@ TEST(BondWatch, SaysOnceThatTheStressIsBeyondAnEdge) {
   const auto logger = spdlog::default_logger();
   spdlog::set_default_logger(
       std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_st>(said)));
-  BondWatch watch(body, {}, {.turn = 0.7, .strain = 0.3});
-  watch.look(moved(body.X, turned_by(0.6)), 0.1);
-  watch.look(moved(body.X, sheared_by(0.5)), 0.2);
+  const BondWatch watch(body, {}, {.turn = 0.7, .strain = 0.3});
+  BondWatch::State state;
+  watch.check(state, moved(body.X, turned_by(0.6)), 0.1);
+  watch.check(state, moved(body.X, sheared_by(0.5)), 0.2);
   EXPECT_EQ(said.str(), "");
-  for (int n = 0; n < 2; ++n) watch.look(moved(body.X, turned_by(0.8)), 0.3);
-  for (int n = 0; n < 2; ++n) watch.look(moved(body.X, sheared_by(0.6)), 0.4);
+  for (int n = 0; n < 2; ++n) watch.check(state, moved(body.X, turned_by(0.8)), 0.3);
+  for (int n = 0; n < 2; ++n) watch.check(state, moved(body.X, sheared_by(0.6)), 0.4);
   spdlog::set_default_logger(logger);
   const auto times_said = [&](const std::string& words) {
     int times = 0;
@@ -89,16 +90,17 @@ TEST(BondWatch, KeepsTheWorstAndStopsWhereAsked) {
   const Body body = body_of(p);
   auto torn = body.X;
   torn[15] += Vec(0.1, 0);  // the corner: two sides and a diagonal
-  BondWatch watch(body, {}, {});
-  watch.look(torn, 0.5);
-  watch.look(body.X, 1.0);
-  EXPECT_EQ(watch.worst().torn, 3);
-  EXPECT_EQ(watch.worst().clumped, 0);
-  EXPECT_NEAR(watch.worst().strain(), 20, 1e-9);
-  BondWatch strict(body, {.stop = true}, {});
-  strict.look(body.X, 0.25);
+  const BondWatch watch(body, {}, {});
+  BondWatch::State state;
+  watch.check(state, torn, 0.5);
+  watch.check(state, body.X, 1.0);
+  EXPECT_EQ(state.worst.torn, 3);
+  EXPECT_EQ(state.worst.clumped, 0);
+  EXPECT_NEAR(state.worst.strain(), 20, 1e-9);
+  const BondWatch strict(body, {.stop = true}, {});
+  strict.check(state, body.X, 0.25);
   try {
-    strict.look(torn, 0.5);
+    strict.check(state, torn, 0.5);
     FAIL();
   } catch (const PhysicsFailure& failure) {
     EXPECT_STREQ(failure.what(), "solid particle 14 at t = 0.5 s: stretch of a bond = 21, limit 2");

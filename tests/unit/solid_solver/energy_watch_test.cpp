@@ -29,19 +29,19 @@ class Heard {
 TEST(EnergyWatch, TellsOfTwoPercentOfTheMostAndOfEachDoubling) {
   Heard heard;
   EnergyWatch watch;
-  watch.look(0, 0, 0);
-  watch.look(20, 25, 1);  // 5 J held by deformation, or dissipated
-  watch.look(10, 9.7, 2);
+  watch.warn_of_gain(0, 0, 0);
+  watch.warn_of_gain(20, 25, 1);  // 5 J held by deformation, or dissipated
+  watch.warn_of_gain(10, 9.7, 2);
   EXPECT_EQ(heard.said(), "");
-  EXPECT_NEAR(watch.largest_gain(), 0.015, 1e-12);
+  EXPECT_NEAR(watch.largest_gain, 0.015, 1e-12);
   std::size_t length = 0;
   for (const auto& [gained, told] : {std::pair{0.5, true}, {0.9, false}, {1.1, true}, {0.2, false}}) {
-    watch.look(10, 10 - gained, 3);
+    watch.warn_of_gain(10, 10 - gained, 3);
     EXPECT_EQ(heard.said().size() > length, told) << gained;
     length = heard.said().size();
   }
   EXPECT_NE(heard.said().find("0.025 of it"), std::string::npos) << heard.said();
-  EXPECT_NEAR(watch.largest_gain(), 0.055, 1e-12);
+  EXPECT_NEAR(watch.largest_gain, 0.055, 1e-12);
 }
 
 /// Largest gain of a free bar that swings along its length, in updated form, by steps of `courant_number`.

@@ -127,14 +127,14 @@ TEST_P(BothForms, ImpulsesOfLoadsWallsAndClampsSumToTheChangeOfMomentum) {
     model->set_interface_load(interface.id, load);
     run_to(*model, 5e-4);
     const Impulses& given = model->impulses();
-    for (const Vec& impulse : {given.load, given.walls, given.clamps})
+    for (const Vec& impulse : {given.loads, given.walls, given.clamps})
       largest = std::max(largest, impulse.norm());
-    ASSERT_LT((momentum() - start - given.load - given.walls - given.clamps).norm(), 1e-10 * largest);
+    ASSERT_LT((momentum() - start - given.loads - given.walls - given.clamps).norm(), 1e-10 * largest);
   }
   EXPECT_GT(model->impulses().walls[1], 0.05 * largest) << "it fell on the floor";
   EXPECT_GT(model->impulses().clamps.norm(), 0.05 * largest);
   EXPECT_EQ(observed(*model, "impulse_from_walls_y"), model->impulses().walls[1]);
-  EXPECT_EQ(observed(*model, "impulse_from_load_x"), model->impulses().load[0]);
+  EXPECT_EQ(observed(*model, "impulse_from_load_x"), model->impulses().loads[0]);
   EXPECT_EQ(observed(*model, "impulse_from_clamps_y"), model->impulses().clamps[1]);
 }
 
