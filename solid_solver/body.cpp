@@ -9,6 +9,8 @@
 
 namespace toryu::solid {
 
+static_assert(dim == 2, "regions are filled row by row in the plane");
+
 namespace {
 
 /// How far a fitted spacing may be from the stated one.

@@ -7,6 +7,8 @@
 
 namespace toryu::solid {
 
+static_assert(dim == 2, "the table has two coordinates");
+
 namespace {
 
 constexpr std::size_t warned_one_by_one = 5;

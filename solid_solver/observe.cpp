@@ -8,6 +8,8 @@
 
 namespace toryu::solid {
 
+static_assert(dim == 2, "columns and frames have the components of the plane");
+
 std::vector<std::pair<std::string, double>> SolidModel::figures() const {
   if (!bonds_) return {};
   const Stretches& worst = state_.bonds.worst;

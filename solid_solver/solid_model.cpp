@@ -224,9 +224,9 @@ void SolidModel::add_wall_contact(const VecField& x) {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
-    const VecLanes push = walls_->acceleration(state_.walls, x, c), a = load(state_.a, i);
+    const VecLanes push = walls_->acceleration(state_.walls, x, c);
     store(push, state_.push, i);
-    store(VecLanes{a[0] + push[0], a[1] + push[1]}, state_.a, i);
+    for (int a = 0; a < dim; ++a) store(load(state_.a[a], i) + push[a], state_.a[a], i);
   }
 }
 

@@ -21,6 +21,8 @@
 
 namespace toryu::solid {
 
+static_assert(dim == 2, "the stress is that of plane strain");
+
 /// Stress of plane strain [Pa].
 struct Stress {
   double xx = 0, yy = 0, zz = 0, xy = 0;

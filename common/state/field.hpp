@@ -52,6 +52,7 @@ template <class Values>
 inline constexpr bool is_declared_field<Declared<Values>> = true;
 
 /// Calls visit(field) for each declared field among the members of `state`, in the order of its `serialize`.
+/// Members that are structs themselves are not entered: their particles may be others.
 template <class State, class Visit>
 void for_each_field(State& state, Visit&& visit) {
   const auto visit_field = [&](auto& member) {

@@ -24,8 +24,11 @@
 #include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
 #include "common/sph/tensor.hpp"
+#include "common/vector.hpp"
 
 namespace toryu::solid {
+
+static_assert(dim == 2, "the principal stresses are those of the plane");
 
 struct ArtificialStress {
   double epsilon = 0.3;

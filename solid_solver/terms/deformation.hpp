@@ -5,8 +5,11 @@
 #include <cmath>
 
 #include "common/sph/tensor.hpp"
+#include "common/vector.hpp"
 
 namespace toryu::solid {
+
+static_assert(dim == 2, "the laws are those of plane strain");
 
 /// Change of volume J - 1, J = det F.
 template <class T>

@@ -8,8 +8,11 @@
 #pragma once
 
 #include "common/sph/tensor.hpp"
+#include "common/vector.hpp"
 
 namespace toryu::solid {
+
+static_assert(dim == 2, "the law is that of plane strain");
 
 struct HookesLaw {
   double K, G, rho_0;

@@ -6,8 +6,11 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
+#include "common/vector.hpp"
 
 namespace toryu::solid {
+
+static_assert(dim == 2, "the sums are over a half plane");
 
 struct Contact {
   double stiffness = 1.0;  ///< contact pressure where the overlap has doubled, over the bulk modulus

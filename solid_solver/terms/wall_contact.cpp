@@ -5,6 +5,8 @@
 
 namespace toryu::solid {
 
+static_assert(dim == 2, "the sums have two components");
+
 namespace {
 
 /// Largest squared distance between the first `count` points of both.

@@ -9,6 +9,8 @@
 
 namespace toryu::solid {
 
+static_assert(dim == 2, "the sums and the inverse have the components of the plane");
+
 class ReferencePairs {
  public:
   /// X [m] in strip order of strips `strip_width` [m] wide, volume [m2]; both padded to whole lanes.

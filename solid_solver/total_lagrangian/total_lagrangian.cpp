@@ -120,7 +120,7 @@ void TotalLagrangian::find_stresses() {
           const std::size_t i = c * lane_count;
           Tensor<Lanes> H;
           pairs_->displacement_gradient(state_.u, c, H);
-          if (!all_of(volume_change(H) > -1.0)) look_for_inverted(H, i);
+          if (!all_of(volume_change(H) > -1.0)) record_inverted(H, i);
           const Tensor<Lanes> T = product(law.stress(H), pairs_->shape(c));
           const Lanes factor = held_factor_ + (1.0 - held_factor_) * load(mobile_, i);
           store(H, form_.H, i);
@@ -130,7 +130,7 @@ void TotalLagrangian::find_stresses() {
       law_);
 }
 
-void TotalLagrangian::look_for_inverted(const Tensor<Lanes>& H, std::size_t first_slot) {
+void TotalLagrangian::record_inverted(const Tensor<Lanes>& H, std::size_t first_slot) {
 #pragma omp critical
   for (std::size_t k = first_slot; k < std::min(first_slot + lane_count, particle_count()); ++k) {
     const double J = 1.0 + volume_change(H)[k - first_slot];

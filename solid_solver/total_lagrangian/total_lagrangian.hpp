@@ -53,7 +53,7 @@ class TotalLagrangian final : public SolidModel {
   double stiffening() const;
   Tensor<double> gradient(std::size_t slot) const;
   void touch();
-  void look_for_inverted(const Tensor<Lanes>& H, std::size_t first_slot);
+  void record_inverted(const Tensor<Lanes>& H, std::size_t first_slot);
 
   /// The first particle whose volume was no longer positive, looked for in every step.
   struct Inverted {
@@ -65,6 +65,7 @@ class TotalLagrangian final : public SolidModel {
       archive(slot, time, volume_ratio);
     }
   };
+  /// What this form adds to the state.
   struct FormState {
     Declared<Tensor<Field>> H{"displacement gradient", "1", FieldKind::derived};
     std::optional<Inverted> inverted;

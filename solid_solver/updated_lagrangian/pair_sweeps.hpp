@@ -13,6 +13,8 @@
 
 namespace toryu::solid {
 
+static_assert(dim == 2, "the sums and the inverse have the components of the plane");
+
 /// Particles of the updated form, in storage order, padded to whole lanes.
 struct UpdatedParticles {
   Declared<VecField> x{"position", "m", FieldKind::derived};

@@ -54,6 +54,7 @@ class UpdatedLagrangian final : public SolidModel {
   void check_strain(double time) const override;
 
  private:
+  /// What this form adds to the state.
   struct FormState {
     UpdatedParticles particles;
     UpdatedRates rates;

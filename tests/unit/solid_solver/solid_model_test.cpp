@@ -45,35 +45,6 @@ TEST_P(BothForms, KeepsMomentumOfAFreeBody) {
   }
 }
 
-TEST_P(BothForms, RepeatsAWindowBitByBit) {
-  omp_set_num_threads(1);
-  Parameters p = in_form(moving_cantilever(4, 20.0), GetParam());
-  p.wall_contact = Contact{};
-  p.detachment = Detachment{.interval = 1e-4};
-  Scene scene = empty_scene();
-  scene.gravity = Vec(0, -9.81);
-  scene.walls = {{"ceiling", {Vec(0.03, 0.021), Vec(0.2, 0.04)}, {}}};
-  const auto model = model_of(p, scene);
-  const std::vector<std::uint32_t> touched{5, 9, 20};
-  const InterfaceLoad load{{0, 0, 0}, {1, 2, 3, 4, 5, 6}, {}, Vec::Zero()};
-  const auto compute = [&] {
-    model->set_interface_load(touched, load);
-    run_to(*model, 0.002);
-    std::vector<double> values = model->motion(touched).position;
-    for (const auto& observation : model->observe()) values.push_back(observation.value);
-    values.push_back(model->time_step_limit());
-    return values;
-  };
-  compute();
-  model->save();
-  const auto first = compute();
-  EXPECT_GT(std::abs(model->impulses().walls[1]), 0) << "it has struck the wall";
-  for (int repeat = 0; repeat < 2; ++repeat) {
-    model->restore();
-    ASSERT_EQ(compute(), first);
-  }
-}
-
 TEST_P(BothForms, IsBitwiseTheSameForOneAndTwoThreads) {
   const auto run = [&](int threads) {
     omp_set_num_threads(threads);
