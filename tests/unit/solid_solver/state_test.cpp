@@ -23,13 +23,14 @@ void PrintTo(const Sample& sample, std::ostream* out) {
   *out << sample.name;
 }
 
-/// 13 x 5 particles, which leaves lanes idle, 5 mm apart, that stretch and turn by several metres a second.
+/// 13 x 5 particles of two masses, which leaves lanes idle, about 5 mm apart. They stretch and turn by
+/// several metres a second.
 Sample moving_block(const std::string& name, Formulation formulation, Integrator integrator) {
   Sample sample{name, free_plate(4)};
   sample.p.formulation = formulation;
   sample.p.integrator = integrator;
   if (formulation == Formulation::updated_lagrangian) sample.p.hourglass.reset();
-  sample.p.regions = {{"block", {Vec(0, 0), Vec(0.065, 0.025)}}};
+  sample.p.regions = {{"block", {Vec(0, 0), Vec(0.045, 0.025)}}, {"tip", {Vec(0.045, 0), Vec(0.066, 0.025)}}};
   sample.p.clamps = {{"root", {Vec(-1, -1), Vec(0.005, 1)}}};
   sample.p.initial_velocity = InitialVelocity{.profile = VelocityProfile::linear,
                                               .velocity = Vec(4, -3),
@@ -56,7 +57,7 @@ const std::vector<Change>& terms_of_both_forms() {
        }},
       {"detaching",
        [](Sample& s) {
-         s.p.detachment = Detachment{.bond_length = 1.05, .interval = 1e-4};
+         s.p.detachment = Detachment{.bond_length = 1.07, .interval = 1e-4};
          s.p.initial_velocity->velocity = Vec(30, -3);
        }},
       {"bonds", [](Sample& s) { s.p.bonds = BondLimits{.torn_at = 1.01, .clumped_at = 0.99}; }}};
@@ -266,7 +267,7 @@ TEST(Checkpoint, TakesAtMost150BytesAParticleWithEveryOneLoaded) {
 
 TEST(Checkpoint, WhatCameOffIsRecordedOnceMoreAsAWhole) {
   Sample sample = moving_block("", Formulation::updated_lagrangian, Integrator::midpoint);
-  sample.p.detachment = Detachment{.bond_length = 1.05, .interval = 1e-4};
+  sample.p.detachment = Detachment{.bond_length = 1.07, .interval = 1e-4};
   sample.p.initial_velocity->velocity = Vec(30, -3);
   using Rows = std::vector<DetachedParticle>;
   Rows first;
