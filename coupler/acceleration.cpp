@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/state/serialize.hpp"
+
 namespace toryu::coupling {
 
 namespace {
@@ -14,31 +16,41 @@ constexpr double least_new_share = 0.01;
 }  // namespace
 
 Values AitkenRelaxation::next(const Values& x, const Values& r) {
-  if (past_) {
-    const Values change = r - past_->r;
+  auto& [omega, past] = state_;
+  if (past) {
+    const Values change = r - past->r;
     const double square = change.squaredNorm();
-    if (square > 0) omega_ = -(x - past_->x).dot(change) / square;
+    if (square > 0) omega = -(x - past->x).dot(change) / square;
   }
-  past_ = Iterate{r, x};
-  return x + omega_ * r;
+  past = Iterate{r, x};
+  return x + omega * r;
+}
+
+void AitkenRelaxation::write_state(std::ostream& stream) const {
+  write_states(stream, state_);
+}
+void AitkenRelaxation::read_state(std::istream& stream) {
+  read_states(stream, state_);
 }
 
 void QuasiNewton::begin_window() {
-  past_.reset();
-  if (windows_.empty() || !windows_.front().empty()) windows_.emplace_front();
-  while (windows_.size() > static_cast<std::size_t>(remembered_) + 1) windows_.pop_back();
+  auto& [windows, past] = state_;
+  past.reset();
+  if (windows.empty() || !windows.front().empty()) windows.emplace_front();
+  while (windows.size() > static_cast<std::size_t>(remembered_) + 1) windows.pop_back();
 }
 
 Values QuasiNewton::next(const Values& x, const Values& r) {
-  if (past_) windows_.front().push_front(Iterate{r - past_->r, x - past_->x});
-  past_ = Iterate{r, x};
+  auto& [windows, past] = state_;
+  if (past) windows.front().push_front(Iterate{r - past->r, x - past->x});
+  past = Iterate{r, x};
 
   // Each column is scaled to length 1: the differences shrink from one iteration to the next, but what they
   // say about the Jacobian does not.
   std::vector<Values> basis;
   Eigen::MatrixXd R(r.size(), 0), X(r.size(), 0);
   double omega = omega_;
-  for (const auto& window : windows_)
+  for (const auto& window : windows)
     for (const auto& difference : window) {
       const double length = difference.r.norm();
       if (!(length > 0) || R.cols() == r.size()) continue;
@@ -59,6 +71,13 @@ Values QuasiNewton::next(const Values& x, const Values& r) {
   if (rank_ == 0) return x + omega * r;
   const Values c = R.householderQr().solve(-r);
   return x + omega * r + (X + omega * R) * c;
+}
+
+void QuasiNewton::write_state(std::ostream& stream) const {
+  write_states(stream, state_);
+}
+void QuasiNewton::read_state(std::istream& stream) {
+  read_states(stream, state_);
 }
 
 }  // namespace toryu::coupling

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 
@@ -26,12 +27,21 @@ struct Iterate {
   Values r, x;
 };
 
+template <class Archive>
+void serialize(Archive& archive, Iterate& iterate) {
+  auto& [r, x] = iterate;
+  archive(r, x);
+}
+
 class Acceleration {
  public:
   virtual ~Acceleration() = default;
   virtual void begin_window() {}
   /// The guess after `x`, whose residual is `r`.
   virtual Values next(const Values& x, const Values& r) = 0;
+  /// What it has learned, to a checkpoint and back.
+  virtual void write_state(std::ostream& /*stream*/) const {}
+  virtual void read_state(std::istream& /*stream*/) {}
 };
 
 class FixedRelaxation final : public Acceleration {
@@ -46,15 +56,27 @@ class FixedRelaxation final : public Acceleration {
 /// A window starts with the last omega of the one before, the first with `factor`.
 class AitkenRelaxation final : public Acceleration {
  public:
-  explicit AitkenRelaxation(double factor) : omega_(factor) {}
-  void begin_window() override { past_.reset(); }
+  explicit AitkenRelaxation(double factor) : state_{.omega = factor} {}
+  void begin_window() override { state_.past.reset(); }
   Values next(const Values& x, const Values& r) override;
-  double factor() const { return omega_; }
+  double factor() const { return state_.omega; }
+
+  struct State {
+    double omega = 0;
+    std::optional<Iterate> past = {};  ///< the iteration before
+  };
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
 
  private:
-  double omega_;
-  std::optional<Iterate> past_;
+  State state_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, AitkenRelaxation::State& state) {
+  auto& [omega, past] = state;
+  archive(omega, past);
+}
 
 /// Columns that are nearly a combination of newer ones are filtered out, newest first: an older one that says
 /// nearly the same in another way would spoil what the newer ones have learned.
@@ -67,12 +89,25 @@ class QuasiNewton final : public Acceleration {
   /// Columns that the last step used.
   Eigen::Index rank() const { return rank_; }
 
+  struct State {
+    /// Differences, the newest window first, in each the newest first.
+    std::deque<std::deque<Iterate>> windows;
+    std::optional<Iterate> past;  ///< the iteration before
+  };
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
+
  private:
   double omega_;
   int remembered_;
-  std::deque<std::deque<Iterate>> windows_;  // differences, newest window first, in each the newest first
-  std::optional<Iterate> past_;              // r and x of the iteration before
+  State state_;
   Eigen::Index rank_ = 0;
 };
+
+template <class Archive>
+void serialize(Archive& archive, QuasiNewton::State& state) {
+  auto& [windows, past] = state;
+  archive(windows, past);
+}
 
 }  // namespace toryu::coupling

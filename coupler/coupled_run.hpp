@@ -1,20 +1,13 @@
 /// A coupled run, window after window: each is computed as the scheme of the case says (schemes.hpp), then
-/// audited and recorded.
+/// audited and recorded (coupled_record.hpp).
 #pragma once
 
-#include <limits>
 #include <optional>
 
-#include "common/link/coupler_link.hpp"
-#include "common/output/results.hpp"
-#include "common/run/progress.hpp"
+#include "common/link/coupling_port.hpp"
 #include "common/run/timers.hpp"
-#include "coupler/added_mass.hpp"
-#include "coupler/exchange_audit.hpp"
-#include "coupler/interface_record.hpp"
-#include "coupler/parameters.hpp"
+#include "coupler/coupled_record.hpp"
 #include "coupler/schemes.hpp"
-#include "coupler/work_audit.hpp"
 
 namespace toryu::coupling {
 
@@ -22,71 +15,35 @@ namespace toryu::coupling {
 /// `limit` [s], and the last two windows alike rather than a whole one and a splinter.
 double window_length(double left, int steps, double limit);
 
-/// Says when something that happens each `interval` [s] is due; each time if the interval is 0.
-class Due {
- public:
-  explicit Due(double interval) : interval_(interval) {}
-  bool at(double time);
-
- private:
-  double interval_;
-  long next_ = 1;
-};
-
 class CoupledRun {
  public:
-  struct Settings {
-    double end_time, frame_interval, series_interval;  ///< [s]
-    Parameters coupling;
-    std::filesystem::path out;
-  };
-  CoupledRun(Settings settings, CouplerLink& link);
+  CoupledRun(Settings settings, CouplingPort& port) : settings_(std::move(settings)), port_(port) {}
 
   /// Runs all windows to the end.
-  void run(const CouplerLink::Start& start);
+  void run(const CouplingStart& start);
   /// What is known of the run so far; the wall time must be in the summary already.
   void report(Summary& summary) const;
 
+  struct State {
+    double time = 0, time_step_limit = 0;  ///< [s]
+    Window window;                         ///< the last one
+  };
+
  private:
   void advance();
-  void check_added_mass(const InterfaceLoad& load);
-  void audit(const Exchange& done);
-  void audit_work(const Exchange& done);
-  void note_times(const Exchange& done, double elapsed);
-  void note_convergence(const Exchange& done);
-  void write_series(const Exchange& done);
 
   Settings settings_;
-  CouplerLink& link_;
-  std::unique_ptr<Scheme> scheme_;
-  double time_ = 0, time_step_limit_ = 0;  // [s]
-  Window window_;
-  ExchangeAudit audit_;
-  std::optional<WorkAudit> work_;
-  bool warned_ = false;
-  FluidTraits fluid_;
-  std::size_t interface_count_ = 0;
-  std::optional<SurfaceLayer> layer_;
-  double lightest_layer_ = std::numeric_limits<double>::infinity();  // of all windows, over a row of fluid
-  bool warned_of_mass_ = false, warned_of_work_ = false;
+  CouplingPort& port_;
   Timers timers_;
-  std::vector<double> round_trips_;                  // one a window [s]
-  double fluid_compute_ = 0, solid_compute_ = 0;     // [s], sums over the run
-  double smallest_window_ = 0, largest_window_ = 0;  // [s]
-  long iterations_ = 0, unconverged_ = 0;            // sum over the windows; windows
-  int unconverged_in_a_row_ = 0;
-
-  std::optional<InterfaceRecord> record_;
-  std::optional<SeriesWriter> series_;
-  Due frame_due_, series_due_;
-
-  /// Over the windows since the last row of the series.
-  struct Row {
-    int windows = 0;
-    double round_trip = 0, fluid_compute = 0, solid_compute = 0;  // [s], sums
-    double impulse_error = 0, residual = 0;                       // largest
-    int iterations = 0;                                           // largest
-  } row_;
+  State state_;
+  std::unique_ptr<Scheme> scheme_;
+  std::optional<CoupledRecord> record_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, CoupledRun::State& state) {
+  auto& [time, time_step_limit, window] = state;
+  archive(time, time_step_limit, window);
+}
 
 }  // namespace toryu::coupling

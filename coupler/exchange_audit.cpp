@@ -27,15 +27,16 @@ double sum_of_lengths(const std::vector<double>& vectors) {
   return sum;
 }
 
-double ExchangeAudit::compare(const InterfaceLoad& given, const InterfaceLoad& felt, const Vec& impulse_taken,
-                              double dt) {
-  const Vec impulse_given = dt * (sum_of(given.force) + sum_of(given.friction_force));
-  const Vec impulse_felt = dt * (sum_of(felt.force) + sum_of(felt.friction_force));
-  const double scale_given = dt * (sum_of_lengths(given.force) + sum_of_lengths(given.friction_force));
-  const double scale_felt = dt * (sum_of_lengths(felt.force) + sum_of_lengths(felt.friction_force));
-  const double error = std::max(relative(impulse_given + given.impulse_on_fluid, scale_given),
-                                relative(impulse_felt - impulse_taken, scale_felt));
-  largest_ = std::max(largest_, error);
+double ExchangeAudit::compare(const InterfaceLoad& of_fluid, const InterfaceLoad& applied,
+                              const Vec& impulse_taken, double dt) {
+  const Vec impulse_of_fluid = dt * (sum_of(of_fluid.force) + sum_of(of_fluid.friction_force));
+  const Vec impulse_applied = dt * (sum_of(applied.force) + sum_of(applied.friction_force));
+  const double scale_of_fluid =
+      dt * (sum_of_lengths(of_fluid.force) + sum_of_lengths(of_fluid.friction_force));
+  const double scale_applied = dt * (sum_of_lengths(applied.force) + sum_of_lengths(applied.friction_force));
+  const double error = std::max(relative(impulse_of_fluid + of_fluid.impulse_on_fluid, scale_of_fluid),
+                                relative(impulse_applied - impulse_taken, scale_applied));
+  state_.largest = std::max(state_.largest, error);
   return error;
 }
 

@@ -17,16 +17,29 @@ class ExchangeAudit {
   /// Differences above this are reported: the two sides round differently, but no more.
   static constexpr double tolerance = 1e-12;
 
-  /// Compares, over a window of `dt` [s], `given` (all that the fluid sent) with what it says it received,
-  /// and `felt` (what was passed on) with what the solid says it took. Returns the larger of the two
-  /// differences, relative to the sum of the lengths of the particles' forces times dt: the scale of what was
-  /// summed.
-  double compare(const InterfaceLoad& given, const InterfaceLoad& felt, const Vec& impulse_taken, double dt);
+  /// Compares, over a window of `dt` [s], `of_fluid` (its whole load) with what the fluid says it received,
+  /// and `applied` (what the solid was handed) with what the solid says it took. Returns the larger of the
+  /// two differences, relative to the sum of the lengths of the particles' forces times dt: the scale of what
+  /// was summed.
+  double compare(const InterfaceLoad& of_fluid, const InterfaceLoad& applied, const Vec& impulse_taken,
+                 double dt);
 
-  double largest() const { return largest_; }
+  double largest() const { return state_.largest; }
+
+  struct State {
+    double largest = 0;  ///< of the run
+  };
+  const State& state() const { return state_; }
+  void resume(const State& then) { state_ = then; }
 
  private:
-  double largest_ = 0;
+  State state_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, ExchangeAudit::State& state) {
+  auto& [largest] = state;
+  archive(largest);
+}
 
 }  // namespace toryu::coupling

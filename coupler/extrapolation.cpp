@@ -3,12 +3,13 @@
 namespace toryu::coupling {
 
 InterfaceMotion Extrapolation::over(double dt) const {
-  const double tau = order_ > 0 ? dt : first_dt_ > 0 ? dt - first_dt_ : 0.0;
-  const bool curved = order_ > 1 && !past_velocity_.empty();
-  InterfaceMotion motion = now_;
+  const auto& [now, past_velocity, first_dt, last_dt] = state_;
+  const double tau = order_ > 0 ? dt : first_dt > 0 ? dt - first_dt : 0.0;
+  const bool curved = order_ > 1 && !past_velocity.empty();
+  InterfaceMotion motion = now;
   for (std::size_t k = 0; k < motion.position.size(); ++k) {
-    const double a = curved ? (now_.velocity[k] - past_velocity_[k]) / last_dt_ : 0.0;
-    const double mean = now_.velocity[k] + 0.5 * tau * a;
+    const double a = curved ? (now.velocity[k] - past_velocity[k]) / last_dt : 0.0;
+    const double mean = now.velocity[k] + 0.5 * tau * a;
     motion.position[k] += tau * mean;
     if (order_ > 0) motion.velocity[k] = mean;
   }
@@ -16,10 +17,10 @@ InterfaceMotion Extrapolation::over(double dt) const {
 }
 
 void Extrapolation::note(const InterfaceMotion& at_end, double dt) {
-  past_velocity_ = now_.velocity;
-  now_ = at_end;
-  if (first_dt_ == 0) first_dt_ = dt;
-  last_dt_ = dt;
+  state_.past_velocity = state_.now.velocity;
+  state_.now = at_end;
+  if (state_.first_dt == 0) state_.first_dt = dt;
+  state_.last_dt = dt;
 }
 
 }  // namespace toryu::coupling

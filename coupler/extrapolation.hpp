@@ -16,7 +16,7 @@ namespace toryu::coupling {
 class Extrapolation {
  public:
   /// `order` is 0, 1 or 2; `at_start` the solid's motion at the start of the run.
-  Extrapolation(int order, const InterfaceMotion& at_start) : order_(order), now_(at_start) {}
+  Extrapolation(int order, const InterfaceMotion& at_start) : order_(order), state_{.now = at_start} {}
 
   /// The motion that the fluid is to follow over a window of `dt` [s]. Its velocity is that of the way from
   /// the solid's present position (at order 0 the solid's own).
@@ -24,13 +24,25 @@ class Extrapolation {
   /// Takes the solid's motion at the end of a window of `dt` [s].
   void note(const InterfaceMotion& at_end, double dt);
 
-  const InterfaceMotion& now() const { return now_; }
+  const InterfaceMotion& now() const { return state_.now; }
+
+  struct State {
+    InterfaceMotion now = {};
+    std::vector<double> past_velocity = {};  ///< at the start of the last window [m/s]
+    double first_dt = 0, last_dt = 0;        ///< [s]
+  };
+  const State& state() const { return state_; }
+  void resume(const State& then) { state_ = then; }
 
  private:
   int order_;
-  InterfaceMotion now_;
-  std::vector<double> past_velocity_;  // at the start of the last window [m/s]
-  double first_dt_ = 0, last_dt_ = 0;  // [s]
+  State state_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, Extrapolation::State& state) {
+  auto& [now, past_velocity, first_dt, last_dt] = state;
+  archive(now, past_velocity, first_dt, last_dt);
+}
 
 }  // namespace toryu::coupling

@@ -20,7 +20,7 @@ class InterfaceRecord {
   InterfaceRecord(const std::filesystem::path& out, const Interface& interface);
   ~InterfaceRecord();  ///< gives the file its final name, unless a write failed
 
-  /// Appends a row. `load` is what the solid felt.
+  /// Appends a row. `load` is what the solid applied.
   void write(double time, const InterfaceMotion& motion, const InterfaceLoad& load);
 
  private:

@@ -28,7 +28,7 @@ double processor_time() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-void run_windows(const Options& options, const CaseFile& file, const CoupledRun::Settings& settings) {
+void run_windows(const Options& options, const CaseFile& file, const Settings& settings) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   Summary summary;
@@ -50,10 +50,10 @@ void run_windows(const Options& options, const CaseFile& file, const CoupledRun:
     write_summary(options.out, summary);
   };
   try {
-    const auto gathered = link.gather(settings.coupling.windows_repeat());
+    const auto [fluid, solid] = link.gather(settings.coupling.windows_repeat());
     write_atomically(options.out / "used_case.toml",
-                     merge_used_cases({file.used(), gathered.fluid.used_case, gathered.solid.used_case}));
-    run.run(gathered);
+                     merge_used_cases({file.used(), fluid.used_case, solid.used_case}));
+    run.run(link.begin());
     link.stop(ExitCode::done, "");
   } catch (...) {
     const Ending ending = ending_of_exception();

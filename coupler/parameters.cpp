@@ -4,7 +4,7 @@
 
 namespace toryu::coupling {
 
-bool Parameters::feels(const std::string& load) const {
+bool Parameters::passes_on(const std::string& load) const {
   return std::find(loads.begin(), loads.end(), load) != loads.end();
 }
 

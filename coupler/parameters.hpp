@@ -34,7 +34,7 @@ struct Parameters {
   double time_limit = 30;  ///< [s]
   std::vector<std::string> loads = {"pressure_and_viscous", "friction"};
 
-  bool feels(const std::string& load) const;
+  bool passes_on(const std::string& load) const;
   bool windows_repeat() const { return scheme == SchemeKind::serial_implicit; }
 };
 void describe(ParameterTable& table, Parameters& p);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/link/serialize.hpp"
+#include "common/state/serialize.hpp"
 #include "coupler/acceleration.hpp"
 #include "coupler/extrapolation.hpp"
 
@@ -22,26 +24,26 @@ double root_mean_square(const Values& values) {
   return values.size() > 0 ? values.norm() / std::sqrt(static_cast<double>(values.size())) : 0.0;
 }
 
-/// The load that the case lets the solid feel.
-InterfaceLoad felt_of(const InterfaceLoad& given, const Parameters& parameters) {
-  InterfaceLoad load = given;
-  if (!parameters.feels("pressure_and_viscous")) std::fill(load.force.begin(), load.force.end(), 0.0);
-  if (!parameters.feels("friction")) load.friction_force.clear();
+/// What of the fluid's load the case passes on to the solid.
+InterfaceLoad passed_on(const InterfaceLoad& of_fluid, const Parameters& parameters) {
+  InterfaceLoad load = of_fluid;
+  if (!parameters.passes_on("pressure_and_viscous")) std::fill(load.force.begin(), load.force.end(), 0.0);
+  if (!parameters.passes_on("friction")) load.friction_force.clear();
   return load;
 }
 
 class SerialExplicit final : public Scheme {
  public:
-  SerialExplicit(const Parameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
-      : parameters_(parameters), link_(link), extrapolation_(parameters.extrapolation_order, start.motion) {}
+  SerialExplicit(const Parameters& parameters, CouplingPort& port, const CouplingStart& start)
+      : parameters_(parameters), port_(port), extrapolation_(parameters.extrapolation_order, start.motion) {}
 
   Exchange compute(Window& window) override {
     Exchange done;
     InterfaceMotion motion = extrapolation_.over(window.dt);
-    done.fluid = link_.ask_fluid(window, motion);
-    done.followed = std::move(motion.position);
-    done.given = done.felt = felt_of(done.fluid.load, parameters_);
-    done.solid = link_.ask_solid(window, done.felt);
+    done.fluid = port_.ask_fluid(window, motion);
+    done.interface_position = std::move(motion.position);
+    done.sent = done.applied = passed_on(done.fluid.load, parameters_);
+    done.solid = port_.ask_solid(window, done.applied);
     extrapolation_.note(done.solid.motion, window.dt);
     done.fluid_compute = done.fluid.health.compute_time;
     done.solid_compute = done.solid.health.compute_time;
@@ -49,53 +51,79 @@ class SerialExplicit final : public Scheme {
     return done;
   }
 
+  void write_state(std::ostream& stream) const override { write_states(stream, extrapolation_.state()); }
+  void read_state(std::istream& stream) override {
+    Extrapolation::State state;
+    read_states(stream, state);
+    extrapolation_.resume(state);
+  }
+
  private:
   const Parameters& parameters_;
-  CouplerLink& link_;
+  CouplingPort& port_;
   Extrapolation extrapolation_;
 };
 
 class ParallelExplicit final : public Scheme {
  public:
-  ParallelExplicit(const Parameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
-      : parameters_(parameters), link_(link), extrapolation_(parameters.extrapolation_order, start.motion) {
-    past_.pressure.assign(start.interface.size(), 0.0);
-    past_.force.assign(dim * start.interface.size(), 0.0);
+  struct State {
+    InterfaceLoad load;  ///< of the last window
+    double dt = 0;       ///< its length [s]
+  };
+
+  ParallelExplicit(const Parameters& parameters, CouplingPort& port, const CouplingStart& start)
+      : parameters_(parameters), port_(port), extrapolation_(parameters.extrapolation_order, start.motion) {
+    past_.load.pressure.assign(start.interface.size(), 0.0);
+    past_.load.force.assign(dim * start.interface.size(), 0.0);
   }
 
   Exchange compute(Window& window) override {
     Exchange done;
-    done.felt = past_over(window.dt);
-    link_.grant_solid(window, done.felt);
+    done.applied = past_over(window.dt);
+    port_.grant_solid(window, done.applied);
     InterfaceMotion motion = extrapolation_.over(window.dt);
-    link_.grant_fluid(window, motion);
-    done.followed = std::move(motion.position);
-    done.fluid = link_.await_fluid(window);
-    done.solid = link_.await_solid(window);
+    port_.grant_fluid(window, motion);
+    done.interface_position = std::move(motion.position);
+    done.fluid = port_.await_fluid(window);
+    done.solid = port_.await_solid(window);
     extrapolation_.note(done.solid.motion, window.dt);
-    done.given = past_ = felt_of(done.fluid.load, parameters_);
-    past_dt_ = window.dt;
+    done.sent = past_.load = passed_on(done.fluid.load, parameters_);
+    past_.dt = window.dt;
     done.fluid_compute = done.fluid.health.compute_time;
     done.solid_compute = done.solid.health.compute_time;
     done.compute = std::max(done.fluid_compute, done.solid_compute);
     return done;
   }
 
+  void write_state(std::ostream& stream) const override {
+    write_states(stream, extrapolation_.state(), past_);
+  }
+  void read_state(std::istream& stream) override {
+    Extrapolation::State state;
+    read_states(stream, state, past_);
+    extrapolation_.resume(state);
+  }
+
  private:
   /// The last window's load, such that its impulse over `dt` is what the fluid gave.
   InterfaceLoad past_over(double dt) const {
-    InterfaceLoad load = past_;
+    InterfaceLoad load = past_.load;
     for (auto* forces : {&load.force, &load.friction_force})
-      for (double& component : *forces) component *= past_dt_ / dt;
+      for (double& component : *forces) component *= past_.dt / dt;
     return load;
   }
 
   const Parameters& parameters_;
-  CouplerLink& link_;
+  CouplingPort& port_;
   Extrapolation extrapolation_;
-  InterfaceLoad past_;  // of the last window
-  double past_dt_ = 0;  // [s]
+  State past_;
 };
+
+template <class Archive>
+void serialize(Archive& archive, ParallelExplicit::State& state) {
+  auto& [load, dt] = state;
+  archive(load, dt);
+}
 
 std::unique_ptr<Acceleration> make_acceleration(const ImplicitParameters& p) {
   switch (p.relaxation) {
@@ -110,9 +138,9 @@ std::unique_ptr<Acceleration> make_acceleration(const ImplicitParameters& p) {
 
 class SerialImplicit final : public Scheme {
  public:
-  SerialImplicit(const Parameters& parameters, CouplerLink& link, const CouplerLink::Start& start)
+  SerialImplicit(const Parameters& parameters, CouplingPort& port, const CouplingStart& start)
       : parameters_(parameters),
-        link_(link),
+        port_(port),
         extrapolation_(std::max(parameters.extrapolation_order, 1), start.motion),
         acceleration_(make_acceleration(*parameters.implicit)),
         spacing_(start.interface.spacing) {}
@@ -123,9 +151,9 @@ class SerialImplicit final : public Scheme {
     InterfaceMotion guess = extrapolation_.over(window.dt);
     acceleration_->begin_window();
     for (;; ++window.iteration, ++done.iterations) {
-      done.fluid = link_.ask_fluid(window, guess);
-      done.felt = felt_of(done.fluid.load, parameters_);
-      done.solid = link_.ask_solid(window, done.felt);
+      done.fluid = port_.ask_fluid(window, guess);
+      done.applied = passed_on(done.fluid.load, parameters_);
+      done.solid = port_.ask_solid(window, done.applied);
       done.fluid_compute += done.fluid.health.compute_time;
       done.solid_compute += done.solid.health.compute_time;
 
@@ -138,11 +166,22 @@ class SerialImplicit final : public Scheme {
       Eigen::Map<Values>(guess.position.data(), next.size()) = next;
       Eigen::Map<Values>(guess.velocity.data(), next.size()) = (next - start) / window.dt;
     }
-    done.given = done.felt;
-    done.followed = std::move(guess.position);
+    done.sent = done.applied;
+    done.interface_position = std::move(guess.position);
     extrapolation_.note(done.solid.motion, window.dt);
     done.compute = done.fluid_compute + done.solid_compute;
     return done;
+  }
+
+  void write_state(std::ostream& stream) const override {
+    write_states(stream, extrapolation_.state());
+    acceleration_->write_state(stream);
+  }
+  void read_state(std::istream& stream) override {
+    Extrapolation::State state;
+    read_states(stream, state);
+    extrapolation_.resume(state);
+    acceleration_->read_state(stream);
   }
 
  private:
@@ -156,7 +195,7 @@ class SerialImplicit final : public Scheme {
   }
 
   const Parameters& parameters_;
-  CouplerLink& link_;
+  CouplingPort& port_;
   Extrapolation extrapolation_;
   std::unique_ptr<Acceleration> acceleration_;
   double spacing_;  // of the interface's particles [m]
@@ -164,15 +203,15 @@ class SerialImplicit final : public Scheme {
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, CouplerLink& link,
-                                    const CouplerLink::Start& start) {
+std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, CouplingPort& port,
+                                    const CouplingStart& start) {
   switch (parameters.scheme) {
     case SchemeKind::serial_explicit:
-      return std::make_unique<SerialExplicit>(parameters, link, start);
+      return std::make_unique<SerialExplicit>(parameters, port, start);
     case SchemeKind::parallel_explicit:
-      return std::make_unique<ParallelExplicit>(parameters, link, start);
+      return std::make_unique<ParallelExplicit>(parameters, port, start);
     default:
-      return std::make_unique<SerialImplicit>(parameters, link, start);
+      return std::make_unique<SerialImplicit>(parameters, port, start);
   }
 }
 

@@ -1,27 +1,28 @@
 /// The coupling schemes: in which order both sides compute a window, and what each of them knows then.
 ///
-///     serial_explicit     fluid over n with the motion forecast; solid over n under the load of n
-///     parallel_explicit   at once: fluid over n with the motion forecast, solid over n under the load of n-1
+///     serial_explicit     fluid over n with the motion extrapolated; solid over n under the load of n
+///     parallel_explicit   at once: fluid over n with the motion extrapolated, solid under the load of n-1
 ///     serial_implicit     as serial_explicit, and again with the solid's answer, relaxed, until it settles
 ///
 /// In each the impulse that the fluid gives is the impulse that the solid takes, in the parallel scheme one
 /// window later.
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 
-#include "common/link/coupler_link.hpp"
+#include "common/link/coupling_port.hpp"
 #include "coupler/parameters.hpp"
 
 namespace toryu::coupling {
 
 /// What a window brought.
 struct Exchange {
-  CouplerLink::FluidAnswer fluid;
-  std::vector<double> followed;  ///< positions to which the fluid brought its copy of the interface [m]
-  InterfaceLoad given;           ///< what of the fluid's load the case lets the solid feel
-  InterfaceLoad felt;            ///< what the solid computed the window with
-  CouplerLink::SolidAnswer solid;
+  FluidAnswer fluid;
+  std::vector<double> interface_position;  ///< to which the fluid brought its copy of the interface [m]
+  InterfaceLoad sent;                      ///< what of the fluid's load the case passes on to the solid
+  InterfaceLoad applied;                   ///< what the solid computed the window with
+  SolidAnswer solid;
   double fluid_compute = 0, solid_compute = 0;  ///< over all iterations [s]
   double compute = 0;                           ///< of these, what cannot be done at once [s]
   int iterations = 1;
@@ -34,9 +35,12 @@ class Scheme {
   virtual ~Scheme() = default;
   /// Computes a window; `window` gets the iteration that counts.
   virtual Exchange compute(Window& window) = 0;
+  /// What the next window depends on, to a checkpoint and back.
+  virtual void write_state(std::ostream& stream) const = 0;
+  virtual void read_state(std::istream& stream) = 0;
 };
 
-std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, CouplerLink& link,
-                                    const CouplerLink::Start& start);
+std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, CouplingPort& port,
+                                    const CouplingStart& start);
 
 }  // namespace toryu::coupling

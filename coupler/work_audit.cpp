@@ -19,18 +19,20 @@ double work(const InterfaceLoad& load, const std::vector<double>& from, const st
 
 }  // namespace
 
-void WorkAudit::note(const InterfaceLoad& given, const std::vector<double>& fluid, const InterfaceLoad& taken,
-                     const std::vector<double>& solid, double kinetic_energy) {
-  given_ += work(given, fluid_, fluid);
-  taken_ += work(taken, solid_, solid);
-  largest_given_ = std::max(largest_given_, std::abs(given_));
-  largest_kinetic_energy_ = std::max(largest_kinetic_energy_, kinetic_energy);
-  if (std::has_single_bit(++windows_)) made_before_ = std::exchange(made_at_power_of_two_, made());
-  const bool suspicious = made() > std::max({bearable_share * largest_given_, largest_kinetic_energy_,
-                                             least_growth * made_before_});
-  suspicious_ = suspicious ? suspicious_ + 1 : 0;
-  fluid_ = fluid;
-  solid_ = solid;
+void WorkAudit::note(const InterfaceLoad& sent, const std::vector<double>& interface_position,
+                     const InterfaceLoad& applied, const std::vector<double>& solid_position,
+                     double kinetic_energy) {
+  State& s = state_;
+  s.given += work(sent, s.fluid, interface_position);
+  s.taken += work(applied, s.solid, solid_position);
+  s.largest_given = std::max(s.largest_given, std::abs(s.given));
+  s.largest_kinetic_energy = std::max(s.largest_kinetic_energy, kinetic_energy);
+  if (std::has_single_bit(++s.windows)) s.made_before = std::exchange(s.made_at_power_of_two, made());
+  const bool suspicious = made() > std::max({bearable_share * s.largest_given, s.largest_kinetic_energy,
+                                             least_growth * s.made_before});
+  s.suspicious = suspicious ? s.suspicious + 1 : 0;
+  s.fluid = interface_position;
+  s.solid = solid_position;
 }
 
 }  // namespace toryu::coupling

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <functional>
 
 #include "common/error/ending.hpp"
 #include "common/error/failure.hpp"
 #include "common/link/dds.hpp"
-#include "common/link/process.hpp"
+#include "common/link/roster.hpp"
+#include "common/link/session.hpp"
 #include "common/link/wire.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/log.hpp"
@@ -21,173 +21,63 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
-constexpr auto longest_sleep = 100ms;  // between looks at interruptions and the peers' leases
-constexpr auto beat_interval = 200ms;
+constexpr auto longest_sleep = 100ms;  // between looks at interruptions and the participants' leases
 constexpr auto shutdown_timeout = 3s;  // longest wait for both to hear of the end
 
-/// What the coupler knows of a participant.
-struct Participant {
-  const char* part;  ///< "fluid"
-  std::uint64_t id = 0;
-  CouplerLink::Partner partner = {};
-  std::string process = {};
-  FluidTraits traits = {};  ///< of the fluid
-  std::uint64_t window = 0, steps = 0;
-  Clock::time_point moved = Clock::now();
-  std::optional<Clock::time_point> lapsed = {};  ///< since when its lease is over
-  bool left = false;
+/// What is handed to and fro in turns.
+struct Turns {
+  explicit Turns(dds::Node& node)
+      : interface_from_solid(node, wire::interface_from_solid),
+        interface_to_fluid(node, wire::interface_to_fluid),
+        motion_to_fluid(node, wire::motion_to_fluid),
+        load_from_fluid(node, wire::load_from_fluid),
+        load_to_solid(node, wire::load_to_solid),
+        motion_from_solid(node, wire::motion_from_solid) {}
 
-  bool joined() const { return id != 0; }
-  bool dead() const { return lapsed && Clock::now() - *lapsed > dds::grace && !runs_here(process); }
-  /// Its program's name, or its part while nobody plays it.
-  std::string name() const { return joined() ? partner.program : fmt::format("{} participant", part); }
+  dds::Reader<toryu_Interface> interface_from_solid;
+  dds::Writer<toryu_Interface> interface_to_fluid;
+  dds::Writer<toryu_Motion> motion_to_fluid;
+  dds::Reader<toryu_Load> load_from_fluid;
+  dds::Writer<toryu_Load> load_to_solid;
+  dds::Reader<toryu_Motion> motion_from_solid;
+  std::size_t particles = 0;  ///< of the interface
 };
 
 }  // namespace
 
+/// Where session, participants and turns meet: waits that look after all of them.
 struct CouplerLink::Connection {
   explicit Connection(const LinkSettings& link_settings)
-      : settings(link_settings), node(dds::rendezvous(settings.out)) {}
+      : settings(link_settings),
+        node(dds::rendezvous(settings.out)),
+        session(node, settings.time_limit),
+        roster(node, session, settings),
+        turns(node) {}
 
   LinkSettings settings;
-  const std::uint64_t session = dds::random_id();
-  std::string process = own_process();
   dds::Node node;
-  dds::Writer<toryu_Session> sessions{node, wire::session};
-  dds::Reader<toryu_Hello> hellos{node, wire::hello};
-  dds::Reader<toryu_Status> statuses{node, wire::status};
-  dds::Reader<toryu_Interface> interfaces{node, wire::interface_from_solid};
-  dds::Writer<toryu_Interface> interfaces_on{node, wire::interface_to_fluid};
-  dds::Writer<toryu_Motion> motions{node, wire::motion_to_fluid};
-  dds::Reader<toryu_Load> loads{node, wire::load_from_fluid};
-  dds::Writer<toryu_Load> loads_on{node, wire::load_to_solid};
-  dds::Reader<toryu_Motion> motions_back{node, wire::motion_from_solid};
+  Session session;
+  Roster roster;
+  Turns turns;
+  Clock::time_point checked = Clock::now();
 
-  Participant fluid{.part = "fluid"}, solid{.part = "solid"};
-  toryu_Phase phase = toryu_GATHERING;
-  ExitCode code = ExitCode::done;
-  std::string reason;
-  std::uint64_t beat = 0;
-  bool windows_repeat = false;
-  std::size_t particles = 0;
-  Clock::time_point beaten{}, checked = Clock::now();
-
-  void announce();
-  void welcome(const toryu_Hello& hello);
-  void compare(const toryu_Hello& hello, const Participant& guest);
-  void note(const toryu_Status& status);
-  void listen();
-  void check_lease(Participant& guest, std::uint32_t live_writers);
   void poll();
   void wait(const Participant& awaited, const std::string& what, const std::function<bool()>& arrived);
-  bool ours(const toryu_WindowHead& window, const Participant& sender) const;
+  template <class Message, class Use>
+  void await(dds::Reader<Message>& reader, const Participant& sender, const Window& window, const Use& use);
 };
-
-void CouplerLink::Connection::announce() {
-  toryu_Session message{};
-  message.session_id = session;
-  message.phase = phase;
-  message.beat = ++beat;
-  message.process = process.data();
-  message.fluid = fluid.id;
-  message.solid = solid.id;
-  message.reach = fluid.traits.reach;
-  message.time_limit = settings.time_limit;
-  message.windows_repeat = windows_repeat;
-  message.exit_code = static_cast<std::uint32_t>(code);
-  message.reason = reason.data();
-  sessions.write(message);
-  beaten = Clock::now();
-}
-
-/// Refuses a participant that computes something else.
-void CouplerLink::Connection::compare(const toryu_Hello& hello, const Participant& guest) {
-  std::vector<InputError> errors;
-  const auto must_agree = [&](const char* what, const auto& theirs, const auto& ours_) {
-    if (theirs != ours_)
-      errors.push_back({.place = guest.partner.program,
-                        .message = fmt::format("{} is {}, the coupler's is {}", what, theirs, ours_)});
-  };
-  must_agree("protocol", hello.protocol, wire::protocol);
-  must_agree("hash of the case", fmt::format("{:016x}", hello.case_hash),
-             fmt::format("{:016x}", settings.case_hash));
-  must_agree("system of units", std::string(hello.units), std::string(wire::units));
-  must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
-  if (windows_repeat && !hello.can_repeat)
-    errors.push_back({.place = guest.partner.program,
-                      .message = "cannot repeat a window, which the scheme of the case asks for"});
-  if (!errors.empty()) throw BadInput(errors);
-  if (guest.partner.version != settings.version)
-    log::warn("{} is version {}, the coupler {}", guest.partner.program, guest.partner.version,
-              settings.version);
-}
-
-void CouplerLink::Connection::welcome(const toryu_Hello& hello) {
-  if (hello.session_id != 0) return;  // taken in already, by this coupler or by one before it
-  Participant& guest = hello.role == toryu_FLUID ? fluid : solid;
-  if (guest.joined()) {
-    if (guest.id != hello.sender) log::warn("refused a second {} participant: {}", guest.part, hello.program);
-    return;
-  }
-  guest.partner = {hello.program, hello.version, hello.used_case};
-  guest.process = hello.process;
-  guest.traits = {hello.reach, hello.time_step_limit, hello.density, hello.sound_speed, hello.spacing};
-  guest.id = hello.sender;
-  guest.moved = Clock::now();
-  if (phase == toryu_OVER) return;
-  compare(hello, guest);
-  log::info("{} {} joined as the {}", guest.partner.program, guest.partner.version, guest.part);
-  if (fluid.joined() && solid.joined()) phase = toryu_RUNNING;
-  announce();
-}
-
-void CouplerLink::Connection::note(const toryu_Status& status) {
-  Participant* guest = status.sender == fluid.id ? &fluid : status.sender == solid.id ? &solid : nullptr;
-  // Of a refused participant, or of another run; 0 is of one that left before it knew ours.
-  if (guest == nullptr || (status.session_id != session && status.session_id != 0)) return;
-  const bool moved = status.steps != guest->steps || status.window != guest->window;
-  if (moved) guest->moved = Clock::now();
-  guest->steps = status.steps;
-  guest->window = status.window;
-  if (status.activity != toryu_LEFT) return;
-  guest->left = true;
-  if (phase == toryu_OVER) return;
-  const auto their_code = static_cast<ExitCode>(status.exit_code);
-  const std::string words = their_code == ExitCode::done ? "left before the end of the run" : status.reason;
-  throw_ending({their_code, fmt::format("{}: {}", guest->name(), words)});
-}
-
-void CouplerLink::Connection::listen() {
-  while (statuses.take([this](const toryu_Status& status) { note(status); })) {
-  }
-  while (hellos.take([this](const toryu_Hello& hello) { welcome(hello); })) {
-  }
-}
-
-void CouplerLink::Connection::check_lease(Participant& guest, std::uint32_t live_writers) {
-  if (!guest.joined() || live_writers > 0)
-    guest.lapsed = {};
-  else if (!guest.lapsed)
-    guest.lapsed = Clock::now();
-}
 
 /// Hears the participants, looks after them and after interruptions, and gives a sign of life.
 void CouplerLink::Connection::poll() {
-  listen();
-  if (phase != toryu_OVER) throw_if_interrupted();
+  roster.receive();
+  if (!session.over()) throw_if_interrupted();
+  session.heartbeat();
   const auto now = Clock::now();
-  if (now - beaten > beat_interval) announce();
   if (now - checked < longest_sleep) return;
-  if (now - checked > 1s) fluid.moved = solid.moved = now;  // silence counts only while this side listened
+  if (now - checked > 1s) roster.forgive_silence();  // silence counts only while this side listened
   checked = now;
-  check_lease(fluid, loads.live_writers());
-  check_lease(solid, motions_back.live_writers());
-  if (phase == toryu_OVER) return;
-  node.check_quality();
-  for (const Participant* guest : {&fluid, &solid})
-    if (guest->dead())
-      throw PeerLost(fmt::format("{} was killed or stopped: no sign of life in window {}", guest->name(),
-                                 guest->window));
+  roster.check_leases(turns.load_from_fluid.live_writers(), turns.motion_from_solid.live_writers());
+  if (!session.over()) node.check_quality();
 }
 
 void CouplerLink::Connection::wait(const Participant& awaited, const std::string& what,
@@ -201,64 +91,84 @@ void CouplerLink::Connection::wait(const Participant& awaited, const std::string
   }
 }
 
-bool CouplerLink::Connection::ours(const toryu_WindowHead& window, const Participant& sender) const {
-  if (window.session_id == session) return true;
-  log::warn("refused window {} of {}'s session {:x}: this run is session {:x}", window.number, sender.name(),
-            window.session_id, session);
-  return false;
+/// Waits for the answer of `sender` to `window`, and hands it to `use`.
+template <class Message, class Use>
+void CouplerLink::Connection::await(dds::Reader<Message>& reader, const Participant& sender,
+                                    const Window& window, const Use& use) {
+  wait(sender, fmt::format("did not answer in window {}", window.number), [&] {
+    bool ours = false;
+    reader.take([&](const Message& message) {
+      ours = message.window.session_id == session.id();
+      if (!ours) {
+        log::warn("refused window {} of {}'s session {:x}: this run is session {:x}", message.window.number,
+                  sender.name(), message.window.session_id, session.id());
+        return;
+      }
+      wire::check(message.window, window, sender.name());
+      use(message);
+    });
+    return ours;
+  });
 }
 
 CouplerLink::CouplerLink(const LinkSettings& settings) : connection_(std::make_unique<Connection>(settings)) {
-  connection_->announce();
+  connection_->session.announce({});
 }
 
 CouplerLink::~CouplerLink() {
   stop(ExitCode::bug, "coupler ended before the run was over");
 }
 
-CouplerLink::Start CouplerLink::gather(bool windows_repeat) {
+CouplerLink::Partners CouplerLink::gather(bool windows_repeat) {
   Connection& c = *connection_;
-  c.windows_repeat = windows_repeat;
-  for (const Participant* guest : {&c.fluid, &c.solid})
-    c.wait(*guest, "did not join", [&] { return guest->joined(); });
-  Start start{c.fluid.partner, c.solid.partner, c.fluid.traits, {}, {}};
-  c.wait(c.solid, "did not register its interface", [&] {
-    bool mine = false;
-    c.interfaces.take([&](const toryu_Interface& message) {
-      mine = message.session_id == c.session;
-      if (!mine) return;
+  c.roster.require(windows_repeat);
+  Session::Content content = c.session.content();
+  content.windows_repeat = windows_repeat;
+  c.session.announce(content);
+  for (const Participant* participant : {&c.roster.fluid(), &c.roster.solid()})
+    c.wait(*participant, "did not join", [&] { return participant->joined(); });
+  return {c.roster.fluid().partner, c.roster.solid().partner};
+}
+
+CouplingStart CouplerLink::begin() {
+  Connection& c = *connection_;
+  Session::Content content = c.session.content();
+  content.phase = toryu_RUNNING;
+  c.session.announce(content);
+
+  const Participant& solid = c.roster.solid();
+  CouplingStart start{c.roster.fluid().traits, {}, {}};
+  c.wait(solid, "did not register its interface", [&] {
+    bool ours = false;
+    c.turns.interface_from_solid.take([&](const toryu_Interface& message) {
+      ours = message.session_id == c.session.id();
+      if (!ours) return;
       start.interface = wire::interface_of(message);
       start.motion = wire::start_of(message);
     });
-    return mine;
+    return ours;
   });
-  wire::check(start.interface, c.solid.name() + ": interface");
-  c.particles = start.interface.size();
-  wire::check(start.motion, c.particles, c.solid.name() + ": motion at the start");
-  c.interfaces_on.write(wire::interface_message(c.session, start.interface, start.motion));
+  wire::check(start.interface, solid.name() + ": interface");
+  c.turns.particles = start.interface.size();
+  wire::check(start.motion, c.turns.particles, solid.name() + ": motion at the start");
+  c.turns.interface_to_fluid.write(wire::interface_message(c.session.id(), start.interface, start.motion));
   return start;
 }
 
 void CouplerLink::grant_fluid(const Window& window, const InterfaceMotion& motion) {
   Connection& c = *connection_;
-  c.motions.write(wire::motion(wire::window(c.session, window), motion));
+  c.turns.motion_to_fluid.write(wire::motion(wire::window(c.session.id(), window), motion));
 }
 
-CouplerLink::FluidAnswer CouplerLink::await_fluid(const Window& window) {
+FluidAnswer CouplerLink::await_fluid(const Window& window) {
   Connection& c = *connection_;
+  const Participant& fluid = c.roster.fluid();
   FluidAnswer answer;
-  c.wait(c.fluid, fmt::format("did not answer in window {}", window.number), [&] {
-    bool mine = false;
-    c.loads.take([&](const toryu_Load& message) {
-      mine = c.ours(message.window, c.fluid);
-      if (!mine) return;
-      wire::check(message.window, window, c.fluid.name());
-      answer = {wire::load(message), message.time_step_limit, wire::health(message.health)};
-    });
-    return mine;
+  c.await(c.turns.load_from_fluid, fluid, window, [&](const toryu_Load& message) {
+    answer = {wire::load(message), message.time_step_limit, wire::health(message.health)};
   });
-  const std::string sender = fmt::format("{}: window {}", c.fluid.name(), window.number);
-  wire::check(answer.load, c.particles, sender);
+  const std::string sender = fmt::format("{}: window {}", fluid.name(), window.number);
+  wire::check(answer.load, c.turns.particles, sender);
   if (!(answer.time_step_limit > 0) || !std::isfinite(answer.time_step_limit))
     throw PhysicsFailure(fmt::format("{}: time step limit is {} s", sender, answer.time_step_limit));
   return answer;
@@ -266,24 +176,18 @@ CouplerLink::FluidAnswer CouplerLink::await_fluid(const Window& window) {
 
 void CouplerLink::grant_solid(const Window& window, const InterfaceLoad& load) {
   Connection& c = *connection_;
-  c.loads_on.write(wire::load(wire::window(c.session, window), load));
+  c.turns.load_to_solid.write(wire::load(wire::window(c.session.id(), window), load));
 }
 
-CouplerLink::SolidAnswer CouplerLink::await_solid(const Window& window) {
+SolidAnswer CouplerLink::await_solid(const Window& window) {
   Connection& c = *connection_;
+  const Participant& solid = c.roster.solid();
   SolidAnswer answer;
-  c.wait(c.solid, fmt::format("did not answer in window {}", window.number), [&] {
-    bool mine = false;
-    c.motions_back.take([&](const toryu_Motion& message) {
-      mine = c.ours(message.window, c.solid);
-      if (!mine) return;
-      wire::check(message.window, window, c.solid.name());
-      answer = {wire::motion(message), wire::vector(message.impulse_taken), wire::health(message.health)};
-    });
-    return mine;
+  c.await(c.turns.motion_from_solid, solid, window, [&](const toryu_Motion& message) {
+    answer = {wire::motion(message), wire::vector(message.impulse_taken), wire::health(message.health)};
   });
-  const std::string sender = fmt::format("{}: window {}", c.solid.name(), window.number);
-  wire::check(answer.motion, c.particles, sender);
+  const std::string sender = fmt::format("{}: window {}", solid.name(), window.number);
+  wire::check(answer.motion, c.turns.particles, sender);
   if (!answer.impulse_taken.allFinite())
     throw PhysicsFailure(fmt::format("{}: impulse taken is not finite", sender));
   return answer;
@@ -291,24 +195,25 @@ CouplerLink::SolidAnswer CouplerLink::await_solid(const Window& window) {
 
 void CouplerLink::stop(ExitCode code, const std::string& reason) noexcept {
   Connection& c = *connection_;
-  if (c.phase == toryu_OVER) return;
-  c.phase = toryu_OVER;
-  c.code = code;
-  c.reason = reason;
+  if (c.session.over()) return;
   try {
-    c.announce();
+    Session::Content content = c.session.content();
+    content.phase = toryu_OVER;
+    content.ending = {code, reason};
+    c.session.announce(content);
     // Who is late to a run that was refused shall still hear why.
-    const auto gone = [&](const Participant& guest) {
-      return guest.joined() ? guest.left || guest.dead() : code != ExitCode::bad_input;
+    const auto gone = [&](const Participant& participant) {
+      return participant.joined() ? participant.left || participant.dead() : code != ExitCode::bad_input;
     };
+    const Participant &fluid = c.roster.fluid(), &solid = c.roster.solid();
     const auto start = Clock::now();
-    while (!(gone(c.fluid) && gone(c.solid)) && Clock::now() - start < shutdown_timeout) {
+    while (!(gone(fluid) && gone(solid)) && Clock::now() - start < shutdown_timeout) {
       c.poll();
       c.node.wait(longest_sleep);
     }
-    for (const Participant* guest : {&c.fluid, &c.solid})
-      if (guest->joined() && !gone(*guest))
-        log::warn("{} has not confirmed the end of the run", guest->name());
+    for (const Participant* participant : {&fluid, &solid})
+      if (participant->joined() && !gone(*participant))
+        log::warn("{} has not confirmed the end of the run", participant->name());
   } catch (const std::exception& failure) {
     log::warn("the participants could not be told of the end: {}", failure.what());
   }

@@ -5,57 +5,33 @@
 #include <memory>
 #include <string>
 
-#include "common/link/participant.hpp"
+#include "common/link/coupling_port.hpp"
 
 namespace toryu {
 
-class CouplerLink {
+class CouplerLink final : public CouplingPort {
  public:
   explicit CouplerLink(const LinkSettings& settings);
-  ~CouplerLink();
+  ~CouplerLink() override;
 
   /// A participant as it introduced itself.
   struct Partner {
     std::string program, version, used_case;
   };
-  struct Start {
+  struct Partners {
     Partner fluid, solid;
-    FluidTraits traits;  ///< of the fluid
-    Interface interface;
-    InterfaceMotion motion;  ///< at the start
   };
-  /// Waits for both, checks that they compute the same case in the same units, and joins them. Throws
-  /// BadInput that says what each side said if they differ, PeerLost that names who did not come. Both must
-  /// be able to repeat a window if `windows_repeat`.
-  Start gather(bool windows_repeat = false);
+  /// Waits for both and checks that they compute the same case in the same units. Throws BadInput that says
+  /// what each side said if they differ, PeerLost that names who did not come. Both must be able to repeat a
+  /// window if `windows_repeat`.
+  Partners gather(bool windows_repeat = false);
+  /// Begins the run for both, once gathered.
+  CouplingStart begin();
 
-  struct FluidAnswer {
-    InterfaceLoad load;
-    double time_step_limit;  ///< of the next step [s]
-    Health health;
-  };
-  /// Grants the fluid a window, in which it brings the interface to where `motion` says.
-  void grant_fluid(const Window& window, const InterfaceMotion& motion);
-  /// Waits for the load over the window granted.
-  FluidAnswer await_fluid(const Window& window);
-  FluidAnswer ask_fluid(const Window& window, const InterfaceMotion& motion) {
-    grant_fluid(window, motion);
-    return await_fluid(window);
-  }
-
-  struct SolidAnswer {
-    InterfaceMotion motion;  ///< at the end of the window
-    Vec impulse_taken;       ///< [N s/m]
-    Health health;
-  };
-  /// Grants the solid a window under `load`.
-  void grant_solid(const Window& window, const InterfaceLoad& load);
-  /// Waits for its motion at the end of the window granted.
-  SolidAnswer await_solid(const Window& window);
-  SolidAnswer ask_solid(const Window& window, const InterfaceLoad& load) {
-    grant_solid(window, load);
-    return await_solid(window);
-  }
+  void grant_fluid(const Window& window, const InterfaceMotion& motion) override;
+  FluidAnswer await_fluid(const Window& window) override;
+  void grant_solid(const Window& window, const InterfaceLoad& load) override;
+  SolidAnswer await_solid(const Window& window) override;
 
   /// Ends the run for all with `code`, and waits until both have heard it or are gone, a few seconds at most.
   void stop(ExitCode code, const std::string& reason) noexcept;

@@ -58,7 +58,8 @@ void play_solid(const LinkSettings& settings, std::size_t particles) {
 std::vector<double> play_coupler(const LinkSettings& settings, int exchanges) {
   using Clock = std::chrono::steady_clock;
   CouplerLink link(settings);
-  auto motion = link.gather().motion;
+  link.gather();
+  auto motion = link.begin().motion;
   std::vector<double> times;
   for (int n = 1; n <= warm_up + exchanges; ++n) {
     const Window window{static_cast<std::uint64_t>(n), 0, static_cast<double>(n), 1.0};

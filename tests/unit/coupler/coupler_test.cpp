@@ -1,57 +1,24 @@
-/// The parts of the coupler: schedule, audit, record, lock, used case.
+/// The parts of the coupler: audit, parameters, warnings, record, lock, used case.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "common/output/hdf5_file.hpp"
-#include "coupler/coupled_run.hpp"
 #include "coupler/exchange_audit.hpp"
 #include "coupler/interface_record.hpp"
 #include "coupler/run_lock.hpp"
 #include "coupler/stability_warnings.hpp"
 #include "coupler/used_case.hpp"
+#include "tests/unit/coupler/scratch_folder.hpp"
 
 namespace toryu::coupling {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own for a test, removed at its end.
-struct Folder {
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path =
-      fs::temp_directory_path() /
-      fmt::format("toryu_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
-};
-
-TEST(WindowLength, FillsTheTimeLeftWithoutASplinter) {
-  EXPECT_EQ(window_length(10, 1, 1), 1);
-  EXPECT_EQ(window_length(10, 4, 1), 4);
-  EXPECT_EQ(window_length(5, 4, 1), 2.5);  // 2.5 and 2.5 rather than 4 and 1
-  EXPECT_EQ(window_length(2.5, 4, 1), 2.5);
-}
-
-TEST(Due, ComesOnceAnInterval) {
-  Due due(0.1);
-  EXPECT_FALSE(due.at(0.05));
-  EXPECT_TRUE(due.at(0.12));
-  EXPECT_FALSE(due.at(0.19));
-  EXPECT_TRUE(due.at(0.2));
-  EXPECT_TRUE(due.at(0.55));  // one row for the intervals that a long window passed over
-  EXPECT_FALSE(due.at(0.58));
-  EXPECT_TRUE(due.at(0.6));
-}
-
-TEST(Due, IsDueAlwaysWithoutInterval) {
-  Due due(0);
-  EXPECT_TRUE(due.at(0.1));
-  EXPECT_TRUE(due.at(0.1));
-}
+using Folder = ScratchFolder;
 
 /// Two particles under opposite forces: the sum is small beside what was summed.
 InterfaceLoad opposite_forces() {
@@ -70,12 +37,12 @@ TEST(ExchangeAudit, IsRelativeToTheForcesAndNotToTheirSum) {
 
 TEST(ExchangeAudit, SeesBothSides) {
   ExchangeAudit audit;
-  InterfaceLoad given{{0}, {2, 0}, {0, 1}, Vec(-0.2, -0.1)};
-  InterfaceLoad felt = given;
-  felt.force = {0, 0};  // the case lets the solid feel friction alone
-  EXPECT_NEAR(audit.compare(given, felt, Vec(0, 0.1), 0.1), 0, 1e-15);
-  given.impulse_on_fluid.x() = -0.23;
-  EXPECT_NEAR(audit.compare(given, felt, Vec(0, 0.1), 0.1), 0.1, 1e-12);
+  InterfaceLoad of_fluid{{0}, {2, 0}, {0, 1}, Vec(-0.2, -0.1)};
+  InterfaceLoad applied = of_fluid;
+  applied.force = {0, 0};  // the case passes on friction alone
+  EXPECT_NEAR(audit.compare(of_fluid, applied, Vec(0, 0.1), 0.1), 0, 1e-15);
+  of_fluid.impulse_on_fluid.x() = -0.23;
+  EXPECT_NEAR(audit.compare(of_fluid, applied, Vec(0, 0.1), 0.1), 0.1, 1e-12);
 }
 
 TEST(ExchangeAudit, ImpulseFromNowhereIsInfinite) {
@@ -95,17 +62,17 @@ Parameters read_coupling(const std::string& lines) {
   return parameters;
 }
 
-TEST(Parameters, AllLoadsAreFeltByDefault) {
+TEST(Parameters, AllLoadsArePassedOnByDefault) {
   const auto parameters = read_coupling("");
-  EXPECT_TRUE(parameters.feels("pressure_and_viscous"));
-  EXPECT_TRUE(parameters.feels("friction"));
+  EXPECT_TRUE(parameters.passes_on("pressure_and_viscous"));
+  EXPECT_TRUE(parameters.passes_on("friction"));
   EXPECT_EQ(parameters.fluid_steps_per_window, 1);
 }
 
-TEST(Parameters, FrictionAloneCanBeFelt) {
+TEST(Parameters, FrictionAloneCanBePassedOn) {
   const auto parameters = read_coupling("loads = ['friction']\nfluid_steps_per_window = 4");
-  EXPECT_FALSE(parameters.feels("pressure_and_viscous"));
-  EXPECT_TRUE(parameters.feels("friction"));
+  EXPECT_FALSE(parameters.passes_on("pressure_and_viscous"));
+  EXPECT_TRUE(parameters.passes_on("friction"));
   EXPECT_EQ(parameters.fluid_steps_per_window, 4);
 }
 
@@ -128,7 +95,7 @@ std::vector<std::string> said_of(double density, const Parameters& coupling,
   return stability_warnings(CaseFile(folder.path, {}), coupling);
 }
 
-TEST(Guards, ForeseeALayerThatIsTooLight) {
+TEST(StabilityWarnings, ForeseeALayerThatIsTooLight) {
   Parameters coupling;
   EXPECT_TRUE(said_of(200, coupling).empty());  // 0.4 of a row of fluid
   EXPECT_THAT(
@@ -140,7 +107,7 @@ TEST(Guards, ForeseeALayerThatIsTooLight) {
   EXPECT_TRUE(said_of(180, coupling).empty());
 }
 
-TEST(Guards, CountAWindowAsLongAsTheFluidsSteps) {
+TEST(StabilityWarnings, CountAWindowAsLongAsTheFluidsSteps) {
   // C = 0.25 h/d_0 times share or steps, h = 1.3 d_0: (C/2)^2 = 0.660 at 5, above the least of 0.385
   const auto bears = testing::ElementsAre(testing::HasSubstr("the scheme bears 0.66"));
   EXPECT_TRUE(said_of(300, {}).empty());  // 0.6 of a row
@@ -158,7 +125,7 @@ TEST(Guards, CountAWindowAsLongAsTheFluidsSteps) {
   EXPECT_THAT(said_of(300, {}, power_law + "1.5"), bears);  // thin while it is at rest
 }
 
-TEST(Guards, SeeNoDeeperThanTheKernel) {
+TEST(StabilityWarnings, SeeNoDeeperThanTheKernel) {
   const Folder folder;
   std::ofstream(folder.path / "case.toml")
       << "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\nsmoothing_ratio = 1.25\n"
@@ -168,7 +135,7 @@ TEST(Guards, SeeNoDeeperThanTheKernel) {
                   testing::HasSubstr("weighs 0.28 of a row")));  // 140 x 2 rows: from half a spacing off
 }
 
-TEST(Guards, SayNothingOfWhatTheyDoNotKnow) {
+TEST(StabilityWarnings, SayNothingOfWhatTheyDoNotKnow) {
   Parameters coupling;
   coupling.fluid_steps_per_window = 4;
   const Folder folder;

@@ -1,4 +1,4 @@
-/// What the coupling schemes are made of: the forecast of the motion, the steps of the iteration.
+/// What the coupling schemes are made of: the extrapolation of the motion, the steps of the iteration.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -17,29 +17,29 @@ InterfaceMotion one(double x, double v) {
 }
 
 TEST(Extrapolation, FollowsOneWindowLateAtOrderZero) {
-  Extrapolation forecast(0, one(1, 4));
-  EXPECT_EQ(forecast.over(0.5).position[0], 1);
-  EXPECT_EQ(forecast.over(0.5).velocity[0], 4);
-  forecast.note(one(3, 4), 0.5);
-  EXPECT_EQ(forecast.over(0.5).position[0], 3);
+  Extrapolation extrapolation(0, one(1, 4));
+  EXPECT_EQ(extrapolation.over(0.5).position[0], 1);
+  EXPECT_EQ(extrapolation.over(0.5).velocity[0], 4);
+  extrapolation.note(one(3, 4), 0.5);
+  EXPECT_EQ(extrapolation.over(0.5).position[0], 3);
   // The first window was 0.5 s: in one of 0.25 s the copy goes on at the same speed, to where the solid was
   // 0.5 s before the end of that one.
-  EXPECT_EQ(forecast.over(0.25).position[0], 2);
-  EXPECT_EQ(forecast.over(0.75).position[0], 4);
+  EXPECT_EQ(extrapolation.over(0.25).position[0], 2);
+  EXPECT_EQ(extrapolation.over(0.75).position[0], 4);
 }
 
 TEST(Extrapolation, GoesOnWithTheVelocityAtOrderOne) {
-  Extrapolation forecast(1, one(1, 4));
-  EXPECT_EQ(forecast.over(0.5).position[0], 3);
-  EXPECT_EQ(forecast.over(0.5).velocity[0], 4);
+  Extrapolation extrapolation(1, one(1, 4));
+  EXPECT_EQ(extrapolation.over(0.5).position[0], 3);
+  EXPECT_EQ(extrapolation.over(0.5).velocity[0], 4);
 }
 
 TEST(Extrapolation, GoesOnWithTheAccelerationAtOrderTwo) {
-  Extrapolation forecast(2, one(0, 0));
-  EXPECT_EQ(forecast.over(0.5).position[0], 0);  // nothing is known of an acceleration yet
-  forecast.note(one(0.25, 1), 0.5);              // x = t^2
-  EXPECT_EQ(forecast.over(1.0).position[0], 2.25);
-  EXPECT_EQ(forecast.over(1.0).velocity[0], 2);  // the mean of the way
+  Extrapolation extrapolation(2, one(0, 0));
+  EXPECT_EQ(extrapolation.over(0.5).position[0], 0);  // nothing is known of an acceleration yet
+  extrapolation.note(one(0.25, 1), 0.5);              // x = t^2
+  EXPECT_EQ(extrapolation.over(1.0).position[0], 2.25);
+  EXPECT_EQ(extrapolation.over(1.0).velocity[0], 2);  // the mean of the way
 }
 
 /// A linear answer x~ = J x + b to a guess x.

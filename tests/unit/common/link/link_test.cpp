@@ -160,9 +160,10 @@ TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
 TEST_F(LinkTest, HandshakeCarriesTheInterface) {
   auto solid = start_solid();
   fluid_->say_hello();
-  const auto start = coupler_.gather();
-  EXPECT_EQ(start.fluid.program, "raw_fluid");
-  EXPECT_EQ(start.solid.program, "solid");
+  const auto partners = coupler_.gather();
+  EXPECT_EQ(partners.fluid.program, "raw_fluid");
+  EXPECT_EQ(partners.solid.program, "solid");
+  const auto start = coupler_.begin();
   EXPECT_EQ(start.traits.reach, 0.25);
   EXPECT_EQ(start.interface.id, three_particles().id);
   EXPECT_EQ(start.interface.area_vector, three_particles().area_vector);
@@ -174,7 +175,8 @@ TEST_F(LinkTest, HandshakeCarriesTheInterface) {
 TEST_F(LinkTest, AnswerToAStaleWindowIsRefused) {
   auto solid = start_solid();
   fluid_->say_hello();
-  const auto start = coupler_.gather();
+  coupler_.gather();
+  const auto start = coupler_.begin();
   const auto fluid = std::async(std::launch::async, [this] {
     auto head = fluid_->await_window();
     --head.number;
@@ -189,7 +191,8 @@ TEST_F(LinkTest, AnswerToAStaleWindowIsRefused) {
 TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
   auto solid = start_solid();
   fluid_->say_hello();
-  const auto start = coupler_.gather();
+  coupler_.gather();
+  const auto start = coupler_.begin();
   std::atomic<bool> answered_rightly = false;
   const auto fluid = std::async(std::launch::async, [&] {
     const auto head = fluid_->await_window();

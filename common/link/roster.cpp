@@ -1,0 +1,113 @@
+#include "common/link/roster.hpp"
+
+#include <fmt/format.h>
+
+#include "common/link/process.hpp"
+#include "common/link/wire.hpp"
+#include "common/run/log.hpp"
+
+namespace toryu {
+
+bool Participant::dead() const {
+  return lapsed && Clock::now() - *lapsed > dds::grace && !runs_here(process);
+}
+
+std::string Participant::name() const {
+  return joined() ? partner.program : fmt::format("{} participant", part);
+}
+
+Roster::Roster(dds::Node& node, Session& session, const LinkSettings& own)
+    : session_(session), own_(own), hellos_(node, wire::hello), statuses_(node, wire::status) {}
+
+/// Refuses a participant that computes something else.
+void Roster::compare(const toryu_Hello& hello, const Participant& participant) const {
+  const std::string& program = participant.partner.program;
+  std::vector<InputError> errors;
+  const auto must_agree = [&](const char* what, const auto& theirs, const auto& ours) {
+    if (theirs != ours)
+      errors.push_back(
+          {.place = program, .message = fmt::format("{} is {}, the coupler's is {}", what, theirs, ours)});
+  };
+  must_agree("protocol", hello.protocol, wire::protocol);
+  must_agree("hash of the case", fmt::format("{:016x}", hello.case_hash),
+             fmt::format("{:016x}", own_.case_hash));
+  must_agree("system of units", std::string(hello.units), std::string(wire::units));
+  must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
+  if (windows_repeat_ && !hello.can_repeat)
+    errors.push_back(
+        {.place = program, .message = "cannot repeat a window, which the scheme of the case asks for"});
+  if (!errors.empty()) throw BadInput(errors);
+  if (participant.partner.version != own_.version)
+    log::warn("{} is version {}, the coupler {}", program, participant.partner.version, own_.version);
+}
+
+void Roster::accept(const toryu_Hello& hello) {
+  if (hello.session_id != 0) return;  // taken in already, by this coupler or by one before it
+  Participant& participant = hello.role == toryu_FLUID ? fluid_ : solid_;
+  if (participant.joined()) {
+    if (participant.id != hello.sender)
+      log::warn("refused a second {} participant: {}", participant.part, hello.program);
+    return;
+  }
+  participant.partner = {hello.program, hello.version, hello.used_case};
+  participant.process = hello.process;
+  participant.traits = {hello.reach, hello.time_step_limit, hello.density, hello.sound_speed, hello.spacing};
+  participant.id = hello.sender;
+  participant.moved = Participant::Clock::now();
+  if (session_.over()) return;
+  compare(hello, participant);
+  log::info("{} {} joined as the {}", participant.partner.program, participant.partner.version,
+            participant.part);
+  Session::Content content = session_.content();
+  content.fluid = fluid_.id;
+  content.solid = solid_.id;
+  content.reach = fluid_.traits.reach;
+  session_.announce(content);
+}
+
+void Roster::note(const toryu_Status& status) {
+  Participant* participant = status.sender == fluid_.id   ? &fluid_
+                             : status.sender == solid_.id ? &solid_
+                                                          : nullptr;
+  // Of a refused participant, or of another run; 0 is of one that left before it knew ours.
+  if (participant == nullptr || (status.session_id != session_.id() && status.session_id != 0)) return;
+  const bool moved = status.steps != participant->steps || status.window != participant->window;
+  if (moved) participant->moved = Participant::Clock::now();
+  participant->steps = status.steps;
+  participant->window = status.window;
+  if (status.activity != toryu_LEFT) return;
+  participant->left = true;
+  if (session_.over()) return;
+  const auto code = static_cast<ExitCode>(status.exit_code);
+  const std::string reason = code == ExitCode::done ? "left before the end of the run" : status.reason;
+  throw_ending({code, fmt::format("{}: {}", participant->name(), reason)});
+}
+
+void Roster::receive() {
+  while (statuses_.take([this](const toryu_Status& status) { note(status); })) {
+  }
+  while (hellos_.take([this](const toryu_Hello& hello) { accept(hello); })) {
+  }
+}
+
+void Roster::check_leases(std::uint32_t fluid_writers, std::uint32_t solid_writers) {
+  const auto check = [](Participant& participant, std::uint32_t live_writers) {
+    if (!participant.joined() || live_writers > 0)
+      participant.lapsed = {};
+    else if (!participant.lapsed)
+      participant.lapsed = Participant::Clock::now();
+  };
+  check(fluid_, fluid_writers);
+  check(solid_, solid_writers);
+  if (session_.over()) return;
+  for (const Participant* participant : {&fluid_, &solid_})
+    if (participant->dead())
+      throw PeerLost(fmt::format("{} was killed or stopped: no sign of life in window {}",
+                                 participant->name(), participant->window));
+}
+
+void Roster::forgive_silence() {
+  fluid_.moved = solid_.moved = Participant::Clock::now();
+}
+
+}  // namespace toryu

@@ -1,0 +1,63 @@
+/// The participants as the coupler knows them: who was taken in, whether they move, whether they live.
+#pragma once
+
+#include <optional>
+
+#include "common/link/coupler_link.hpp"
+#include "common/link/session.hpp"
+
+namespace toryu {
+
+struct Participant {
+  using Clock = std::chrono::steady_clock;
+
+  const char* part;  ///< "fluid"
+  std::uint64_t id = 0;
+  CouplerLink::Partner partner = {};
+  std::string process = {};
+  FluidTraits traits = {};  ///< of the fluid
+  std::uint64_t window = 0, steps = 0;
+  Clock::time_point moved = Clock::now();
+  std::optional<Clock::time_point> lapsed = {};  ///< since when its lease is over
+  bool left = false;
+
+  bool joined() const { return id != 0; }
+  /// Whether its lease has lapsed, and stays so, and its process does not run.
+  bool dead() const;
+  /// Its program's name, or its part while nobody plays it.
+  std::string name() const;
+};
+
+class Roster {
+ public:
+  /// `own` says what a participant must agree with.
+  Roster(dds::Node& node, Session& session, const LinkSettings& own);
+
+  /// From now on a participant must be able to repeat a window if `windows_repeat`.
+  void require(bool windows_repeat) { windows_repeat_ = windows_repeat; }
+  /// Hears what the participants say of themselves. Throws BadInput if one does not fit into the run, and
+  /// what a participant has ended with.
+  void receive();
+  /// Looks after their leases, given how many writers of each show signs of life. Throws PeerLost that names
+  /// who is dead.
+  void check_leases(std::uint32_t fluid_writers, std::uint32_t solid_writers);
+  /// Takes no silence so far for one: nobody listened.
+  void forgive_silence();
+
+  const Participant& fluid() const { return fluid_; }
+  const Participant& solid() const { return solid_; }
+
+ private:
+  void accept(const toryu_Hello& hello);
+  void compare(const toryu_Hello& hello, const Participant& participant) const;
+  void note(const toryu_Status& status);
+
+  Session& session_;
+  const LinkSettings& own_;
+  dds::Reader<toryu_Hello> hellos_;
+  dds::Reader<toryu_Status> statuses_;
+  bool windows_repeat_ = false;
+  Participant fluid_{.part = "fluid"}, solid_{.part = "solid"};
+};
+
+}  // namespace toryu

@@ -1,0 +1,156 @@
+#include "coupler/coupled_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error/failure.hpp"
+#include "common/run/log.hpp"
+
+namespace toryu::coupling {
+
+CoupledRecord::CoupledRecord(const Settings& settings, const CouplingStart& start)
+    : settings_(settings),
+      fluid_(start.traits),
+      interface_count_(start.interface.size()),
+      layer_(start.interface, start.traits),
+      work_(start.motion.position),
+      frames_due_(settings.frame_interval, 1),
+      series_due_(settings.series_interval, 1),
+      series_(settings.out, "coupler") {
+  if (settings.frame_interval <= 0) return;
+  interface_.emplace(settings.out, start.interface);
+  interface_->write(0, start.motion, {});
+}
+
+void CoupledRecord::note(const Window& window, const Exchange& done, double elapsed) {
+  const bool first = state_.round_trips.empty();
+  state_.smallest_window = first ? window.dt : std::min(state_.smallest_window, window.dt);
+  state_.largest_window = std::max(state_.largest_window, window.dt);
+  note_convergence(window, done);
+  note_times(done, elapsed);
+  audit(window, done);
+  audit_work(window, done);
+  check_added_mass(window, done.fluid.load);
+}
+
+void CoupledRecord::write(double time, const Window& window, const Exchange& done) {
+  if (settings_.series_interval == 0 || series_due_.reached(time)) write_series(time, window, done);
+  if (interface_ && frames_due_.reached(time)) interface_->write(time, done.solid.motion, done.applied);
+}
+
+void CoupledRecord::note_convergence(const Window& window, const Exchange& done) {
+  state_.iterations += done.iterations;
+  state_.row.iterations = std::max(state_.row.iterations, done.iterations);
+  state_.row.residual = std::max(state_.row.residual, done.residual);
+  state_.unconverged_in_a_row = done.converged ? 0 : state_.unconverged_in_a_row + 1;
+  if (done.converged) return;
+  if (state_.unconverged++ == 0)
+    log::warn(
+        "window {}: not converged after {} iterations, residual {:.3g}; the summary counts such windows",
+        window.number, done.iterations, done.residual);
+  if (state_.unconverged_in_a_row < settings_.coupling.implicit->unconverged_windows_to_stop) return;
+  throw PhysicsFailure(fmt::format(
+      "coupling: {} windows in a row have not converged in {} iterations each, the last at t = {:.6g} s with "
+      "a residual of {:.3g} (tolerance {:.3g})",
+      state_.unconverged_in_a_row, done.iterations, window.time + window.dt, done.residual,
+      settings_.coupling.implicit->tolerance));
+}
+
+void CoupledRecord::note_times(const Exchange& done, double elapsed) {
+  state_.round_trips.push_back(elapsed - done.compute);
+  state_.fluid_compute += done.fluid_compute;
+  state_.solid_compute += done.solid_compute;
+  ++state_.row.windows;
+  state_.row.round_trip += state_.round_trips.back();
+  state_.row.fluid_compute += done.fluid_compute;
+  state_.row.solid_compute += done.solid_compute;
+}
+
+void CoupledRecord::audit(const Window& window, const Exchange& done) {
+  const double error = audit_.compare(done.fluid.load, done.applied, done.solid.impulse_taken, window.dt);
+  state_.row.impulse_error = std::max(state_.row.impulse_error, error);
+  if (error <= ExchangeAudit::tolerance || state_.warned_of_impulse) return;
+  log::warn(
+      "window {}: impulse given and taken differ by {:.3g} of the sum of the forces; the largest difference "
+      "of the run is in the summary",
+      window.number, error);
+  state_.warned_of_impulse = true;
+}
+
+void CoupledRecord::audit_work(const Window& window, const Exchange& done) {
+  work_.note(done.sent, done.interface_position, done.applied, done.solid.motion.position,
+             done.solid.health.kinetic_energy);
+  if (state_.warned_of_work || !work_.feeds()) return;
+  log::warn(
+      "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "
+      "gave {:.3g}; its motion is not to be trusted; take scheme = 'serial_implicit', shorter windows or "
+      "more artificial viscosity of the solid, see cases/pushed_column/window_map.toml",
+      window.number, window.time + window.dt, work_.taken(), work_.given());
+  state_.warned_of_work = true;
+}
+
+void CoupledRecord::check_added_mass(const Window& window, const InterfaceLoad& load) {
+  const auto ratio = layer_.mass_ratio(load);
+  if (!ratio) return;
+  state_.lightest_layer = std::min(state_.lightest_layer, *ratio);
+  const double least = least_mass_ratio(settings_.coupling.scheme, fluid_, window.dt);
+  if (*ratio >= least || state_.warned_of_mass) return;
+  log::warn("window {}: {}", window.number, too_light(*ratio, least));
+  state_.warned_of_mass = true;
+}
+
+void CoupledRecord::write_series(double time, const Window& window, const Exchange& done) {
+  const Vec force = sum_of(done.applied.force) + sum_of(done.applied.friction_force);
+  const Row& since = state_.row;
+  const double windows = since.windows;
+  std::vector<Observation> row{{"dt", "s", window.dt},
+                               {"window", "1", static_cast<double>(window.number)},
+                               {"round_trip", "s", since.round_trip / windows},
+                               {"fluid_compute", "s", since.fluid_compute / windows},
+                               {"solid_compute", "s", since.solid_compute / windows},
+                               {"impulse_error", "1", since.impulse_error},
+                               {"work_given", "J/m", work_.given()},
+                               {"work_taken", "J/m", work_.taken()},
+                               {"interface_force_x", "N/m", force.x()},
+                               {"interface_force_y", "N/m", force.y()},
+                               {"fluid_kinetic_energy", "J/m", done.fluid.health.kinetic_energy},
+                               {"fluid_potential_energy", "J/m", done.fluid.health.potential_energy},
+                               {"solid_kinetic_energy", "J/m", done.solid.health.kinetic_energy},
+                               {"solid_potential_energy", "J/m", done.solid.health.potential_energy}};
+  if (settings_.coupling.windows_repeat()) {
+    row.push_back({"iterations", "1", static_cast<double>(since.iterations)});
+    row.push_back({"residual", "1", since.residual});
+  }
+  series_.write(time, row);
+  state_.row = {};
+}
+
+void CoupledRecord::report(Summary& summary) const {
+  summary.steps = static_cast<long>(state_.round_trips.size());
+  summary.smallest_time_step = state_.smallest_window;
+  summary.largest_time_step = state_.largest_window;
+  summary.particles = {{"interface", static_cast<long>(interface_count_)}};
+  if (state_.round_trips.empty()) return;
+  auto sorted = state_.round_trips;
+  std::sort(sorted.begin(), sorted.end());
+  double total = 0;
+  for (const double trip : sorted) total += trip;
+  summary.figures = {{"largest_impulse_error", audit_.largest()},
+                     {"round_trip_median", sorted[sorted.size() / 2]},
+                     {"round_trip_99_percent", sorted[sorted.size() * 99 / 100]},
+                     {"round_trip_total", total},
+                     {"round_trip_share", total / summary.wall_time},
+                     {"fluid_compute_total", state_.fluid_compute},
+                     {"solid_compute_total", state_.solid_compute},
+                     {"work_given", work_.given()},
+                     {"work_taken", work_.taken()}};
+  if (std::isfinite(state_.lightest_layer))
+    summary.figures.emplace_back("lightest_layer", state_.lightest_layer);
+  if (!settings_.coupling.windows_repeat()) return;
+  summary.figures.emplace_back("iterations", static_cast<double>(state_.iterations));
+  summary.figures.emplace_back("unconverged_windows", static_cast<double>(state_.unconverged));
+}
+
+}  // namespace toryu::coupling

@@ -1,0 +1,95 @@
+/// What a coupled run tells of its windows: audits, warnings, the rows of `coupler.csv` and `interface.h5`,
+/// and the figures of its summary.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "common/loop/schedule.hpp"
+#include "common/output/results.hpp"
+#include "coupler/added_mass.hpp"
+#include "coupler/exchange_audit.hpp"
+#include "coupler/interface_record.hpp"
+#include "coupler/parameters.hpp"
+#include "coupler/schemes.hpp"
+#include "coupler/work_audit.hpp"
+
+namespace toryu::coupling {
+
+/// What the case says of the run as a whole.
+struct Settings {
+  double end_time = 0;                             ///< [s]
+  double frame_interval = 0, series_interval = 0;  ///< [s]
+  Parameters coupling = {};
+  std::filesystem::path out = {};  ///< the results folder
+};
+
+class CoupledRecord {
+ public:
+  /// `settings` must outlive the record.
+  CoupledRecord(const Settings& settings, const CouplingStart& start);
+
+  /// Takes a window that brought `done` and took `elapsed` [s] of wall time. Throws PhysicsFailure if too
+  /// many in a row have not converged.
+  void note(const Window& window, const Exchange& done, double elapsed);
+  /// Writes what is due at `time` [s], the end of the window noted last.
+  void write(double time, const Window& window, const Exchange& done);
+  /// Adds its figures; the wall time must be in the summary already.
+  void report(Summary& summary) const;
+
+  /// Over the windows since the last row of the series.
+  struct Row {
+    int windows = 0;
+    double round_trip = 0, fluid_compute = 0, solid_compute = 0;  ///< sums [s]
+    double impulse_error = 0, residual = 0;                       ///< largest
+    int iterations = 0;                                           ///< largest
+  };
+  struct State {
+    Row row;
+    bool warned_of_impulse = false, warned_of_mass = false, warned_of_work = false;
+    double lightest_layer = std::numeric_limits<double>::infinity();  ///< of all windows, over a row of fluid
+    std::vector<double> round_trips;                                  ///< one a window [s]
+    double fluid_compute = 0, solid_compute = 0;                      ///< sums [s]
+    double smallest_window = 0, largest_window = 0;                   ///< [s]
+    long iterations = 0, unconverged = 0;                             ///< sum over the windows; windows
+    int unconverged_in_a_row = 0;
+  };
+
+ private:
+  void note_convergence(const Window& window, const Exchange& done);
+  void note_times(const Exchange& done, double elapsed);
+  void audit(const Window& window, const Exchange& done);
+  void audit_work(const Window& window, const Exchange& done);
+  void check_added_mass(const Window& window, const InterfaceLoad& load);
+  void write_series(double time, const Window& window, const Exchange& done);
+
+  const Settings& settings_;
+  FluidTraits fluid_;
+  std::size_t interface_count_;
+  SurfaceLayer layer_;
+  ExchangeAudit audit_;
+  WorkAudit work_;
+  State state_;
+  Schedule frames_due_, series_due_;
+  SeriesWriter series_;
+  std::optional<InterfaceRecord> interface_;
+};
+
+template <class Archive>
+void serialize(Archive& archive, CoupledRecord::Row& row) {
+  auto& [windows, round_trip, fluid_compute, solid_compute, impulse_error, residual, iterations] = row;
+  archive(windows, round_trip, fluid_compute, solid_compute, impulse_error, residual, iterations);
+}
+
+template <class Archive>
+void serialize(Archive& archive, CoupledRecord::State& state) {
+  auto& [row, warned_of_impulse, warned_of_mass, warned_of_work, lightest_layer, round_trips, fluid_compute,
+         solid_compute, smallest_window, largest_window, iterations, unconverged, unconverged_in_a_row] =
+      state;
+  archive(row, warned_of_impulse, warned_of_mass, warned_of_work, lightest_layer, round_trips, fluid_compute,
+          solid_compute, smallest_window, largest_window, iterations, unconverged, unconverged_in_a_row);
+}
+
+}  // namespace toryu::coupling
