@@ -7,6 +7,7 @@
 
 #include "common/error/failure.hpp"
 #include "common/run/log.hpp"
+#include "common/state/serialize.hpp"
 
 namespace toryu::coupling {
 
@@ -19,9 +20,11 @@ CoupledRecord::CoupledRecord(const Settings& settings, const CouplingStart& star
       frames_due_(settings.frame_interval, 1),
       series_due_(settings.series_interval, 1),
       series_(settings.out, "coupler") {
-  if (settings.frame_interval <= 0) return;
-  interface_.emplace(settings.out, start.interface);
-  interface_->write(0, start.motion, {});
+  if (settings.frame_interval > 0) interface_.emplace(settings.out, start.interface);
+}
+
+void CoupledRecord::begin(const InterfaceMotion& motion) {
+  if (interface_) interface_->write(0, motion, {});
 }
 
 void CoupledRecord::note(const Window& window, const Exchange& done, double elapsed) {
@@ -125,6 +128,27 @@ void CoupledRecord::write_series(double time, const Window& window, const Exchan
   }
   series_.write(time, row);
   state_.row = {};
+}
+
+void CoupledRecord::write_state(std::ostream& stream) {
+  State now = state_;
+  now.audit = audit_.state();
+  now.work = work_.state();
+  now.frames_due = frames_due_.state();
+  now.series_due = series_due_.state();
+  now.series = series_.state();
+  if (interface_) now.interface = interface_->state();
+  write_states(stream, now);
+}
+
+void CoupledRecord::read_state(std::istream& stream, double time) {
+  read_states(stream, state_);
+  audit_.resume(state_.audit);
+  work_.resume(state_.work);
+  frames_due_.resume(state_.frames_due, time);
+  series_due_.resume(state_.series_due, time);
+  series_.resume(state_.series);
+  if (interface_ && state_.interface) interface_->resume(*state_.interface);
 }
 
 void CoupledRecord::report(Summary& summary) const {

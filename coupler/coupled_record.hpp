@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -31,11 +32,17 @@ class CoupledRecord {
   /// `settings` must outlive the record.
   CoupledRecord(const Settings& settings, const CouplingStart& start);
 
+  /// Writes what there is at the start of a run, where the interface moves as `motion`.
+  void begin(const InterfaceMotion& motion);
   /// Takes a window that brought `done` and took `elapsed` [s] of wall time. Throws PhysicsFailure if too
   /// many in a row have not converged.
   void note(const Window& window, const Exchange& done, double elapsed);
   /// Writes what is due at `time` [s], the end of the window noted last.
   void write(double time, const Window& window, const Exchange& done);
+  /// Puts all that later rows and figures depend on into a checkpoint, and goes on from it at `time` [s], in
+  /// the place of the start.
+  void write_state(std::ostream& stream);
+  void read_state(std::istream& stream, double time);
   /// Adds its figures; the wall time must be in the summary already.
   void report(Summary& summary) const;
 
@@ -47,6 +54,11 @@ class CoupledRecord {
     int iterations = 0;                                           ///< largest
   };
   struct State {
+    ExchangeAudit::State audit;  ///< this and the next of the parts, when a checkpoint is written
+    WorkAudit::State work;
+    Schedule::State frames_due, series_due;
+    SeriesWriter::State series;
+    std::optional<InterfaceRecord::State> interface;
     Row row;
     bool warned_of_impulse = false, warned_of_mass = false, warned_of_work = false;
     double lightest_layer = std::numeric_limits<double>::infinity();  ///< of all windows, over a row of fluid
@@ -85,11 +97,12 @@ void serialize(Archive& archive, CoupledRecord::Row& row) {
 
 template <class Archive>
 void serialize(Archive& archive, CoupledRecord::State& state) {
-  auto& [row, warned_of_impulse, warned_of_mass, warned_of_work, lightest_layer, round_trips, fluid_compute,
-         solid_compute, smallest_window, largest_window, iterations, unconverged, unconverged_in_a_row] =
-      state;
-  archive(row, warned_of_impulse, warned_of_mass, warned_of_work, lightest_layer, round_trips, fluid_compute,
-          solid_compute, smallest_window, largest_window, iterations, unconverged, unconverged_in_a_row);
+  auto& [audit, work, frames_due, series_due, series, interface, row, warned_of_impulse, warned_of_mass,
+         warned_of_work, lightest_layer, round_trips, fluid_compute, solid_compute, smallest_window,
+         largest_window, iterations, unconverged, unconverged_in_a_row] = state;
+  archive(audit, work, frames_due, series_due, series, interface, row, warned_of_impulse, warned_of_mass,
+          warned_of_work, lightest_layer, round_trips, fluid_compute, solid_compute, smallest_window,
+          largest_window, iterations, unconverged, unconverged_in_a_row);
 }
 
 }  // namespace toryu::coupling

@@ -14,6 +14,7 @@
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
 #include "common/scene/scene.hpp"
+#include "common/state/checkpoint.hpp"
 #include "coupler/coupled_run.hpp"
 #include "coupler/run_lock.hpp"
 #include "coupler/stability_warnings.hpp"
@@ -28,9 +29,39 @@ double processor_time() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-void run_windows(const Options& options, const CaseFile& file, const Settings& settings) {
+/// Checkpoints as the case asks for them, unless a participant cannot write any.
+Checkpoints checkpoints_of(const Scene& scene, const CouplerLink::Partners& partners) {
+  Checkpoints checkpoints{.interval = scene.checkpoint_interval, .every = scene.checkpoint_every};
+  for (const auto* partner : {&partners.fluid, &partners.solid}) {
+    if (partner->can_checkpoint || !checkpoints.wanted()) continue;
+    log::warn("{} cannot write checkpoints: the run goes on without", partner->program);
+    checkpoints = {};
+  }
+  return checkpoints;
+}
+
+/// Joins both participants and runs all windows; `restart` is where the run goes on, if it does.
+void run_windows(const Options& options, const CaseFile& file, const Scene& scene, CouplerLink& link,
+                 CoupledRun& run, const std::optional<Checkpoint>& restart, bool windows_repeat) {
+  const auto partners = link.gather({.windows_repeat = windows_repeat, .restart = restart.has_value()});
+  Checkpoints checkpoints = checkpoints_of(scene, partners);
+  checkpoints.case_text = merge_used_cases({file.used(), partners.fluid.used_case, partners.solid.used_case});
+  if (restart) {
+    check_same_case(*restart, checkpoints.case_text);
+    checkpoints.restart = restart->folder;
+  }
+  write_atomically(options.out / "used_case.toml", checkpoints.case_text);
+  const std::string name =
+      restart ? std::filesystem::relative(restart->folder, options.out).string() : std::string();
+  run.run(link.begin({.checkpoints = checkpoints.wanted(), .restart = name}), checkpoints);
+}
+
+void run_and_sum_up(const Options& options, const CaseFile& file, const Scene& scene,
+                    const Settings& settings) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
+  std::optional<Checkpoint> restart;
+  if (options.restart) restart = checkpoint_to_restart(options.out);
   Summary summary;
   summary.participant = "coupler";
   summary.provenance = provenance(1);
@@ -43,17 +74,14 @@ void run_windows(const Options& options, const CaseFile& file, const Settings& s
   CoupledRun run(settings, link);
   const auto finish = [&](const Ending& ending) {
     summary.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
+    summary.processor_time = processor_time();
     run.report(summary);
     summary.exit_code = ending.code;
     summary.last_words = ending.reason;
-    summary.processor_time = processor_time();
     write_summary(options.out, summary);
   };
   try {
-    const auto [fluid, solid] = link.gather(settings.coupling.windows_repeat());
-    write_atomically(options.out / "used_case.toml",
-                     merge_used_cases({file.used(), fluid.used_case, solid.used_case}));
-    run.run(link.begin());
+    run_windows(options, file, scene, link, run, restart, settings.coupling.windows_repeat());
     link.stop(ExitCode::done, "");
   } catch (...) {
     const Ending ending = ending_of_exception();
@@ -87,18 +115,19 @@ ExitCode couple(const Options& options) {
   if (options.check) return ExitCode::done;
 
   const RunLock lock(options.out);
+  claim_folder(options, "coupler");
   copy_references(scene, file, options.out);
-  run_windows(options, file,
-              {.end_time = scene.end_time,
-               .frame_interval = scene.frame_interval,
-               .series_interval = scene.series_interval,
-               .coupling = coupling,
-               .out = options.out});
+  run_and_sum_up(options, file, scene,
+                 {.end_time = scene.end_time,
+                  .frame_interval = scene.frame_interval,
+                  .series_interval = scene.series_interval,
+                  .coupling = coupling,
+                  .out = options.out});
   return ExitCode::done;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("coupler", argc, argv, couple);
+  return run_program("coupler", argc, argv, couple, CanCheckpoint::yes);
 }

@@ -68,6 +68,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .out = options.out,
                   .case_hash = file.hash(),
                   .can_repeat = true,
+                  .can_checkpoint = true,
                   .used_case = file.used()});
   try {
     const Interface interface = link.join(model.traits());
@@ -137,5 +138,5 @@ ExitCode solve(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return toryu::run_program("fluid_solver", argc, argv, solve);
+  return toryu::run_program("fluid_solver", argc, argv, solve, toryu::CanCheckpoint::yes);
 }

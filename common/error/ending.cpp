@@ -25,7 +25,7 @@ void throw_ending(const Ending& ending) {
     case ExitCode::physics_failed:
       throw PhysicsFailure(ending.reason);
     case ExitCode::interrupted:
-      throw Interrupted();
+      throw Interrupted(ending.reason);
     case ExitCode::bad_input:
       throw BadInput({{.place = "coupling", .message = ending.reason}});
     default:

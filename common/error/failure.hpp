@@ -74,7 +74,7 @@ class PeerLost : public std::runtime_error {
 /// The user or the system asked to stop.
 class Interrupted : public std::runtime_error {
  public:
-  Interrupted() : std::runtime_error("interrupted") {}
+  explicit Interrupted(const std::string& reason = "interrupted") : std::runtime_error(reason) {}
 };
 
 }  // namespace toryu

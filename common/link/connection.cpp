@@ -29,6 +29,9 @@ Connection::Connection(const LinkSettings& settings, toryu_Role role)
       hello_(node_, wire::hello),
       status_(node_, wire::status),
       sessions_(node_, wire::session),
+      checkpoint_requests_(node_, wire::checkpoint_request),
+      checkpoint_reports_(node_,
+                          role == toryu_FLUID ? wire::checkpoint_from_fluid : wire::checkpoint_from_solid),
       time_limit_(settings.time_limit) {}
 
 Connection::~Connection() {
@@ -55,6 +58,7 @@ void Connection::write_hello() {
   message.sound_speed = traits_.sound_speed;
   message.spacing = traits_.spacing;
   message.can_repeat = settings_.can_repeat;
+  message.can_checkpoint = settings_.can_checkpoint;
   message.used_case = settings_.used_case.data();
   hello_.write(message);
 }
@@ -66,6 +70,7 @@ void Connection::write_status(toryu_Activity activity, ExitCode code, const std:
   message.session_id = session_;
   message.window = window_.number;
   message.steps = steps_;
+  message.interrupted = interrupted_;
   message.activity = activity;
   message.exit_code = static_cast<std::uint32_t>(code);
   message.reason = text.data();
@@ -87,10 +92,10 @@ void Connection::handle_session(const toryu_Session& session) {
               session_);
     return;
   }
-  if (!coupler_came_ || session.beat != coupler_beat_) coupler_moved_ = Clock::now();
+  if (!coupler_came_ || session.heartbeat != coupler_heartbeat_) coupler_moved_ = Clock::now();
   coupler_came_ = true;
   coupler_process_ = session.process;
-  coupler_beat_ = session.beat;
+  coupler_heartbeat_ = session.heartbeat;
   if (session.phase == toryu_OVER) {
     over_ = true;
     session_ = session.session_id;
@@ -114,6 +119,8 @@ void Connection::handle_session(const toryu_Session& session) {
     running_ = true;
     traits_.reach = session.reach;
     windows_repeat_ = session.windows_repeat;
+    checkpoints_ = session.checkpoints;
+    restart_ = session.restart;
   }
 }
 
@@ -145,8 +152,19 @@ void Connection::poll() {
   while (!over_ && sessions_.take([this](const toryu_Session& session) { handle_session(session); })) {
   }
   if (over_) return;
-  throw_if_interrupted();
+  check_interruption();
   check_coupler();
+}
+
+/// Before the run an interruption ends this side, within it the coupler ends it for all.
+void Connection::check_interruption() {
+  if (!running_) throw_if_interrupted();
+  throw_if_interrupted_again();
+  if (interrupted_ || !interruption_requested()) return;
+  interrupted_ = true;
+  status_sent_ = {};  // at once
+  log::info("interrupted: the coupler is asked to end the run{}; a second signal ends this process at once",
+            checkpoints_ ? " with a checkpoint" : "");
 }
 
 bool Connection::wait(const std::function<bool()>& arrived) {
@@ -170,18 +188,45 @@ void Connection::count_step() {
   if (!over_) write_status(toryu_WORKING);
 }
 
-bool Connection::accept(const toryu_WindowHead& window) {
-  if (window.session_id != session_) {
-    log::warn("refused window {} of coupler session {:x}: this run is session {:x}", window.number,
-              window.session_id, session_);
-    return false;
-  }
+bool Connection::ours(const toryu_WindowHead& window) const {
+  if (window.session_id == session_) return true;
+  log::warn("refused window {} of coupler session {:x}: this run is session {:x}", window.number,
+            window.session_id, session_);
+  return false;
+}
+
+bool Connection::begin_window(const toryu_WindowHead& window) {
+  if (!ours(window)) return false;
+  if (window_.number == 0 && !restart_.empty()) window_.number = window.number - 1;
   const bool again = windows_repeat_ && window.number == window_.number;
   const Window expected = again ? Window{.number = window_.number, .iteration = window_.iteration + 1}
                                 : Window{.number = window_.number + 1};
   wire::check(window, expected, "coupler");
   window_ = wire::window(window);
   return true;
+}
+
+bool Connection::take_checkpoint(Turn& turn) {
+  bool asked = false;
+  checkpoint_requests_.take([&](const toryu_CheckpointRequest& request) {
+    asked = ours(request.window);
+    if (!asked) return;
+    wire::check(request.window, window_, "coupler");
+    static_cast<Window&>(turn) = window_;
+    turn.task = Task::checkpoint;
+    turn.checkpoint = settings_.out / request.folder;
+  });
+  return asked;
+}
+
+void Connection::confirm_checkpoint(const std::function<void()>& write) {
+  std::string failure;
+  try {
+    write();
+  } catch (const std::exception& reason) {
+    failure = reason.what();
+  }
+  checkpoint_reports_.write({answer(), failure.data()});
 }
 
 double Connection::compute_time() const {

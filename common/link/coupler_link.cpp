@@ -32,7 +32,10 @@ struct Turns {
         motion_to_fluid(node, wire::motion_to_fluid),
         load_from_fluid(node, wire::load_from_fluid),
         load_to_solid(node, wire::load_to_solid),
-        motion_from_solid(node, wire::motion_from_solid) {}
+        motion_from_solid(node, wire::motion_from_solid),
+        checkpoint_request(node, wire::checkpoint_request),
+        checkpoint_from_fluid(node, wire::checkpoint_from_fluid),
+        checkpoint_from_solid(node, wire::checkpoint_from_solid) {}
 
   dds::Reader<toryu_Interface> interface_from_solid;
   dds::Writer<toryu_Interface> interface_to_fluid;
@@ -40,6 +43,8 @@ struct Turns {
   dds::Reader<toryu_Load> load_from_fluid;
   dds::Writer<toryu_Load> load_to_solid;
   dds::Reader<toryu_Motion> motion_from_solid;
+  dds::Writer<toryu_CheckpointRequest> checkpoint_request;
+  dds::Reader<toryu_CheckpointReport> checkpoint_from_fluid, checkpoint_from_solid;
   std::size_t particles = 0;  ///< of the interface
 };
 
@@ -64,13 +69,15 @@ struct CouplerLink::Connection {
   void poll();
   void wait(const Participant& awaited, const std::string& what, const std::function<bool()>& arrived);
   template <class Message, class Use>
-  void await(dds::Reader<Message>& reader, const Participant& sender, const Window& window, const Use& use);
+  void await(dds::Reader<Message>& reader, const Participant& sender, const Window& window, const char* what,
+             const Use& use);
 };
 
 /// Hears the participants, looks after them and after interruptions, and gives a sign of life.
 void CouplerLink::Connection::poll() {
   roster.receive();
-  if (!session.over()) throw_if_interrupted();
+  if (session.content().phase == toryu_GATHERING) throw_if_interrupted();
+  if (session.content().phase == toryu_RUNNING) throw_if_interrupted_again();
   session.heartbeat();
   const auto now = Clock::now();
   if (now - checked < longest_sleep) return;
@@ -91,11 +98,11 @@ void CouplerLink::Connection::wait(const Participant& awaited, const std::string
   }
 }
 
-/// Waits for the answer of `sender` to `window`, and hands it to `use`.
+/// Waits for the answer of `sender` to `window`, and hands it to `use`. `what` says what it did not do.
 template <class Message, class Use>
 void CouplerLink::Connection::await(dds::Reader<Message>& reader, const Participant& sender,
-                                    const Window& window, const Use& use) {
-  wait(sender, fmt::format("did not answer in window {}", window.number), [&] {
+                                    const Window& window, const char* what, const Use& use) {
+  wait(sender, fmt::format("did not {} in window {}", what, window.number), [&] {
     bool ours = false;
     reader.take([&](const Message& message) {
       ours = message.window.session_id == session.id();
@@ -119,21 +126,21 @@ CouplerLink::~CouplerLink() {
   stop(ExitCode::bug, "coupler ended before the run was over");
 }
 
-CouplerLink::Partners CouplerLink::gather(bool windows_repeat) {
+CouplerLink::Partners CouplerLink::gather(const Requirements& requirements) {
   Connection& c = *connection_;
-  c.roster.require(windows_repeat);
-  Session::Content content = c.session.content();
-  content.windows_repeat = windows_repeat;
-  c.session.announce(content);
+  c.roster.require(requirements);
   for (const Participant* participant : {&c.roster.fluid(), &c.roster.solid()})
     c.wait(*participant, "did not join", [&] { return participant->joined(); });
   return {c.roster.fluid().partner, c.roster.solid().partner};
 }
 
-CouplingStart CouplerLink::begin() {
+CouplingStart CouplerLink::begin(const Beginning& beginning) {
   Connection& c = *connection_;
   Session::Content content = c.session.content();
   content.phase = toryu_RUNNING;
+  content.windows_repeat = c.roster.requirements().windows_repeat;
+  content.checkpoints = beginning.checkpoints;
+  content.restart = beginning.restart;
   c.session.announce(content);
 
   const Participant& solid = c.roster.solid();
@@ -164,7 +171,7 @@ FluidAnswer CouplerLink::await_fluid(const Window& window) {
   Connection& c = *connection_;
   const Participant& fluid = c.roster.fluid();
   FluidAnswer answer;
-  c.await(c.turns.load_from_fluid, fluid, window, [&](const toryu_Load& message) {
+  c.await(c.turns.load_from_fluid, fluid, window, "answer", [&](const toryu_Load& message) {
     answer = {wire::load(message), message.time_step_limit, wire::health(message.health)};
   });
   const std::string sender = fmt::format("{}: window {}", fluid.name(), window.number);
@@ -183,7 +190,7 @@ SolidAnswer CouplerLink::await_solid(const Window& window) {
   Connection& c = *connection_;
   const Participant& solid = c.roster.solid();
   SolidAnswer answer;
-  c.await(c.turns.motion_from_solid, solid, window, [&](const toryu_Motion& message) {
+  c.await(c.turns.motion_from_solid, solid, window, "answer", [&](const toryu_Motion& message) {
     answer = {wire::motion(message), wire::vector(message.impulse_taken), wire::health(message.health)};
   });
   const std::string sender = fmt::format("{}: window {}", solid.name(), window.number);
@@ -191,6 +198,26 @@ SolidAnswer CouplerLink::await_solid(const Window& window) {
   if (!answer.impulse_taken.allFinite())
     throw PhysicsFailure(fmt::format("{}: impulse taken is not finite", sender));
   return answer;
+}
+
+std::vector<std::string> CouplerLink::write_checkpoint(const Window& window, const std::string& folder) {
+  Connection& c = *connection_;
+  std::string name = folder;
+  c.turns.checkpoint_request.write({wire::window(c.session.id(), window), name.data()});
+  std::vector<std::string> failures;
+  const auto await = [&](auto& reader, const Participant& sender) {
+    c.await(reader, sender, window, "write its checkpoint", [&](const toryu_CheckpointReport& report) {
+      const std::string failure = report.failure;
+      if (!failure.empty()) failures.push_back(sender.name() + ": " + failure);
+    });
+  };
+  await(c.turns.checkpoint_from_fluid, c.roster.fluid());
+  await(c.turns.checkpoint_from_solid, c.roster.solid());
+  return failures;
+}
+
+bool CouplerLink::interrupted() const {
+  return connection_->roster.fluid().interrupted || connection_->roster.solid().interrupted;
 }
 
 void CouplerLink::stop(ExitCode code, const std::string& reason) noexcept {

@@ -47,6 +47,12 @@ class CouplingPort {
     grant_solid(window, load);
     return await_solid(window);
   }
+
+  /// Lets both write their part of a checkpoint, at the end of `window`, the last one; `folder` is that of
+  /// the checkpoint, in the results folder. Returns what each of them that could not says of it.
+  virtual std::vector<std::string> write_checkpoint(const Window& window, const std::string& folder) = 0;
+  /// Whether a participant was asked to stop.
+  virtual bool interrupted() const = 0;
 };
 
 }  // namespace toryu

@@ -90,6 +90,14 @@ template <>
 inline const dds_topic_descriptor_t& descriptor<toryu_Load>() {
   return toryu_Load_desc;
 }
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_CheckpointRequest>() {
+  return toryu_CheckpointRequest_desc;
+}
+template <>
+inline const dds_topic_descriptor_t& descriptor<toryu_CheckpointReport>() {
+  return toryu_CheckpointReport_desc;
+}
 
 /// Throws PeerLost for a time-out and std::runtime_error for any other fault of a call on `topic`.
 void require(dds_return_t code, const std::string& topic);

@@ -23,12 +23,12 @@ Interface FluidLink::join(const FluidTraits& traits) {
   connection_->join(traits);
   Interface interface;
   const bool came = connection_->wait([&] {
-    bool mine = false;
+    bool ours = false;
     connection_->interfaces.take([&](const toryu_Interface& message) {
-      mine = message.session_id == connection_->session();
-      if (mine) interface = wire::interface_of(message);
+      ours = message.session_id == connection_->session();
+      if (ours) interface = wire::interface_of(message);
     });
-    return mine;
+    return ours;
   });
   if (!came) throw PeerLost("coupler ended the run before it began");
   wire::check(interface, "coupler: interface");
@@ -36,18 +36,19 @@ Interface FluidLink::join(const FluidTraits& traits) {
   return interface;
 }
 
-std::optional<FluidLink::Turn> FluidLink::next_window() {
+std::optional<FluidLink::Turn> FluidLink::next_turn() {
   Turn turn;
-  const bool granted = connection_->wait([&] {
-    bool mine = false;
+  const bool asked = connection_->wait([&] {
+    bool ours = connection_->take_checkpoint(turn);
+    if (ours) return true;
     connection_->motions.take([&](const toryu_Motion& message) {
-      mine = connection_->accept(message.window);
-      if (mine) turn = {wire::window(message.window), wire::motion(message)};
+      ours = connection_->begin_window(message.window);
+      if (ours) turn = {{wire::window(message.window)}, wire::motion(message)};
     });
-    return mine;
+    return ours;
   });
-  if (!granted) return std::nullopt;
-  wire::check(turn.motion, connection_->particles(), "coupler: motion");
+  if (!asked) return std::nullopt;
+  if (turn.task == Task::window) wire::check(turn.motion, connection_->particles(), "coupler: motion");
   return turn;
 }
 
@@ -61,6 +62,12 @@ void FluidLink::send(const InterfaceLoad& load, double time_step_limit, const He
 
 bool FluidLink::windows_repeat() const {
   return connection_->windows_repeat();
+}
+std::filesystem::path FluidLink::restart() const {
+  return connection_->restart();
+}
+void FluidLink::confirm_checkpoint(const std::function<void()>& write) {
+  connection_->confirm_checkpoint(write);
 }
 void FluidLink::count_step() {
   connection_->count_step();
@@ -100,18 +107,19 @@ void SolidLink::register_interface(const Interface& interface, const InterfaceMo
   connection_->interfaces.write(wire::interface_message(connection_->session(), interface, at_start));
 }
 
-std::optional<SolidLink::Turn> SolidLink::next_window() {
+std::optional<SolidLink::Turn> SolidLink::next_turn() {
   Turn turn;
-  const bool granted = connection_->wait([&] {
-    bool mine = false;
+  const bool asked = connection_->wait([&] {
+    bool ours = connection_->take_checkpoint(turn);
+    if (ours) return true;
     connection_->loads.take([&](const toryu_Load& message) {
-      mine = connection_->accept(message.window);
-      if (mine) turn = {wire::window(message.window), wire::load(message)};
+      ours = connection_->begin_window(message.window);
+      if (ours) turn = {{wire::window(message.window)}, wire::load(message)};
     });
-    return mine;
+    return ours;
   });
-  if (!granted) return std::nullopt;
-  wire::check(turn.load, connection_->particles(), "coupler: load");
+  if (!asked) return std::nullopt;
+  if (turn.task == Task::window) wire::check(turn.load, connection_->particles(), "coupler: load");
   return turn;
 }
 
@@ -125,6 +133,12 @@ void SolidLink::send(const InterfaceMotion& motion_at_end, const Vec& impulse_ta
 
 bool SolidLink::windows_repeat() const {
   return connection_->windows_repeat();
+}
+std::filesystem::path SolidLink::restart() const {
+  return connection_->restart();
+}
+void SolidLink::confirm_checkpoint(const std::function<void()>& write) {
+  connection_->confirm_checkpoint(write);
 }
 void SolidLink::count_step() {
   connection_->count_step();

@@ -4,7 +4,12 @@
 ///     FluidLink link({.role = "fluid_solver", ...});     // or SolidLink
 ///     try {
 ///       link.join(...);                                  // handshake with the coupler, within a time limit
-///       while (auto turn = link.next_window()) {         // blocks; empty at the end of the run
+///       ... link.restart(): take the state from that checkpoint ...
+///       while (auto turn = link.next_turn()) {           // blocks; empty at the end of the run
+///         if (turn->task == Task::checkpoint) {          // only if it said that it can
+///           link.confirm_checkpoint([&] { ... write the state into turn->checkpoint ... });
+///           continue;
+///         }
 ///         ... turn->iteration > 0: back to the start of this window; else keep it for that ...
 ///         ... turn->motion ... advance by turn->dt, link.count_step() after each step ...
 ///         link.send(load, time_step_limit, health);
@@ -16,11 +21,13 @@
 ///
 /// Every wait has a limit and ends on an interruption; a peer that died, hung or sent nonsense is a PeerLost
 /// that names it. A physics failure of another participant arrives as PhysicsFailure, an interruption of
-/// another as Interrupted, a refusal by the coupler as BadInput.
+/// another as Interrupted, a refusal by the coupler as BadInput. When this process is interrupted, the wish
+/// is passed on to the coupler, which ends the run for all; a second signal ends a wait at once.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,11 +78,19 @@ struct Window {
   double dt = 0;    ///< length [s]
 };
 
+/// What the coupler asks for in a turn: to compute a window, or to write a checkpoint. The window of a
+/// checkpoint is the last one, which stands as it is.
+enum class Task { window, checkpoint };
+struct Turn : Window {
+  Task task = Task::window;
+  std::filesystem::path checkpoint = {};  ///< folder for this participant's part, if that is the task
+};
+
 /// What a participant says of itself in each status message, for coupler.csv and the report.
 struct Health {
   double kinetic_energy = 0, potential_energy = 0;  ///< [J per metre]
   Vec momentum = Vec::Zero();                       ///< [N s per metre]
-  double compute_time = 0;  ///< wall time from next_window to send [s]; measured by the link itself
+  double compute_time = 0;  ///< wall time from next_turn to send [s]; measured by the link itself
 };
 
 struct LinkSettings {
@@ -83,9 +98,10 @@ struct LinkSettings {
   std::string version;        ///< of the program
   std::filesystem::path out;  ///< the results folder names the run: its domain and tag follow from it
   std::uint64_t case_hash = 0;
-  double time_limit = 30;      ///< longest wait for the coupler to come [s]; from then on the case's counts
-  bool can_repeat = false;     ///< whether this participant can go back to the start of a window
-  std::string used_case = {};  ///< this participant's sections with defaults, for used_case.toml
+  double time_limit = 30;       ///< longest wait for the coupler to come [s]; from then on the case's counts
+  bool can_repeat = false;      ///< whether this participant can go back to the start of a window
+  bool can_checkpoint = false;  ///< whether it can write its part of a checkpoint and go on from it
+  std::string used_case = {};   ///< this participant's sections with defaults, for used_case.toml
 };
 
 /// What the coupler must know of a fluid.
@@ -105,15 +121,20 @@ class FluidLink {
   Interface join(const FluidTraits& traits);
   /// Whether windows of this run may be repeated; known once joined.
   bool windows_repeat() const;
-  struct Turn : Window {
+  /// Folder of the checkpoint from which the run goes on, empty if it begins anew; known once joined.
+  std::filesystem::path restart() const;
+  struct Turn : toryu::Turn {
     /// To which position the interface is to be brought by the end of the window. The velocity is that of
     /// the way there; it counts in the first window, for where the way begins.
     InterfaceMotion motion;
   };
-  /// Blocks until the coupler grants a window; empty when the run is over in good order.
-  std::optional<Turn> next_window();
+  /// Blocks until the coupler asks for something; empty when the run is over in good order.
+  std::optional<Turn> next_turn();
   /// Answers the window: the load over it, and the longest step [s] the fluid may take next.
   void send(const InterfaceLoad& load, double time_step_limit, const Health& health);
+  /// Answers the task to write a checkpoint: calls `write`, and tells the coupler that it is done, or what it
+  /// threw. A part that cannot be written costs the checkpoint, not the run.
+  void confirm_checkpoint(const std::function<void()>& write);
   /// To be called after each step within a window: a participant that neither steps nor answers for the
   /// case's time limit counts as hung. Also notices here that the coupler is gone; costs next to nothing.
   void count_step();
@@ -134,17 +155,18 @@ class SolidLink {
   ~SolidLink();
   /// Returns the fluid's reach [m], by which the solid chooses the particles of its interface.
   double join();
+  /// This and what follows as those of FluidLink.
   bool windows_repeat() const;
+  std::filesystem::path restart() const;
   /// Once, after join: the particles that the fluid may touch and where they start.
   void register_interface(const Interface& interface, const InterfaceMotion& at_start);
-  struct Turn : Window {
+  struct Turn : toryu::Turn {
     InterfaceLoad load;  ///< constant over the window
   };
-  /// Blocks until the coupler grants a window; empty when the run is over in good order.
-  std::optional<Turn> next_window();
+  std::optional<Turn> next_turn();
   /// `impulse_taken`: sum of load times sub-step over the window as this side applied it [N s per metre].
   void send(const InterfaceMotion& motion_at_end, const Vec& impulse_taken, const Health& health);
-  /// As those of FluidLink.
+  void confirm_checkpoint(const std::function<void()>& write);
   void count_step();
   void leave(ExitCode code, const std::string& reason) noexcept;
   void leave() noexcept;

@@ -33,9 +33,13 @@ void Roster::compare(const toryu_Hello& hello, const Participant& participant) c
              fmt::format("{:016x}", own_.case_hash));
   must_agree("system of units", std::string(hello.units), std::string(wire::units));
   must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
-  if (windows_repeat_ && !hello.can_repeat)
-    errors.push_back(
-        {.place = program, .message = "cannot repeat a window, which the scheme of the case asks for"});
+  const auto must_be_able = [&](bool asked, bool able, const char* message) {
+    if (asked && !able) errors.push_back({.place = program, .message = message});
+  };
+  must_be_able(requirements_.windows_repeat, hello.can_repeat,
+               "cannot repeat a window, which the scheme of the case asks for");
+  must_be_able(requirements_.restart, hello.can_checkpoint,
+               "cannot go on from a checkpoint, which --restart asks for");
   if (!errors.empty()) throw BadInput(errors);
   if (participant.partner.version != own_.version)
     log::warn("{} is version {}, the coupler {}", program, participant.partner.version, own_.version);
@@ -49,7 +53,7 @@ void Roster::accept(const toryu_Hello& hello) {
       log::warn("refused a second {} participant: {}", participant.part, hello.program);
     return;
   }
-  participant.partner = {hello.program, hello.version, hello.used_case};
+  participant.partner = {hello.program, hello.version, hello.used_case, hello.can_checkpoint};
   participant.process = hello.process;
   participant.traits = {hello.reach, hello.time_step_limit, hello.density, hello.sound_speed, hello.spacing};
   participant.id = hello.sender;
@@ -75,6 +79,7 @@ void Roster::note(const toryu_Status& status) {
   if (moved) participant->moved = Participant::Clock::now();
   participant->steps = status.steps;
   participant->window = status.window;
+  participant->interrupted = participant->interrupted || status.interrupted;
   if (status.activity != toryu_LEFT) return;
   participant->left = true;
   if (session_.over()) return;

@@ -19,7 +19,7 @@ struct Participant {
   std::uint64_t window = 0, steps = 0;
   Clock::time_point moved = Clock::now();
   std::optional<Clock::time_point> lapsed = {};  ///< since when its lease is over
-  bool left = false;
+  bool interrupted = false, left = false;
 
   bool joined() const { return id != 0; }
   /// Whether its lease has lapsed, and stays so, and its process does not run.
@@ -33,8 +33,9 @@ class Roster {
   /// `own` says what a participant must agree with.
   Roster(dds::Node& node, Session& session, const LinkSettings& own);
 
-  /// From now on a participant must be able to repeat a window if `windows_repeat`.
-  void require(bool windows_repeat) { windows_repeat_ = windows_repeat; }
+  /// What a participant that joins from now on must be able to do.
+  void require(const CouplerLink::Requirements& requirements) { requirements_ = requirements; }
+  const CouplerLink::Requirements& requirements() const { return requirements_; }
   /// Hears what the participants say of themselves. Throws BadInput if one does not fit into the run, and
   /// what a participant has ended with.
   void receive();
@@ -56,7 +57,7 @@ class Roster {
   const LinkSettings& own_;
   dds::Reader<toryu_Hello> hellos_;
   dds::Reader<toryu_Status> statuses_;
-  bool windows_repeat_ = false;
+  CouplerLink::Requirements requirements_;
   Participant fluid_{.part = "fluid"}, solid_{.part = "solid"};
 };
 

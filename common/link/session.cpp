@@ -19,13 +19,15 @@ void Session::announce(const Content& content) {
   toryu_Session message{};
   message.session_id = id_;
   message.phase = content_.phase;
-  message.beat = ++heartbeats_;
+  message.heartbeat = ++heartbeats_;
   message.process = process_.data();
   message.fluid = content_.fluid;
   message.solid = content_.solid;
   message.reach = content_.reach;
   message.time_limit = time_limit_;
   message.windows_repeat = content_.windows_repeat;
+  message.checkpoints = content_.checkpoints;
+  message.restart = content_.restart.data();
   message.exit_code = static_cast<std::uint32_t>(content_.ending.code);
   message.reason = content_.ending.reason.data();
   writer_.write(message);

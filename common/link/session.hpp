@@ -14,7 +14,9 @@ class Session {
     std::uint64_t fluid = 0, solid = 0;  ///< the senders that were taken in, 0 before
     double reach = 0;                    ///< of the fluid [m]
     bool windows_repeat = false;
-    Ending ending;  ///< of phase over
+    bool checkpoints = false;
+    std::string restart;  ///< checkpoint from which the run goes on, in the results folder
+    Ending ending;        ///< of phase over
   };
 
   /// `time_limit`: the longest silence of a participant [s].

@@ -11,7 +11,7 @@
 namespace toryu::wire {
 
 /// Raised whenever a message changes its meaning; processes of different protocols refuse each other.
-inline constexpr std::uint32_t protocol = 3;
+inline constexpr std::uint32_t protocol = 4;
 inline constexpr const char* units = "SI";
 
 // A topic has one writer's role; what passes through the coupler has a topic on each of its sides.
@@ -24,6 +24,9 @@ inline constexpr const char* motion_from_solid = "toryu/motion_from_solid";
 inline constexpr const char* motion_to_fluid = "toryu/motion_to_fluid";
 inline constexpr const char* load_from_fluid = "toryu/load_from_fluid";
 inline constexpr const char* load_to_solid = "toryu/load_to_solid";
+inline constexpr const char* checkpoint_request = "toryu/checkpoint_request";
+inline constexpr const char* checkpoint_from_fluid = "toryu/checkpoint_from_fluid";
+inline constexpr const char* checkpoint_from_solid = "toryu/checkpoint_from_solid";
 
 // To the wire: the message points into the structure, which must outlive it.
 toryu_WindowHead window(std::uint64_t session_id, const Window& window);

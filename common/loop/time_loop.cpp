@@ -49,7 +49,7 @@ void advance_window(Solver& solver, RunRecord& record, double time, double lengt
                     const std::function<void(const SubSteps&)>& taken) {
   double planned = 0;
   for (double left = length; left > 1e-9 * length;) {
-    throw_if_interrupted();
+    throw_if_interrupted_again();  // the first time the coupler ends the run, with a checkpoint
     const double limit = solver.time_step_limit();
     const bool holds = limit < planned && limit > (1 - bearable_fall) * planned;
     const SubSteps steps = advance_within(solver, left, holds ? planned : limit, steps_between_checks);

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "common/link/participant.hpp"
 #include "common/loop/checkpoints_alone.hpp"
 #include "common/loop/run_record.hpp"
 #include "common/run/options.hpp"
@@ -28,25 +29,37 @@ int thread_count(const Options& options, std::size_t particles, int particles_pe
 void advance_window(Solver& solver, RunRecord& record, double time, double length, long steps_between_checks,
                     const std::function<void(const SubSteps&)>& taken);
 
-/// Takes the windows of a coupled run until it is over; `take` computes one and answers it. What a window
-/// leaves in files is written when it is final: at its end, or where windows may be repeated when the next
-/// one has begun.
+/// Takes the turns of a coupled run until it is over, from its start or from the checkpoint from which it
+/// goes on; `take` computes a window and answers it. What a window leaves in files is written when it is
+/// final: at its end, or where windows may be repeated when the next turn has come.
 template <class Link, class Take>
 void take_windows(Link& link, Solver& solver, RunRecord& record, Take&& take) {
-  record.check_and_write(0);
-  double pending = 0;  // end of a window that may yet be repeated [s]
-  while (const auto turn = link.next_window()) {
+  if (const auto checkpoint = link.restart(); !checkpoint.empty())
+    record.read_checkpoint(checkpoint);
+  else
+    record.check_and_write(0);
+  double pending = 0;  // end of a window that is not written yet [s]
+  const auto settle = [&] {
+    if (pending > 0) record.write(pending);
+    pending = 0;
+  };
+  while (const auto turn = link.next_turn()) {
+    if (turn->task == Task::checkpoint) {
+      settle();
+      link.confirm_checkpoint([&] { record.write_checkpoint(turn->checkpoint); });
+      continue;
+    }
     if (turn->iteration > 0) {
       solver.restore();
     } else if (link.windows_repeat()) {
-      if (pending > 0) record.write(pending);
+      settle();
       solver.save();
     }
     take(*turn);
     pending = turn->time + turn->dt;
-    if (!link.windows_repeat()) record.write(pending);
+    if (!link.windows_repeat()) settle();
   }
-  if (link.windows_repeat() && pending > 0) record.write(pending);
+  settle();
 }
 
 /// Throws BadInput, at `section` of the case, if the state at the start is beyond the limits of physics.

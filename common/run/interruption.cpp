@@ -11,7 +11,7 @@ namespace {
 volatile std::sig_atomic_t requested = 0;
 
 void request(int /*signal*/) {
-  requested = 1;
+  if (requested < 2) requested = requested + 1;
 }
 
 }  // namespace
@@ -31,6 +31,10 @@ bool interruption_requested() {
 
 void throw_if_interrupted() {
   if (interruption_requested()) throw Interrupted();
+}
+
+void throw_if_interrupted_again() {
+  if (requested > 1) throw Interrupted();
 }
 
 }  // namespace toryu

@@ -9,5 +9,7 @@ void catch_interruptions();
 bool interruption_requested();
 /// Throws Interrupted if so; call it once a step.
 void throw_if_interrupted();
+/// The same once a second one came: for what can end in good order when asked for the first time.
+void throw_if_interrupted_again();
 
 }  // namespace toryu

@@ -19,7 +19,7 @@ struct Typed {
   std::string case_path, out, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
   bool check = false, describe = false, print_case = false, restart = false, overwrite = false;
-  bool version = false, help = false;
+  bool can_checkpoint = false, version = false, help = false;
 };
 
 void declare(CLI::App& app, Typed& typed) {
@@ -44,6 +44,8 @@ void declare(CLI::App& app, Typed& typed) {
   app.add_flag("--overwrite", typed.overwrite, "Replace the results that the folder holds");
   app.add_flag("--print-case", typed.print_case,
                "Print the case as it is read, with its base and the values of --set, as TOML");
+  app.add_flag("--can-checkpoint", typed.can_checkpoint,
+               "Print whether the program can write a checkpoint: yes or no");
   app.add_flag("--version", typed.version, "Print the version and the commit");
   app.add_flag("--help", typed.help, "Print this help");
 }

@@ -20,7 +20,8 @@ struct Options {
   bool overwrite = false;   ///< replace results that `out` holds
 };
 
-/// Parses a command line without the program's name; `--version` and `--help` are not among them. Throws
+/// Parses a command line without the program's name; `--version`, `--help` and
+/// `--can-checkpoint` are not among them. Throws
 /// BadInput with all that is wrong.
 Options parse_options(const std::string& role, const std::vector<std::string>& arguments);
 /// The text of `--help`.

@@ -53,7 +53,7 @@ ExitCode guarded(const std::function<ExitCode()>& body) {
 }  // namespace
 
 int run_program(const std::string& role, int argc, char** argv,
-                const std::function<ExitCode(const Options&)>& body) {
+                const std::function<ExitCode(const Options&)>& body, CanCheckpoint can_checkpoint) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const auto given = [&](const char* option) {
     return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
@@ -67,6 +67,10 @@ int run_program(const std::string& role, int argc, char** argv,
     if (given("--version")) {
       const Provenance made = provenance(1);
       fmt::print("{} of toryu {} (commit {}, {})\n", role, made.version, made.commit, made.compiler);
+      return ExitCode::done;
+    }
+    if (given("--can-checkpoint")) {
+      fmt::print("{}\n", can_checkpoint == CanCheckpoint::yes ? "yes" : "no");
       return ExitCode::done;
     }
     const Options options = parse_options(role, arguments);

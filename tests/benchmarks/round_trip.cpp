@@ -41,7 +41,7 @@ void play_fluid(const LinkSettings& settings) {
   const std::size_t particles = link.join({.reach = 1, .time_step_limit = 1}).size();
   const InterfaceLoad load{
       std::vector<double>(particles, 1.0), std::vector<double>(dim * particles, 1.0), {}, Vec::Zero()};
-  while (link.next_window()) link.send(load, 1, {});
+  while (link.next_turn()) link.send(load, 1, {});
 }
 
 void play_solid(const LinkSettings& settings, std::size_t particles) {
@@ -51,15 +51,15 @@ void play_solid(const LinkSettings& settings, std::size_t particles) {
   link.register_interface({std::vector<std::uint32_t>(particles), values, std::vector<double>(particles),
                            values, std::vector<double>(particles), 1},
                           rest(particles));
-  while (link.next_window()) link.send(rest(particles), Vec::Zero(), {});
+  while (link.next_turn()) link.send(rest(particles), Vec::Zero(), {});
 }
 
 /// Seconds of each exchange, sorted.
 std::vector<double> play_coupler(const LinkSettings& settings, int exchanges) {
   using Clock = std::chrono::steady_clock;
   CouplerLink link(settings);
-  link.gather();
-  auto motion = link.begin().motion;
+  link.gather({});
+  auto motion = link.begin({}).motion;
   std::vector<double> times;
   for (int n = 1; n <= warm_up + exchanges; ++n) {
     const Window window{static_cast<std::uint64_t>(n), 0, static_cast<double>(n), 1.0};

@@ -14,11 +14,14 @@
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
+#include "common/state/checkpoint.hpp"
+#include "common/state/serialize.hpp"
 
 namespace {
 
 using namespace toryu;
 
+constexpr const char* role = "fake_fluid";
 constexpr double peak = 1000;    // [Pa]
 constexpr double period = 0.02;  // [s]
 // Of a real fluid these are its own: its kernel's reach, its step limit, its medium.
@@ -41,17 +44,31 @@ InterfaceLoad load_at(double time, double dt, const Interface& interface) {
 ExitCode run(const Options& options) {
   // A real participant reads its sections here; the hash tells the coupler that both compute the same case.
   const CaseFile file(options.case_path, options.overrides);
-  FluidLink link({.role = "fake_fluid",
+  FluidLink link({.role = role,
                   .version = provenance(1).version,
                   .out = options.out,
                   .case_hash = file.hash(),
-                  .can_repeat = true});  // what it does depends on the time alone
+                  .can_repeat = true,
+                  .can_checkpoint = true});
+  double time = 0;  // [s]; all that its next window depends on. A real fluid has its fields beside it
   try {
     const Interface interface = link.join(traits);
-    while (const auto turn = link.next_window()) {
+    if (const auto folder = link.restart(); !folder.empty())
+      read_part(folder, "fluid", role, [&](std::istream& stream) { read_states(stream, time); });
+    while (const auto turn = link.next_turn()) {
+      if (turn->task == Task::checkpoint) {
+        link.confirm_checkpoint([&] {
+          write_part(turn->checkpoint, "fluid", role,
+                     [&](std::ostream& stream) { write_states(stream, time); });
+        });
+        continue;
+      }
       // A real fluid goes back to the start of this window if turn->iteration > 0, and else keeps its state
       // for that. It moves its copy of the interface to turn->motion, takes its steps of at most its own
       // limit, and calls count_step after each.
+      if (turn->iteration == 0 && std::abs(turn->time - time) > 1e-9 * turn->dt)
+        throw std::logic_error("the window does not begin where the last one ended");
+      time = turn->time + turn->dt;
       const InterfaceLoad load = load_at(turn->time + 0.5 * turn->dt, turn->dt, interface);
       link.count_step();
       link.send(load, traits.time_step_limit, Health{});
@@ -66,5 +83,5 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("fake_fluid", argc, argv, run);
+  return run_program(role, argc, argv, run, CanCheckpoint::yes);
 }

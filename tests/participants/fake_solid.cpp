@@ -14,11 +14,14 @@
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
+#include "common/state/checkpoint.hpp"
+#include "common/state/serialize.hpp"
 
 namespace {
 
 using namespace toryu;
 
+constexpr const char* role = "fake_solid";
 constexpr double amplitude = 1e-3;  // [m]
 constexpr double period = 0.02;     // [s]
 constexpr double spacing = 1e-3;    // [m]
@@ -61,23 +64,37 @@ Vec sum_of(const InterfaceLoad& load) {
 ExitCode run(const Options& options) {
   // A real participant reads its sections here; the hash tells the coupler that both compute the same case.
   const CaseFile file(options.case_path, options.overrides);
-  SolidLink link({.role = "fake_solid",
+  SolidLink link({.role = role,
                   .version = provenance(1).version,
                   .out = options.out,
                   .case_hash = file.hash(),
-                  .can_repeat = true});  // its motion depends on the time alone
+                  .can_repeat = true,
+                  .can_checkpoint = true});
+  double time = 0;  // [s]; all that its next window depends on. A real solid has its fields beside it
   try {
     link.join();  // returns the fluid's reach, by which a real solid chooses its interface
     const Interface interface = strip();
     link.register_interface(interface, motion_at(0, interface));
-    while (const auto turn = link.next_window()) {
+    if (const auto folder = link.restart(); !folder.empty())
+      read_part(folder, "solid", role, [&](std::istream& stream) { read_states(stream, time); });
+    while (const auto turn = link.next_turn()) {
+      if (turn->task == Task::checkpoint) {
+        link.confirm_checkpoint([&] {
+          write_part(turn->checkpoint, "solid", role,
+                     [&](std::ostream& stream) { write_states(stream, time); });
+        });
+        continue;
+      }
       // A real solid goes back to the start of this window if turn->iteration > 0.
+      if (turn->iteration == 0 && std::abs(turn->time - time) > 1e-9 * turn->dt)
+        throw std::logic_error("the window does not begin where the last one ended");
+      time = turn->time + turn->dt;
       Vec impulse_taken = Vec::Zero();
       for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
         impulse_taken += turn->dt / sub_steps * sum_of(turn->load);  // a real solid moves by it
         link.count_step();
       }
-      link.send(motion_at(turn->time + turn->dt, interface), impulse_taken, Health{});
+      link.send(motion_at(time, interface), impulse_taken, Health{});
     }
   } catch (...) {
     link.leave();  // the others learn why and end alike
@@ -89,5 +106,5 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("fake_solid", argc, argv, run);
+  return run_program(role, argc, argv, run, CanCheckpoint::yes);
 }

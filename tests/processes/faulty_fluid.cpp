@@ -49,7 +49,7 @@ ExitCode run(const Options& options) {
   if (fault == "before joining") _exit(0);
   try {
     const Interface interface = link.join({.reach = 0.005, .time_step_limit = time_step_limit});
-    while (const auto turn = link.next_window()) {
+    while (const auto turn = link.next_turn()) {
       InterfaceLoad load;
       load.pressure.assign(interface.size(), 1.0);
       load.force.assign(dim * interface.size(), 1.0);

@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +24,9 @@ struct AnalyticSides final : CouplingPort {
   double time_step_limit = 0.01;                 ///< [s]
   double impulse_lost = 0;                       ///< share of the impulse that the solid does not take
   std::function<void(const std::string& side, const Window& window)> before_answer = [](auto&, auto&) {};
+  std::filesystem::path out;          ///< the results folder, where checkpoints lie
+  std::vector<std::string> failures;  ///< of a checkpoint
+  bool asked_to_stop = false;
 
   double coupled_position(double time) const {
     return push / stiffness * (1 - std::cos(std::sqrt(stiffness / (mass + added_mass)) * time));
@@ -67,9 +72,23 @@ struct AnalyticSides final : CouplingPort {
             .health = {.kinetic_energy = 0.5 * mass * solid.v * solid.v, .compute_time = 1e-3}};
   }
 
+  std::vector<std::string> write_checkpoint(const Window& window, const std::string& folder) override {
+    before_answer("checkpoint", window);
+    std::ofstream(out / folder / "fluid.state", std::ios::binary).write(bytes(copy), sizeof copy);
+    std::ofstream(out / folder / "solid.state", std::ios::binary).write(bytes(solid), sizeof solid);
+    return failures;
+  }
+  void read_checkpoint(const std::filesystem::path& folder) {
+    std::ifstream(folder / "fluid.state", std::ios::binary).read(bytes(copy), sizeof copy);
+    std::ifstream(folder / "solid.state", std::ios::binary).read(bytes(solid), sizeof solid);
+  }
+  bool interrupted() const override { return asked_to_stop; }
+
   struct Point {
     double x = 0, v = 0;
   };
+  static char* bytes(Point& point) { return reinterpret_cast<char*>(&point); }
+
   Point copy, copy_at_start, solid, solid_at_start;
   double target = 0, force_on_solid = 0;
   std::vector<std::string> calls;

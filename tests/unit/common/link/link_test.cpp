@@ -134,7 +134,7 @@ class LinkTest : public testing::Test {
       SolidLink link(settings);
       EXPECT_EQ(link.join(), 0.25);
       link.register_interface(three_particles(), still());
-      while (link.next_window()) link.send(still(), Vec::Zero(), {});
+      while (link.next_turn()) link.send(still(), Vec::Zero(), {});
     });
   }
 
@@ -160,10 +160,10 @@ TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
 TEST_F(LinkTest, HandshakeCarriesTheInterface) {
   auto solid = start_solid();
   fluid_->say_hello();
-  const auto partners = coupler_.gather();
+  const auto partners = coupler_.gather({});
   EXPECT_EQ(partners.fluid.program, "raw_fluid");
   EXPECT_EQ(partners.solid.program, "solid");
-  const auto start = coupler_.begin();
+  const auto start = coupler_.begin({});
   EXPECT_EQ(start.traits.reach, 0.25);
   EXPECT_EQ(start.interface.id, three_particles().id);
   EXPECT_EQ(start.interface.area_vector, three_particles().area_vector);
@@ -175,8 +175,8 @@ TEST_F(LinkTest, HandshakeCarriesTheInterface) {
 TEST_F(LinkTest, AnswerToAStaleWindowIsRefused) {
   auto solid = start_solid();
   fluid_->say_hello();
-  coupler_.gather();
-  const auto start = coupler_.begin();
+  coupler_.gather({});
+  const auto start = coupler_.begin({});
   const auto fluid = std::async(std::launch::async, [this] {
     auto head = fluid_->await_window();
     --head.number;
@@ -191,8 +191,8 @@ TEST_F(LinkTest, AnswerToAStaleWindowIsRefused) {
 TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
   auto solid = start_solid();
   fluid_->say_hello();
-  coupler_.gather();
-  const auto start = coupler_.begin();
+  coupler_.gather({});
+  const auto start = coupler_.begin({});
   std::atomic<bool> answered_rightly = false;
   const auto fluid = std::async(std::launch::async, [&] {
     const auto head = fluid_->await_window();
@@ -211,8 +211,8 @@ TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
 
 TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
   fluid_->say_hello(wire::protocol + 1, "CGS", 3);
-  EXPECT_THAT([&] { coupler_.gather(); },
-              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 4, the coupler's is 3\n"
+  EXPECT_THAT([&] { coupler_.gather({}); },
+              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 5, the coupler's is 4\n"
                                       "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
                                       "raw_fluid: error: dimension is 3, the coupler's is 2"));
 }
@@ -220,7 +220,7 @@ TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
 TEST_F(LinkTest, ASilentFluidIsNamed) {
   const LinkSettings impatient = impatient_elsewhere("coupler");
   CouplerLink coupler(impatient);
-  EXPECT_THAT([&] { coupler.gather(); },
+  EXPECT_THAT([&] { coupler.gather({}); },
               ThrowsMessage<PeerLost>("fluid participant did not join within 0.3 s"));
 }
 
@@ -234,7 +234,7 @@ void lose_the_fluid(const LinkSettings& settings, const std::string& process) {
     std::this_thread::sleep_for(300ms);
     fluid.reset();
   });
-  coupler.gather();  // in vain, since there is no solid
+  coupler.gather({});  // in vain, since there is no solid
 }
 
 TEST(Lease, OfAProcessThatRunsMayLapse) {
