@@ -14,11 +14,13 @@
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
+#include "common/state/checkpoint.hpp"
 
 namespace {
 
 using namespace toryu;
 
+constexpr const char* role = "faulty_fluid";
 constexpr std::uint64_t good_windows = 50;
 constexpr double time_step_limit = 1e-4;  // [s]
 
@@ -28,6 +30,13 @@ void fail(const std::string& fault, double time) {
   if (fault == "bug") throw std::logic_error("index out of range");
   if (fault == "vanish") _exit(0);
   if (fault == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+/// Faults in a checkpoint; the fluid has no state.
+void write_checkpoint(const std::string& fault, const std::filesystem::path& folder) {
+  if (fault == "full checkpoint") throw std::runtime_error("no space left");
+  if (fault == "slow checkpoint") std::this_thread::sleep_for(std::chrono::seconds(1));
+  write_part(folder, "fluid", role, [](std::ostream&) {});
 }
 
 /// Faults in what is sent.
@@ -42,14 +51,19 @@ ExitCode run(const Options& options) {
   const char* variable = std::getenv("FAULT");
   const std::string fault = variable == nullptr ? "" : variable;
   const CaseFile file(options.case_path, options.overrides);
-  FluidLink link({.role = "faulty_fluid",
+  FluidLink link({.role = role,
                   .version = provenance(1).version,
                   .out = options.out,
-                  .case_hash = file.hash()});
+                  .case_hash = file.hash(),
+                  .can_checkpoint = fault.ends_with("checkpoint")});
   if (fault == "before joining") _exit(0);
   try {
     const Interface interface = link.join({.reach = 0.005, .time_step_limit = time_step_limit});
     while (const auto turn = link.next_turn()) {
+      if (turn->task == Task::checkpoint) {
+        link.confirm_checkpoint([&] { write_checkpoint(fault, turn->checkpoint); });
+        continue;
+      }
       InterfaceLoad load;
       load.pressure.assign(interface.size(), 1.0);
       load.force.assign(dim * interface.size(), 1.0);
@@ -71,5 +85,5 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("faulty_fluid", argc, argv, run);
+  return run_program(role, argc, argv, run);
 }

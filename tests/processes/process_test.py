@@ -6,43 +6,15 @@ import pathlib
 import signal
 import sys
 import time
-import tomllib
 import unittest
 
 import h5py
 
 from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, PEER_LOST, PHYSICS_FAILED
 from toryu_testing import trio
+from toryu_testing.process_case import LIMIT, NAMES, ProcessCase
 
-LIMIT = 30  # seconds after which something that should have ended counts as hung
-PROGRAMS = {}
-NAMES = {"coupler": "coupler", "fluid": "fake_fluid", "solid": "fake_solid"}
-
-
-class ProcessTest(unittest.TestCase):
-    def run_of_three(self, fluid="fake_fluid", coupler="coupler", **settings):
-        names = NAMES | {"fluid": fluid, "coupler": coupler}
-        programs = {role: PROGRAMS["bin"] / name for role, name in names.items()}
-        return self.enterContext(trio.Trio(programs, **settings))
-
-    def assert_ending(self, run, name, code, *words):
-        found, text = run.ending_of(name, LIMIT)
-        self.assertEqual(found, code, f"{name}: {text}")
-        for word in words:
-            self.assertIn(word, text, name)
-
-    def assert_all_end(self, run, code, *words):
-        for role in trio.ROLES:
-            self.assert_ending(run, role, code, *words)
-
-    def others(self, role):
-        return [other for other in trio.ROLES if other != role]
-
-    def summary(self, run):
-        return tomllib.loads((run.out / "coupler_summary.toml").read_text())
-
-
-class GoodEnd(ProcessTest):
+class GoodEnd(ProcessCase):
     def test_impulse_given_is_impulse_taken(self):
         run = self.run_of_three(end_time="0.05").start_all()
         self.assert_all_end(run, DONE)
@@ -76,14 +48,14 @@ class GoodEnd(ProcessTest):
         self.assertEqual(*records)
 
 
-class Schemes(ProcessTest):
+class Schemes(ProcessCase):
     """The coupling schemes with the real solvers."""
     IMPLICIT = "coupling.scheme=serial_implicit"
 
     def exchanged(self, *settings, end_time="0.01"):
         """What crossed the interface of the strip's case, and the coupler's figures."""
         programs = {"coupler": "coupler", "fluid": "fluid_solver", "solid": "solid_solver"}
-        run = self.enterContext(trio.Trio({role: PROGRAMS["bin"] / name for role, name in programs.items()},
+        run = self.enterContext(trio.Trio({role: self.bin / name for role, name in programs.items()},
                                           end_time=end_time, settings=settings)).start_all()
         self.assert_all_end(run, DONE)
         figures = self.summary(run)["figures"]
@@ -123,7 +95,7 @@ class Schemes(ProcessTest):
         self.assert_all_end(run, BAD_INPUT, "faulty_fluid", "cannot repeat a window")
 
 
-class Death(ProcessTest):
+class Death(ProcessCase):
     def test_in_mid_run(self):
         for role in trio.ROLES:
             with self.subTest(role):
@@ -171,7 +143,7 @@ class Death(ProcessTest):
             self.assertEqual(process.wait(LIMIT), PEER_LOST)
 
 
-class Hang(ProcessTest):
+class Hang(ProcessCase):
     def test_stopped_process(self):
         for role in trio.ROLES:
             with self.subTest(role):
@@ -204,7 +176,7 @@ class Hang(ProcessTest):
         self.assert_ending(run, "coupler", PEER_LOST, "fluid participant did not join within 1 s")
 
 
-class Interruption(ProcessTest):
+class Interruption(ProcessCase):
     def test_of_each(self):
         for role in trio.ROLES:
             with self.subTest(role):
@@ -228,7 +200,7 @@ class Interruption(ProcessTest):
             self.assert_ending(run, name, INTERRUPTED)
 
 
-class Refusal(ProcessTest):
+class Refusal(ProcessCase):
     def test_second_run_in_the_same_folder(self):
         run = self.run_of_three().start_all().wait_until_running()
         run.start("coupler", name="second")
@@ -273,5 +245,5 @@ class Refusal(ProcessTest):
 
 
 if __name__ == "__main__":
-    PROGRAMS["bin"] = pathlib.Path(sys.argv.pop(1)).resolve()
+    ProcessCase.bin = pathlib.Path(sys.argv.pop(1)).resolve()
     unittest.main(verbosity=2)

@@ -1,4 +1,5 @@
 """Starts the three processes of a coupled run, waits for them with limits, and leaves none behind."""
+import csv
 import os
 import pathlib
 import re
@@ -8,9 +9,12 @@ import subprocess
 import tempfile
 import time
 
+import h5py
+
 CASE = pathlib.Path(__file__).resolve().parent.parent / "participants" / "strip"
 ROLES = ("coupler", "fluid", "solid")
 COUPLED_ENVIRONMENT = {"OMP_WAIT_POLICY": "passive"}  # as in a run: who waits leaves the core to the others
+WALL_TIMES = {"round_trip[s]", "fluid_compute[s]", "solid_compute[s]"}  # columns of coupler.csv
 FOREVER = "1e6"  # seconds of simulated time: the test ends such a run
 
 
@@ -44,9 +48,9 @@ class Trio:
                 env=os.environ | COUPLED_ENVIRONMENT | environment)
         return self
 
-    def start_all(self):
+    def start_all(self, extra=()):
         for role in ROLES:
-            self.start(role)
+            self.start(role, extra=extra)
         return self
 
     def signal(self, name, number):
@@ -83,6 +87,32 @@ class Trio:
                     column = lines[0].split(",").index("window[1]")
                     return float(lines[-1].split(",")[column])
         return 0
+
+    def wait_for_checkpoint(self, beyond=0, limit=30):
+        """Returns the number of the newest whole checkpoint, once there is one newer than the given one."""
+        end = time.monotonic() + limit
+        while True:
+            whole = sorted(self.out.glob("checkpoint/*/manifest.toml"))
+            if whole and int(whole[-1].parent.name) > beyond:
+                return int(whole[-1].parent.name)
+            if time.monotonic() > end:
+                raise AssertionError("no checkpoint is written")
+            time.sleep(0.01)
+
+    def results(self):
+        """All that the run has left of its interface, series and frames, but for wall times: name -> content."""
+        found = {}
+        for path in self.out.glob("*.csv"):
+            with open(path, encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            found[path.name] = [[value for key, value in row.items() if key not in WALL_TIMES] for row in rows]
+        for path in [*self.out.glob("*.h5"), *self.out.glob("frames/*.hdf")]:
+            with h5py.File(path) as file:
+                datasets = []
+                file.visititems(lambda name, node: datasets.append(name) if isinstance(node, h5py.Dataset) else None)
+                for name in datasets:
+                    found[f"{path.name}:{name}"] = (file[name].shape, file[name][()].tobytes())
+        return found
 
     def wait_until_running(self, beyond=0, limit=30):
         """Returns when windows beyond the given one have passed."""

@@ -1,0 +1,234 @@
+"""Checkpoints of three processes: what a run that was ended, killed or stopped leaves is gone on with, and every bit
+is that of a run that was left alone.
+
+    restart_test.py BUILD/bin [unittest options]
+"""
+import contextlib
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, PEER_LOST
+from toryu_testing import trio
+from toryu_testing.process_case import LIMIT, SOLVERS, ProcessCase
+
+END_TIME = "0.4"  # seconds of the run of the stand-ins: 4000 windows in about a second
+SOME = "case.checkpoint_interval=0.02"
+RESTART = ["--restart"]
+
+
+def implicit(relaxation):
+    return ["coupling.scheme=serial_implicit", f"coupling.implicit.relaxation={relaxation}"]
+
+
+class RestartCase(ProcessCase):
+    def undisturbed(self, settings=(), **others):
+        """The results of a run that is left alone, without a checkpoint."""
+        none = ["case.checkpoint_interval=0", "case.checkpoint_every=0"]
+        run = self.run_of_three(settings=[*settings, *none], **({"end_time": END_TIME} | others)).start_all()
+        self.assert_all_end(run, DONE)
+        self.assertFalse((run.out / "checkpoint").exists())
+        return run.results()
+
+    def assert_goes_on(self, run, expected, extra=()):
+        """Restarts the run; what it has left at its end must be what is expected."""
+        run.start_all(extra=[*RESTART, *extra])
+        self.assert_all_end(run, DONE)
+        found = run.results()
+        self.assertEqual(sorted(found), sorted(expected))
+        for name, content in expected.items():
+            self.assertEqual(found[name], content, name)
+
+
+class Interrupted(RestartCase):
+    def check(self, settings, interrupted, beyond=20, **others):
+        expected = self.undisturbed(settings, **others)
+        run = self.run_of_three(settings=settings, **({"end_time": END_TIME} | others)).start_all()
+        run.wait_until_running(beyond)
+        run.signal(interrupted, signal.SIGINT)
+        self.assert_all_end(run, INTERRUPTED, "--restart goes on from")
+        self.assertLess(self.summary(run)["simulated_time"], float(run.end_time))
+        self.assert_goes_on(run, expected)
+        self.assertEqual(self.summary(run)["simulated_time"], float(run.end_time))
+
+    def test_by_the_coupler(self):
+        self.check([], "coupler")
+
+    def test_by_a_participant_of_a_parallel_run(self):
+        self.check(["coupling.scheme=parallel_explicit"], "fluid")
+
+    def test_by_a_participant_of_an_implicit_run(self):
+        self.check(implicit("aitken"), "solid")
+
+    def test_by_a_second_signal_at_once(self):
+        run = self.run_of_three(fluid="faulty_fluid", settings=[SOME])
+        run.start("coupler").start("solid").start("fluid", environment={"FAULT": "slow checkpoint"})
+        run.wait_until_running()
+        run.signal("coupler", signal.SIGINT)
+        time.sleep(0.3)  # the checkpoint is held open for a second
+        run.signal("coupler", signal.SIGTERM)
+        start = time.monotonic()
+        self.assert_ending(run, "coupler", INTERRUPTED)
+        self.assertLess(time.monotonic() - start, 2)
+        for role in ("fluid", "solid"):
+            self.assert_ending(run, role, INTERRUPTED)
+
+    def test_by_the_file_stop(self):
+        expected = self.undisturbed()
+        run = self.run_of_three(end_time=END_TIME).start_all().wait_until_running()
+        (run.out / "stop").touch()
+        self.assert_all_end(run, INTERRUPTED, f"ended by the file 'stop' in {run.out}")
+        self.assertFalse((run.out / "stop").exists())
+        self.assert_goes_on(run, expected)
+
+
+class Solvers(RestartCase):
+    """The strip's case with the real solvers."""
+
+    def check(self, settings):
+        settings = [*settings, "case.frame_interval=0.002"]
+        run = self.run_of_three(**SOLVERS, end_time="0.008", settings=settings).start_all()
+        self.assert_all_end(run, DONE)
+        expected = run.results()
+        run = self.run_of_three(**SOLVERS, end_time="0.008", settings=settings).start_all()
+        run.wait_until_running(beyond=20)
+        run.signal("solid", signal.SIGINT)
+        self.assert_all_end(run, INTERRUPTED, "--restart goes on from")
+        self.assertLess(self.summary(run)["simulated_time"], 0.008)
+        self.assert_goes_on(run, expected)
+
+    def test_serial(self):
+        self.check([])
+
+    def test_parallel(self):
+        self.check(["coupling.scheme=parallel_explicit"])
+
+    def test_implicit(self):
+        for relaxation in ("fixed", "aitken", "quasi_newton"):
+            with self.subTest(relaxation):
+                self.check(implicit(relaxation))
+
+
+class Killed(RestartCase):
+    def kill_and_go_on(self, run, role, expected, extra=()):
+        run.kill(role)
+        for other in self.others(role):
+            self.assert_ending(run, other, PEER_LOST)
+        self.assert_goes_on(run, expected, extra)
+
+    def test_at_random_moments(self):
+        seed = random.randrange(1000)
+        print(f"seed {seed}", end=" ")
+        chance = random.Random(seed)
+        expected = self.undisturbed()
+        for role in trio.ROLES:
+            with self.subTest(role):
+                run = self.run_of_three(end_time=END_TIME, settings=[SOME]).start_all()
+                run.wait_for_checkpoint()
+                time.sleep(chance.uniform(0, 0.2))
+                self.kill_and_go_on(run, role, expected)
+
+    def test_during_a_checkpoint(self):
+        slow = {"FAULT": "slow checkpoint"}
+        os.environ |= slow  # of all that are started from here
+        self.addCleanup(os.environ.pop, "FAULT")
+        settings = ["case.checkpoint_interval=0.03"]
+        expected = self.undisturbed(fluid="faulty_fluid", end_time="0.1")
+        for role in trio.ROLES:
+            with self.subTest(role):
+                run = self.run_of_three(fluid="faulty_fluid", end_time="0.1", settings=settings).start_all()
+                newest = run.wait_for_checkpoint()
+                while not (run.out / f"checkpoint/{newest + 1:06}").exists():
+                    time.sleep(0.01)
+                self.kill_and_go_on(run, role, expected)
+
+
+class Refused(RestartCase):
+    def test_without_a_checkpoint(self):
+        run = self.run_of_three(end_time="0.01").start("coupler", extra=RESTART)
+        self.assert_ending(run, "coupler", BAD_INPUT, f"{run.out} holds no checkpoint")
+
+    def test_of_another_case(self):
+        run = self.run_of_three(end_time="0.01").start_all()
+        self.assert_all_end(run, DONE)
+        run.settings.append("coupling.extrapolation_order=1")
+        run.start_all(extra=RESTART)
+        self.assert_all_end(run, BAD_INPUT, "coupling.extrapolation_order", "is 1, and was 0 in the checkpoint")
+
+    def test_by_who_cannot(self):
+        run = self.run_of_three(end_time="0.01").start_all()
+        self.assert_all_end(run, DONE)
+        run.programs["fluid"] = self.bin / "faulty_fluid"
+        run.start_all(extra=RESTART)
+        self.assert_all_end(run, BAD_INPUT, "faulty_fluid", "cannot go on from a checkpoint")
+
+    def test_of_former_results(self):
+        run = self.run_of_three(end_time="0.01").start_all()
+        self.assert_all_end(run, DONE)
+        before = run.results()
+        run.start("coupler")
+        self.assert_ending(run, "coupler", BAD_INPUT, f"{run.out}: error: holds the results of an earlier run: --overwrite")
+        self.assertEqual(run.results(), before)
+        run.start_all(extra=["--overwrite"])
+        self.assert_all_end(run, DONE)
+        self.assertEqual(run.results(), before)
+
+    def test_of_a_run_that_is_at_its_end(self):
+        run = self.run_of_three(end_time="0.01").start_all()
+        self.assert_all_end(run, DONE)
+        self.assert_goes_on(run, run.results())
+        self.assert_ending(run, "coupler", DONE, "nothing to compute: the run is at t = 0.01 s")
+
+
+@contextlib.contextmanager
+def small_disk(folder, size):
+    """A disk of its own for a folder; none for who may not mount one."""
+    folder.mkdir()
+    made = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder], capture_output=True)
+    if made.returncode != 0:
+        raise unittest.SkipTest("only root can mount a small disk")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", "-l", folder], check=True)
+
+
+class NotWritten(RestartCase):
+    def test_a_full_disk_costs_that_checkpoint_alone(self):
+        expected = self.undisturbed(end_time="1")
+        run = self.run_of_three(end_time="1", settings=["case.checkpoint_interval=0.05"])
+        with small_disk(run.out / "checkpoint", "1M"):
+            ballast = run.out / "checkpoint" / "ballast"
+            run.start_all(extra=["--overwrite"])
+            first = run.wait_for_checkpoint()
+            with contextlib.suppress(OSError), open(ballast, "wb", buffering=0) as file:
+                while True:
+                    file.write(bytes(4096))
+            run.wait_for_log(r"warning: no checkpoint at t = .*cannot write '.*\.state\.part': No space left", LIMIT)
+            ballast.unlink()
+            run.wait_for_checkpoint(beyond=first + 1)
+            self.assert_all_end(run, DONE)
+        self.assertEqual(run.results(), expected)
+
+    def test_what_a_participant_says_of_it_is_told(self):
+        run = self.run_of_three(fluid="faulty_fluid", end_time="0.03", settings=["case.checkpoint_interval=0.02"])
+        run.start("coupler").start("solid").start("fluid", environment={"FAULT": "full checkpoint"})
+        self.assert_ending(run, "coupler", DONE, "no checkpoint at t = 0.02 s: faulty_fluid: no space left")
+        self.assertEqual(list((run.out / "checkpoint").iterdir()), [])
+
+    def test_who_cannot_is_named_once_and_the_run_goes_on(self):
+        run = self.run_of_three(fluid="faulty_fluid", end_time="0.03", settings=[SOME]).start_all()
+        self.assert_all_end(run, DONE)
+        text = (run.out / "coupler.err").read_text()
+        self.assertEqual(text.count("faulty_fluid cannot write checkpoints: the run goes on without"), 1, text)
+        self.assertFalse((run.out / "checkpoint").exists())
+
+
+if __name__ == "__main__":
+    ProcessCase.bin = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main(verbosity=2)
