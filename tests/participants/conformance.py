@@ -9,6 +9,7 @@ import argparse
 import csv
 import pathlib
 import signal
+import subprocess
 import sys
 import unittest
 
@@ -61,6 +62,28 @@ class Conformance(unittest.TestCase):
             run.start(self.other).start("coupler")
             for name in trio.ROLES:
                 self.assert_ending(run, name, DONE)
+
+    def test_goes_on_from_a_checkpoint(self):
+        said = subprocess.run([arguments.executable, "--can-checkpoint"], capture_output=True, text=True)
+        if said.stdout != "yes\n":
+            self.skipTest("it cannot write checkpoints")
+        with run_of_three(end_time="0.02") as run:
+            run.start_all()
+            for name in trio.ROLES:
+                self.assert_ending(run, name, DONE)
+            expected = run.results()
+        with run_of_three(end_time="0.02") as run:
+            run.start_all().wait_until_running(beyond=20)
+            run.signal(self.role, signal.SIGINT)
+            for name in trio.ROLES:
+                self.assert_ending(run, name, INTERRUPTED, "--restart goes on")
+            run.start_all(extra=["--restart"])
+            for name in trio.ROLES:
+                self.assert_ending(run, name, DONE)
+            found = run.results()
+            self.assertEqual(sorted(found), sorted(expected))
+            for name, content in expected.items():
+                self.assertEqual(found[name], content, name)
 
     def test_ends_when_the_run_is_interrupted(self):
         with run_of_three() as run:

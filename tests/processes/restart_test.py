@@ -70,7 +70,7 @@ class Interrupted(RestartCase):
         run.start("coupler").start("solid").start("fluid", environment={"FAULT": "slow checkpoint"})
         run.wait_until_running()
         run.signal("coupler", signal.SIGINT)
-        time.sleep(0.3)  # the checkpoint is held open for a second
+        time.sleep(0.2)  # the checkpoint is held open for longer
         run.signal("coupler", signal.SIGTERM)
         start = time.monotonic()
         self.assert_ending(run, "coupler", INTERRUPTED)

@@ -63,11 +63,12 @@ class RawFluid {
     hello_.write(hello);
   }
 
-  void leave() {
+  void say(toryu_Activity activity, bool interrupted = false) {
     std::string nothing;
     toryu_Status status{};
     status.sender = id_;
-    status.activity = toryu_LEFT;
+    status.interrupted = interrupted;
+    status.activity = activity;
     status.reason = nothing.data();
     statuses_.write(status);
   }
@@ -77,6 +78,15 @@ class RawFluid {
     toryu_WindowHead head{};
     while (!motions_.take([&](const toryu_Motion& motion) { head = motion.window; })) node_.wait(50ms);
     return head;
+  }
+
+  /// Waits for the request of a checkpoint and says that it failed, as of `skew` windows later.
+  void fail_checkpoint(std::string failure, std::uint64_t skew = 0) {
+    toryu_WindowHead head{};
+    const auto take = [&](const toryu_CheckpointRequest& request) { head = request.window; };
+    while (!checkpoint_requests_.take(take)) node_.wait(50ms);
+    head.number += skew;
+    checkpoint_reports_.write({head, failure.data()});
   }
 
   void answer(const toryu_WindowHead& head) {
@@ -94,6 +104,8 @@ class RawFluid {
   dds::Writer<toryu_Status> statuses_{node_, wire::status};
   dds::Reader<toryu_Motion> motions_{node_, wire::motion_to_fluid};
   dds::Writer<toryu_Load> loads_{node_, wire::load_from_fluid};
+  dds::Reader<toryu_CheckpointRequest> checkpoint_requests_{node_, wire::checkpoint_request};
+  dds::Writer<toryu_CheckpointReport> checkpoint_reports_{node_, wire::checkpoint_from_fluid};
 };
 
 class LinkTest : public testing::Test {
@@ -102,7 +114,7 @@ class LinkTest : public testing::Test {
   ~LinkTest() override { end(ExitCode::interrupted, "end of the test"); }
 
   void end(ExitCode code, const std::string& reason) {
-    if (fluid_) fluid_->leave();
+    if (fluid_) fluid_->say(toryu_LEFT);
     coupler_.stop(code, reason);
   }
 
@@ -130,14 +142,34 @@ class LinkTest : public testing::Test {
 
   /// A solid that joins, answers every window with rest, and ends as the coupler says.
   std::future<void> start_solid() {
-    return std::async(std::launch::async, [settings = settings_for("solid")] {
-      SolidLink link(settings);
+    return std::async(std::launch::async, [this] {
+      SolidLink link(settings_for("solid"));
       EXPECT_EQ(link.join(), 0.25);
+      restart_of_solid_ = link.restart();
       link.register_interface(three_particles(), still());
-      while (link.next_turn()) link.send(still(), Vec::Zero(), {});
+      while (const auto turn = link.next_turn()) {
+        if (turn->task == Task::window)
+          link.send(still(), Vec::Zero(), {});
+        else
+          link.confirm_checkpoint([&] { checkpoint_of_solid_ = turn->checkpoint; });
+      }
     });
   }
 
+  /// Both joined, and a first window computed by the solid.
+  std::future<void> run_one_window(const CouplerLink::Beginning& beginning = {}) {
+    auto solid = start_solid();
+    fluid_->say_hello();
+    coupler_.gather({});
+    coupler_.begin(beginning);
+    coupler_.ask_solid(window_, load_);
+    return solid;
+  }
+
+  Window window_{.number = 1, .iteration = 0, .time = 0, .dt = 1};
+  InterfaceLoad load_{
+      std::vector<double>(particles, 1.0), std::vector<double>(dim* particles, 1.0), {}, Vec::Zero()};
+  std::filesystem::path restart_of_solid_, checkpoint_of_solid_;
   LinkSettings settings_ = settings_for("coupler");
   CouplerLink coupler_{settings_};
   std::optional<RawFluid> fluid_{std::in_place, settings_.out};
@@ -205,6 +237,44 @@ TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
   });
   coupler_.ask_fluid({.number = 1, .iteration = 0, .time = 0, .dt = 1}, start.motion);
   EXPECT_TRUE(answered_rightly);
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, ACheckpointIsATurnOfBothAndSaysWhoCouldNot) {
+  auto solid = run_one_window();
+  const auto fluid = std::async(std::launch::async, [this] { fluid_->fail_checkpoint("no space"); });
+  EXPECT_THAT(coupler_.write_checkpoint(window_, "checkpoint/000004"),
+              testing::ElementsAre("raw_fluid: no space"));
+  EXPECT_EQ(checkpoint_of_solid_, settings_.out / "checkpoint/000004");
+  window_.number = 2;
+  EXPECT_NO_THROW(coupler_.ask_solid(window_, load_)) << "the run goes on";
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, ACheckpointOfAnotherWindowIsRefused) {
+  auto solid = run_one_window();
+  const auto fluid = std::async(std::launch::async, [this] { fluid_->fail_checkpoint("", 1); });
+  EXPECT_THAT([&] { coupler_.write_checkpoint(window_, "checkpoint/000004"); },
+              ThrowsMessage<PeerLost>(HasSubstr("raw_fluid sent window 2 iteration 0 where window 1")));
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, ARunThatGoesOnBeginsWithItsNextWindow) {
+  window_.number = 58;
+  auto solid = run_one_window({.checkpoints = true, .restart = "checkpoint/000003"});
+  EXPECT_EQ(restart_of_solid_, settings_.out / "checkpoint/000003");
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, AnInterruptedParticipantIsHeard) {
+  auto solid = run_one_window();
+  EXPECT_FALSE(coupler_.interrupted());
+  fluid_->say(toryu_WAITING, true);
+  for (; !coupler_.interrupted(); ++window_.number) coupler_.ask_solid({window_.number + 1, 0, 0, 1}, load_);
   end(ExitCode::done, "");
   solid.get();
 }
