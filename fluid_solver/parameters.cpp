@@ -59,151 +59,9 @@ void describe(ParameterTable& table, InitialFlow& flow) {
                 "a standing wave needs a 'depth' above 0");
 }
 
-void describe(ParameterTable& table, CentralForce& force) {
-  table.number(
-      "rate", force.rate,
-      {.unit = "1/s", .minimum = 0, .required = true, .help = "acceleration is rate^2 times distance"});
-  table.vector("centre", force.centre, {.unit = "m", .help = "towards which it pulls"});
-}
-
 void describe(ParameterTable& table, HydrostaticStart& start) {
   table.number("surface_level", start.surface_level,
                {.unit = "m", .required = true, .help = "height of the free surface, against gravity"});
-}
-
-void describe(ParameterTable& table, BackgroundPressure& background) {
-  table.number("pressure", background.pressure,
-               {.unit = "Pa",
-                .minimum = 0,
-                .required = true,
-                .help = "of the medium at rest density; keeps a closed medium from tearing under suction"});
-}
-
-void describe(ParameterTable& table, DensityDiffusion& diffusion) {
-  table.number(
-      "delta", diffusion.delta,
-      {.minimum = 0, .maximum = 1, .help = "coefficient of the diffusion; Marrone et al. 2011 take 0.1"});
-  table.choice(
-      "gradient", diffusion.gradient, {"renormalised", "none"},
-      {.help =
-           "linear part left alone: renormalised (Marrone et al. 2011) or none (Molteni & Colagrossi 2009)"});
-}
-
-void describe(ParameterTable& table, ParticleShifting& shifting) {
-  table.number(
-      "strength", shifting.strength,
-      {.minimum = 0, .maximum = 10, .help = "A of the shift -A h u_max dt grad C; Sun et al. 2017 take 2"});
-}
-
-void describe(ParameterTable&, TensileControl&) {}
-
-void describe(ParameterTable&, ConsistentGradients&) {}
-
-void describe(ParameterTable& table, ArtificialViscosity& viscosity) {
-  table.number("alpha", viscosity.alpha,
-               {.minimum = 0,
-                .maximum = 10,
-                .help = "linear coefficient (Monaghan 1992); 0.02 in delta-SPH, 1 in Kato's thesis"});
-  table.number("beta", viscosity.beta,
-               {.minimum = 0, .maximum = 10, .help = "quadratic coefficient (Monaghan 1992)"});
-}
-
-void describe(ParameterTable& table, LaminarViscosity& viscosity) {
-  table.number("dynamic_viscosity", viscosity.dynamic_viscosity,
-               {.unit = "Pa.s", .minimum = 0, .required = true, .help = "mu (Morris, Fox & Zhu 1997)"});
-}
-
-void describe(ParameterTable& table, PowerLaw& law) {
-  const auto bound = [&](const std::string& key, double& value, const std::string& help) {
-    table.number(key, value,
-                 {.unit = "Pa.s", .minimum = 0, .above_minimum = true, .required = true, .help = help});
-  };
-  table.number("consistency", law.consistency,
-               {.unit = "Pa.s^n",
-                .minimum = 0,
-                .above_minimum = true,
-                .required = true,
-                .help = "m of eta = m gdot^(n-1)"});
-  table.number(
-      "exponent", law.exponent,
-      {.minimum = 0, .maximum = 2, .above_minimum = true, .required = true, .help = "n; below 1 thins"});
-  bound("smallest_viscosity", law.smallest_viscosity, "the medium is never thinner");
-  bound("largest_viscosity", law.largest_viscosity, "never thicker, as at rest; limits the time step");
-  table.require(law.smallest_viscosity <= law.largest_viscosity, "largest_viscosity",
-                "'largest_viscosity' must be at least 'smallest_viscosity'");
-}
-
-void describe(ParameterTable& table, Carreau& law) {
-  table.number(
-      "zero_shear_viscosity", law.zero_shear_viscosity,
-      {.unit = "Pa.s", .minimum = 0, .above_minimum = true, .required = true, .help = "eta_0, at rest"});
-  table.number(
-      "infinite_shear_viscosity", law.infinite_shear_viscosity,
-      {.unit = "Pa.s", .minimum = 0, .required = true, .help = "eta_inf, under the strongest shear"});
-  table.number("relaxation_time", law.relaxation_time,
-               {.unit = "s",
-                .minimum = 0,
-                .required = true,
-                .help = "lambda: shear rates above 1/lambda thin the medium"});
-  table.number(
-      "exponent", law.exponent,
-      {.minimum = 0, .maximum = 2, .above_minimum = true, .required = true, .help = "n; below 1 thins"});
-  table.require(
-      law.infinite_shear_viscosity <= law.zero_shear_viscosity, "infinite_shear_viscosity",
-      "'infinite_shear_viscosity' must not exceed 'zero_shear_viscosity'; what thickens under shear has "
-      "an exponent above 1");
-}
-
-void describe(ParameterTable& table, Friction& friction) {
-  table.number("coefficient", friction.coefficient,
-               {.minimum = 0, .required = true, .help = "mu_A, traction over pressure (Kato's thesis)"});
-  table.choice(
-      "form", friction.form, {"normalised", "as_printed"},
-      {.help = "normalised: a plane interface transmits mu_A p; as_printed: with d_f = d_0, which "
-               "transmits only about 0.22 mu_A p at h = 1.2 d_0 (0.16 at 1.0, 0.25 at 1.3, 0.30 at 1.5)"});
-  table.number("regularisation_speed", friction.regularisation_speed,
-               {.unit = "m/s",
-                .minimum = 0,
-                .help = "below about this sliding speed friction is a linear drag; 0: c_0/1000"});
-}
-
-void describe(ParameterTable& table, WallRepulsion& repulsion) {
-  table.number(
-      "strength", repulsion.strength,
-      {.minimum = 0, .maximum = 10, .help = "B, of the order of 1: the stiffness of the fluid itself"});
-  table.number(
-      "range", repulsion.range,
-      {.minimum = 0.1, .maximum = 1.0, .help = "r_0/d_0 below which it is felt; a corner lies 0.71 away"});
-}
-
-void describe(ParameterTable& table, Archard& law) {
-  table.number("wear_coefficient", law.wear_coefficient,
-               {.minimum = 0, .required = true, .help = "K of dh/dt = (K/H) p v (Archard 1953)"});
-  table.number(
-      "hardness", law.hardness,
-      {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = true, .help = "H of the work piece"});
-}
-
-void describe(ParameterTable& table, Roughness& roughness) {
-  table.number("initial", roughness.initial,
-               {.unit = "m", .minimum = 0, .required = true, .help = "Ra at the start"});
-  table.number("final", roughness.final,
-               {.unit = "m", .minimum = 0, .required = true, .help = "Ra that the grain leaves in the end"});
-  table.number("decay_depth", roughness.decay_depth,
-               {.unit = "m",
-                .minimum = 0,
-                .above_minimum = true,
-                .required = true,
-                .help = "removed depth after which Ra - Ra_final has fallen to 1/e"});
-}
-
-void describe(ParameterTable& table, Removal& removal) {
-  table.number("preston_coefficient", removal.preston_coefficient,
-               {.unit = "1/Pa", .minimum = 0, .help = "k of dh/dt = k p v (Preston 1927); 0: not used"});
-  table.optional("archard", removal.archard, "Archard's law beside or instead of Preston's");
-  table.optional("roughness", removal.roughness, "decay of the roughness with the removed depth");
-  table.require(removal.preston_coefficient > 0 || removal.archard, "preston_coefficient",
-                "[fluid.removal] needs a preston_coefficient or [fluid.removal.archard]");
 }
 
 void describe(ParameterTable& table, WallModel& model) {
@@ -299,21 +157,8 @@ void describe_start(ParameterTable& table, Parameters& p) {
 }
 
 void describe_terms(ParameterTable& table, Parameters& p) {
-  table.optional("central_force", p.central_force, "pulls the fluid towards a point");
-  table.optional("background_pressure", p.background_pressure,
-                 "added to the pressure; for a medium enclosed on all sides, a free surface would burst");
-  table.optional("density_diffusion", p.density_diffusion, "delta-SPH (Marrone et al. 2011)");
-  table.optional("particle_shifting", p.particle_shifting, "spreads particles evenly (Sun et al. 2017)");
-  table.optional("tensile_control", p.tensile_control, "no pairing under suction (Sun et al. 2018)");
-  table.optional("consistent_gradients", p.consistent_gradients,
-                 "divergence and pressure gradient exact in linear fields (Randles & Libersky 1996)");
-  table.optional("artificial_viscosity", p.artificial_viscosity, "between approaching pairs (Monaghan 1992)");
-  table.optional("laminar_viscosity", p.laminar_viscosity, "viscosity of a Newtonian medium");
-  table.optional("power_law", p.power_law, "viscosity of a medium that thins or thickens under shear");
-  table.optional("carreau", p.carreau, "the same between two plateaus (Carreau 1972)");
-  table.optional("friction", p.friction, "of the abrasive on the work pieces (Kato's thesis)");
-  table.optional("wall_repulsion", p.wall_repulsion, "keeps particles off the sharp corners of walls");
-  table.optional("removal", p.removal, "what comes off the work pieces; writes surface.h5");
+  for_each_term(
+      p, [&]<class Term>(std::optional<Term>& term) { table.optional(Term::section, term, Term::help); });
   table.group("wall_model", p.wall_model, "how walls act on the fluid (Adami, Hu & Adams 2012)");
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/scene/scene.hpp"
+#include "fluid_solver/terms.hpp"
 
 namespace toryu::fluid {
 
@@ -29,113 +30,11 @@ struct InitialFlow {
 };
 void describe(ParameterTable& table, InitialFlow& flow);
 
-/// Pulls all of the fluid towards a point, as strong as it is far: acceleration rate^2 times distance.
-struct CentralForce {
-  double rate = 0;  ///< Omega [1/s]
-  Vec centre = Vec::Zero();
-};
-void describe(ParameterTable& table, CentralForce& force);
-
 /// Start at rest under gravity: density from the equation of state for the weight of the fluid above.
 struct HydrostaticStart {
   double surface_level = 0;  ///< height of the free surface against gravity [m]
 };
 void describe(ParameterTable& table, HydrostaticStart& start);
-
-/// The pressure at which a closed medium is held, at rest density [Pa].
-struct BackgroundPressure {
-  double pressure = 0;
-};
-void describe(ParameterTable& table, BackgroundPressure& background);
-
-/// What the linear part of the density is taken from before it is diffused.
-enum class DiffusionGradient { renormalised, none };
-struct DensityDiffusion {
-  double delta = 0.1;
-  DiffusionGradient gradient = DiffusionGradient::renormalised;
-};
-void describe(ParameterTable& table, DensityDiffusion& diffusion);
-
-/// Spreads the particles evenly, see shifting.hpp.
-struct ParticleShifting {
-  double strength = 2.0;  ///< A
-};
-void describe(ParameterTable& table, ParticleShifting& shifting);
-
-/// Keeps particles from pairing under suction, see terms/tensile_control.hpp.
-struct TensileControl {};
-void describe(ParameterTable& table, TensileControl& control);
-
-/// Rates that are exact in linear fields, see consistent_gradients.hpp.
-struct ConsistentGradients {};
-void describe(ParameterTable& table, ConsistentGradients& gradients);
-
-struct ArtificialViscosity {
-  double alpha = 0.02;
-  double beta = 0.0;
-};
-void describe(ParameterTable& table, ArtificialViscosity& viscosity);
-
-struct LaminarViscosity {
-  double dynamic_viscosity = 1e-3;  ///< [Pa s]
-};
-void describe(ParameterTable& table, LaminarViscosity& viscosity);
-
-/// eta = consistency gdot^(exponent-1), kept between two bounds.
-struct PowerLaw {
-  double consistency = 0;         ///< m [Pa s^n]
-  double exponent = 1;            ///< n
-  double smallest_viscosity = 0;  ///< [Pa s]
-  double largest_viscosity = 0;   ///< [Pa s]
-};
-void describe(ParameterTable& table, PowerLaw& law);
-
-struct Carreau {
-  double zero_shear_viscosity = 0;      ///< eta_0 [Pa s]
-  double infinite_shear_viscosity = 0;  ///< eta_inf [Pa s]
-  double relaxation_time = 0;           ///< lambda [s]
-  double exponent = 1;                  ///< n
-};
-void describe(ParameterTable& table, Carreau& law);
-
-/// What the length d_s of (33) is: see terms/friction.hpp.
-enum class FrictionForm { normalised, as_printed };
-struct Friction {
-  double coefficient = 0.3;  ///< mu_A
-  FrictionForm form = FrictionForm::normalised;
-  double regularisation_speed = 0;  ///< [m/s]; 0: c_0/1000
-};
-void describe(ParameterTable& table, Friction& friction);
-
-/// Keeps particles from cutting the corners of walls, see terms/wall_repulsion.hpp.
-struct WallRepulsion {
-  double strength = 1.0;  ///< B
-  double range = 0.8;     ///< r_0/d_0
-};
-void describe(ParameterTable& table, WallRepulsion& repulsion);
-
-/// Wear by Archard (1953): depth = K/H times the integral of p v dt.
-struct Archard {
-  double wear_coefficient = 0;  ///< K
-  double hardness = 0;          ///< H of the work piece [Pa]
-};
-void describe(ParameterTable& table, Archard& law);
-
-/// Decay of the roughness where material comes off: Ra = final + (initial - final) exp(-depth/decay_depth).
-/// Where each cycle removes the same depth this is the Ra(n) = Ra_f + (Ra_0 - Ra_f) exp(-k n) that is fitted
-/// to experiments, k = depth per cycle/decay_depth.
-struct Roughness {
-  double initial = 0, final = 0, decay_depth = 0;  ///< [m]
-};
-void describe(ParameterTable& table, Roughness& roughness);
-
-/// What comes off the work pieces. One law gives the depth; with both, Preston's counts.
-struct Removal {
-  double preston_coefficient = 0;  ///< k of dh/dt = k p v (Preston 1927) [1/Pa]; 0: not used
-  std::optional<Archard> archard;
-  std::optional<Roughness> roughness;
-};
-void describe(ParameterTable& table, Removal& removal);
 
 enum class WallSlip { no_slip, free_slip };
 enum class WallDensity { rest, from_pressure };
@@ -168,7 +67,7 @@ void describe(ParameterTable& table, Observer& observer);
 enum class KernelForm { cubic_spline, wendland_c2 };
 enum class Integrator { midpoint, symplectic };
 
-struct Parameters {
+struct Parameters : OptionalTerms {
   double density = 1000.0;       ///< rho_0 [kg/m3]
   double sound_speed = 0;        ///< c_0 [m/s]
   int stiffness_exponent = 7;    ///< gamma of (3)
@@ -183,19 +82,6 @@ struct Parameters {
   std::vector<Box> holes;
   std::optional<HydrostaticStart> hydrostatic_start;
   std::optional<InitialFlow> initial_flow;
-  std::optional<CentralForce> central_force;
-  std::optional<BackgroundPressure> background_pressure;
-  std::optional<DensityDiffusion> density_diffusion;
-  std::optional<ParticleShifting> particle_shifting;
-  std::optional<TensileControl> tensile_control;
-  std::optional<ConsistentGradients> consistent_gradients;
-  std::optional<ArtificialViscosity> artificial_viscosity;
-  std::optional<LaminarViscosity> laminar_viscosity;
-  std::optional<PowerLaw> power_law;
-  std::optional<Carreau> carreau;
-  std::optional<Friction> friction;
-  std::optional<WallRepulsion> wall_repulsion;
-  std::optional<Removal> removal;
   WallModel wall_model;
   Limits limits;
   std::vector<Observer> observers;

@@ -6,9 +6,28 @@
 /// c_ij is c_0 and rho_ij the mean of the pair. Pi_ij >= 0: approaching particles repel, energy is taken out.
 #pragma once
 
+#include <fmt/format.h>
+
+#include "common/case/parameter_table.hpp"
+#include "fluid_solver/terms/medium.hpp"
 #include "fluid_solver/terms/pair.hpp"
 
 namespace toryu::fluid {
+
+struct ArtificialViscosity {
+  static constexpr const char* section = "artificial_viscosity";
+  static constexpr const char* help = "between approaching pairs (Monaghan 1992)";
+  double alpha = 0.02;
+  double beta = 0.0;
+};
+inline void describe(ParameterTable& table, ArtificialViscosity& viscosity) {
+  table.number("alpha", viscosity.alpha,
+               {.minimum = 0,
+                .maximum = 10,
+                .help = "linear coefficient (Monaghan 1992); 0.02 in delta-SPH, 1 in Kato's thesis"});
+  table.number("beta", viscosity.beta,
+               {.minimum = 0, .maximum = 10, .help = "quadratic coefficient (Monaghan 1992)"});
+}
 
 struct ArtificialViscosityTerm {
   double alpha, beta, h, c_0;
@@ -30,6 +49,13 @@ struct ArtificialViscosityTerm {
 /// h = 1.2 d_0, where only approaching pairs count. Disorder changes the second digit.
 inline double effective_kinematic_viscosity(double alpha, double h, double c_0) {
   return 0.049 * alpha * h * c_0;
+}
+
+inline ActiveTerm text(const ArtificialViscosity& viscosity, const Medium& medium) {
+  return {
+      "artificial viscosity", "- sum_j m_j Pi_ij gradW_ij", "Monaghan 1992, eq. 23-24",
+      fmt::format("alpha {}, beta {}; acts like a kinematic viscosity of {:.3g} m2/s", viscosity.alpha,
+                  viscosity.beta, effective_kinematic_viscosity(viscosity.alpha, medium.h(), medium.c_0))};
 }
 
 }  // namespace toryu::fluid

@@ -9,9 +9,31 @@
 /// raised the pressure by 2 % of rho_0 g H in 40 s.
 #pragma once
 
+#include <fmt/format.h>
+
+#include "common/case/parameter_table.hpp"
+#include "fluid_solver/terms/medium.hpp"
 #include "fluid_solver/terms/pair.hpp"
 
 namespace toryu::fluid {
+
+/// What the linear part of the density is taken from before it is diffused.
+enum class DiffusionGradient { renormalised, none };
+struct DensityDiffusion {
+  static constexpr const char* section = "density_diffusion";
+  static constexpr const char* help = "delta-SPH (Marrone et al. 2011)";
+  double delta = 0.1;
+  DiffusionGradient gradient = DiffusionGradient::renormalised;
+};
+inline void describe(ParameterTable& table, DensityDiffusion& diffusion) {
+  table.number(
+      "delta", diffusion.delta,
+      {.minimum = 0, .maximum = 1, .help = "coefficient of the diffusion; Marrone et al. 2011 take 0.1"});
+  table.choice(
+      "gradient", diffusion.gradient, {"renormalised", "none"},
+      {.help =
+           "linear part left alone: renormalised (Marrone et al. 2011) or none (Molteni & Colagrossi 2009)"});
+}
 
 template <bool renormalised>
 struct DensityDiffusionTerm {
@@ -25,5 +47,12 @@ struct DensityDiffusionTerm {
     rates.diffusion += (delta_h_c0 * source.V[j]) * psi_x * pair.G;
   }
 };
+
+inline ActiveTerm text(const DensityDiffusion& diffusion, const Medium&) {
+  return {"density diffusion", "delta h c_0 sum_j V_j psi_ij . gradW_ij",
+          diffusion.gradient == DiffusionGradient::renormalised ? "Marrone et al. 2011, eq. 18-21"
+                                                                : "Molteni & Colagrossi 2009",
+          fmt::format("delta {}", diffusion.delta)};
+}
 
 }  // namespace toryu::fluid

@@ -6,11 +6,30 @@
 /// so that they stay evenly spread (Colagrossi, Bouscasse, Antuono & Marrone 2012).
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "common/case/parameter_table.hpp"
 #include "common/sph/lanes.hpp"
+#include "fluid_solver/terms/medium.hpp"
 
 namespace toryu::fluid {
+
+/// The pressure at which a closed medium is held, at rest density [Pa].
+struct BackgroundPressure {
+  static constexpr const char* section = "background_pressure";
+  static constexpr const char* help =
+      "added to the pressure; for a medium enclosed on all sides, a free surface would burst";
+  double pressure = 0;
+};
+inline void describe(ParameterTable& table, BackgroundPressure& background) {
+  table.number("pressure", background.pressure,
+               {.unit = "Pa",
+                .minimum = 0,
+                .required = true,
+                .help = "of the medium at rest density; keeps a closed medium from tearing under suction"});
+}
 
 struct EquationOfState {
   double rho_0, c_0;
@@ -29,5 +48,10 @@ struct EquationOfState {
   /// Density at pressure p [Pa].
   double density(double p) const { return rho_0 * std::pow((p - p_b) / p_0() + 1.0, 1.0 / gamma); }
 };
+
+inline ActiveTerm text(const BackgroundPressure& background, const Medium&) {
+  return {"background pressure", "p_b added to the equation of state",
+          "Colagrossi, Bouscasse, Antuono & Marrone 2012", fmt::format("p_b {} Pa", background.pressure)};
+}
 
 }  // namespace toryu::fluid

@@ -21,12 +21,38 @@
 /// mu_A = 0.003 the medium slid.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
 #include "common/sph/points.hpp"
+#include "fluid_solver/terms/medium.hpp"
 
 namespace toryu::fluid {
+
+/// What the length d_s of (33) is: see terms/friction.hpp.
+enum class FrictionForm { normalised, as_printed };
+struct Friction {
+  static constexpr const char* section = "friction";
+  static constexpr const char* help = "of the abrasive on the work pieces (Kato's thesis)";
+  double coefficient = 0.3;  ///< mu_A
+  FrictionForm form = FrictionForm::normalised;
+  double regularisation_speed = 0;  ///< [m/s]; 0: c_0/1000
+};
+inline void describe(ParameterTable& table, Friction& friction) {
+  table.number("coefficient", friction.coefficient,
+               {.minimum = 0, .required = true, .help = "mu_A, traction over pressure (Kato's thesis)"});
+  table.choice(
+      "form", friction.form, {"normalised", "as_printed"},
+      {.help = "normalised: a plane interface transmits mu_A p; as_printed: with d_f = d_0, which "
+               "transmits only about 0.22 mu_A p at h = 1.2 d_0 (0.16 at 1.0, 0.25 at 1.3, 0.30 at 1.5)"});
+  table.number("regularisation_speed", friction.regularisation_speed,
+               {.unit = "m/s",
+                .minimum = 0,
+                .help = "below about this sliding speed friction is a linear drag; 0: c_0/1000"});
+}
 
 struct FrictionTerm {
   double mu_A;
@@ -59,6 +85,22 @@ inline double printed_share(const Kernel& kernel, double spacing) {
       for (int column = -reach; column <= reach; ++column)
         sum += kernel.value(spacing * std::hypot(row, column));
   return spacing * spacing * sum;
+}
+
+/// eps, by default a thousandth of the sound speed [m/s].
+inline double regularisation_speed(const Friction& friction, double c_0) {
+  return friction.regularisation_speed > 0 ? friction.regularisation_speed : 1e-3 * c_0;
+}
+
+inline ActiveTerm text(const Friction& friction, const Medium& medium) {
+  const double eps = regularisation_speed(friction, medium.c_0);
+  const std::string transmitted =
+      friction.form == FrictionForm::normalised
+          ? "normalised: a plane interface transmits mu_A p"
+          : fmt::format("as printed: a plane interface transmits only about {:.2f} mu_A p at h = {:.4g} d_0",
+                        printed_share(medium.kernel, medium.d_0), medium.h() / medium.d_0);
+  return {"friction", "F_s = mu_A sum_f V_f max(p_f, 0) d_s v_fs/sqrt(v_fs^2 + eps^2) W_sf", "eq. 33, mended",
+          fmt::format("mu_A {}, eps {} m/s, {}", friction.coefficient, eps, transmitted)};
 }
 
 }  // namespace toryu::fluid

@@ -13,9 +13,23 @@
 /// Newtonian liquid (cases/standing_wave).
 #pragma once
 
+#include <fmt/format.h>
+
+#include "common/case/parameter_table.hpp"
+#include "fluid_solver/terms/medium.hpp"
 #include "fluid_solver/terms/pair.hpp"
 
 namespace toryu::fluid {
+
+struct LaminarViscosity {
+  static constexpr const char* section = "laminar_viscosity";
+  static constexpr const char* help = "viscosity of a Newtonian medium";
+  double dynamic_viscosity = 1e-3;  ///< [Pa s]
+};
+inline void describe(ParameterTable& table, LaminarViscosity& viscosity) {
+  table.number("dynamic_viscosity", viscosity.dynamic_viscosity,
+               {.unit = "Pa.s", .minimum = 0, .required = true, .help = "mu (Morris, Fox & Zhu 1997)"});
+}
 
 struct LaminarViscosityTerm {
   double mu;
@@ -26,5 +40,10 @@ struct LaminarViscosityTerm {
     for (int a = 0; a < dim; ++a) rates.a[a] += factor * (i.v_viscous[a] - source.v_viscous[a][j]);
   }
 };
+
+inline ActiveTerm text(const LaminarViscosity& viscosity, const Medium&) {
+  return {"laminar viscosity", "sum_j m_j 2 mu/(rho_i rho_j) x_ij . gradW_ij/r^2 v_ij",
+          "Morris, Fox & Zhu 1997", fmt::format("mu {} Pa s", viscosity.dynamic_viscosity)};
+}
 
 }  // namespace toryu::fluid

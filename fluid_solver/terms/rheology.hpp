@@ -8,13 +8,74 @@
 /// the bounds stand for the plateaus that real media have, and the largest limits the time step.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/parameter_table.hpp"
 #include "common/sph/lanes.hpp"
-#include "fluid_solver/parameters.hpp"
+#include "fluid_solver/terms/medium.hpp"
 
 namespace toryu::fluid {
+
+/// eta = consistency gdot^(exponent-1), kept between two bounds.
+struct PowerLaw {
+  static constexpr const char* section = "power_law";
+  static constexpr const char* help = "viscosity of a medium that thins or thickens under shear";
+  double consistency = 0;         ///< m [Pa s^n]
+  double exponent = 1;            ///< n
+  double smallest_viscosity = 0;  ///< [Pa s]
+  double largest_viscosity = 0;   ///< [Pa s]
+};
+inline void describe(ParameterTable& table, PowerLaw& law) {
+  const auto bound = [&](const std::string& key, double& value, const std::string& help) {
+    table.number(key, value,
+                 {.unit = "Pa.s", .minimum = 0, .above_minimum = true, .required = true, .help = help});
+  };
+  table.number("consistency", law.consistency,
+               {.unit = "Pa.s^n",
+                .minimum = 0,
+                .above_minimum = true,
+                .required = true,
+                .help = "m of eta = m gdot^(n-1)"});
+  table.number(
+      "exponent", law.exponent,
+      {.minimum = 0, .maximum = 2, .above_minimum = true, .required = true, .help = "n; below 1 thins"});
+  bound("smallest_viscosity", law.smallest_viscosity, "the medium is never thinner");
+  bound("largest_viscosity", law.largest_viscosity, "never thicker, as at rest; limits the time step");
+  table.require(law.smallest_viscosity <= law.largest_viscosity, "largest_viscosity",
+                "'largest_viscosity' must be at least 'smallest_viscosity'");
+}
+
+struct Carreau {
+  static constexpr const char* section = "carreau";
+  static constexpr const char* help = "the same between two plateaus (Carreau 1972)";
+  double zero_shear_viscosity = 0;      ///< eta_0 [Pa s]
+  double infinite_shear_viscosity = 0;  ///< eta_inf [Pa s]
+  double relaxation_time = 0;           ///< lambda [s]
+  double exponent = 1;                  ///< n
+};
+inline void describe(ParameterTable& table, Carreau& law) {
+  table.number(
+      "zero_shear_viscosity", law.zero_shear_viscosity,
+      {.unit = "Pa.s", .minimum = 0, .above_minimum = true, .required = true, .help = "eta_0, at rest"});
+  table.number(
+      "infinite_shear_viscosity", law.infinite_shear_viscosity,
+      {.unit = "Pa.s", .minimum = 0, .required = true, .help = "eta_inf, under the strongest shear"});
+  table.number("relaxation_time", law.relaxation_time,
+               {.unit = "s",
+                .minimum = 0,
+                .required = true,
+                .help = "lambda: shear rates above 1/lambda thin the medium"});
+  table.number(
+      "exponent", law.exponent,
+      {.minimum = 0, .maximum = 2, .above_minimum = true, .required = true, .help = "n; below 1 thins"});
+  table.require(
+      law.infinite_shear_viscosity <= law.zero_shear_viscosity, "infinite_shear_viscosity",
+      "'infinite_shear_viscosity' must not exceed 'zero_shear_viscosity'; what thickens under shear has "
+      "an exponent above 1");
+}
 
 inline double viscosity(const PowerLaw& law, double shear_rate) {
   return std::clamp(law.consistency * std::pow(shear_rate, law.exponent - 1), law.smallest_viscosity,
@@ -32,6 +93,18 @@ Lanes viscosity(const auto& law, const Lanes& shear_rate) {
   Lanes eta;
   for (std::size_t lane = 0; lane < lane_count; ++lane) eta.value[lane] = viscosity(law, shear_rate[lane]);
   return eta;
+}
+
+inline ActiveTerm text(const PowerLaw& law, const Medium&) {
+  return {"power law", "eta = m gdot^(n-1), harmonic mean of a pair", "Ostwald 1925, de Waele 1923",
+          fmt::format("m {} Pa s^n, n {}, {} to {} Pa s", law.consistency, law.exponent,
+                      law.smallest_viscosity, law.largest_viscosity)};
+}
+
+inline ActiveTerm text(const Carreau& law, const Medium&) {
+  return {"Carreau", "eta = eta_inf + (eta_0 - eta_inf) (1 + (lambda gdot)^2)^((n-1)/2)", "Carreau 1972",
+          fmt::format("eta_0 {} Pa s, eta_inf {} Pa s, lambda {} s, n {}", law.zero_shear_viscosity,
+                      law.infinite_shear_viscosity, law.relaxation_time, law.exponent)};
 }
 
 }  // namespace toryu::fluid

@@ -14,13 +14,29 @@
 /// the suction; it is not offered.
 #pragma once
 
+#include <fmt/format.h>
+
+#include "common/case/parameter_table.hpp"
 #include "common/sph/lanes.hpp"
+#include "fluid_solver/terms/medium.hpp"
 
 namespace toryu::fluid {
+
+/// Keeps particles from pairing under suction, see terms/tensile_control.hpp.
+struct TensileControl {
+  static constexpr const char* section = "tensile_control";
+  static constexpr const char* help = "no pairing under suction (Sun et al. 2018)";
+};
+inline void describe(ParameterTable&, TensileControl&) {}
 
 /// s_i p_i/rho_i^2 from p_i/rho_i^2.
 TORYU_INLINE Lanes without_tension(Lanes p_rho2, Lanes deep) {
   return select((p_rho2 < 0.0) & (deep > 0.0), -p_rho2, p_rho2);
+}
+
+inline ActiveTerm text(const TensileControl&, const Medium&) {
+  return {"tensile control", "p_j/rho_j^2 - p_i/rho_i^2 where p_i < 0 inside the fluid", "Sun et al. 2018",
+          ""};
 }
 
 }  // namespace toryu::fluid

@@ -3,12 +3,16 @@
 #include "fluid_solver/terms/density_gradient.hpp"
 #include "fluid_solver/terms/velocity_gradient.hpp"
 #include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
+#include "fluid_solver/weakly_compressible/further_forces.hpp"
 
 namespace toryu::fluid {
 
 Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kernel& kernel,
                    const EquationOfState& state)
-    : parameters_(parameters), body_force_{.gravity = gravity}, kernel_(kernel), state_(state) {
+    : parameters_(parameters),
+      body_force_{.gravity = gravity},
+      medium_{parameters.density, parameters.sound_speed, parameters.spacing, kernel},
+      state_(state) {
   if (const auto& force = parameters.central_force) {
     body_force_.centre = force->centre;
     body_force_.central_rate_squared = force->rate * force->rate;
@@ -32,7 +36,7 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kerne
   if (parameters.power_law) rheology_ = *parameters.power_law;
   if (parameters.carreau) rheology_ = *parameters.carreau;
   if (viscosity_varies()) terms_.viscous = VariableViscosityTerm{};
-  if (const auto& f = parameters.friction) friction_.emplace(*f, parameters.spacing, c_0, kernel_);
+  if (const auto& f = parameters.friction) friction_.emplace(*f, parameters.spacing, c_0, medium_.kernel);
 }
 
 void Dynamics::allocate(Particles& fluid) const {
@@ -80,7 +84,7 @@ double Dynamics::viscosity_at_rest() const {
 }
 
 void Dynamics::density_gradients(Particles& fluid, const ClusterList& neighbours) const {
-  kernel_.visit([&](const auto& W) {
+  medium_.kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c)
       store(density_gradient(fluid, W, c * lane_count, neighbours.near(c)), fluid.grad_rho, c * lane_count);
@@ -105,14 +109,14 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
   };
   const auto of_all = [&]<class Law>(const Law& law) {
     if constexpr (!std::is_same_v<Law, Absent>)
-      kernel_.visit([&](const auto& W) {
+      medium_.kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 8)
         for (std::size_t c = 0; c < fluid.clusters(); ++c) of_cluster(law, W, c);
       });
   };
   std::visit(of_all, rheology_);
   if (viscous_walls())
-    for (auto& wall : boundaries) extrapolate_viscosity(wall, fluid, kernel_);
+    for (auto& wall : boundaries) extrapolate_viscosity(wall, fluid, medium_.kernel);
 }
 
 void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
@@ -131,7 +135,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
       pressures(fluid);
       if (velocity)
         for (auto& boundary : boundaries) {
-          extrapolate(boundary, fluid, kernel_, body_force_.gravity);
+          extrapolate(boundary, fluid, medium_.kernel, body_force_.gravity);
           if (parameters_.wall_model.density == WallDensity::from_pressure) wall_densities(boundary);
         }
       if (density && renormalised_diffusion()) density_gradients(fluid, neighbours);
@@ -143,10 +147,13 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
     viscosities(fluid, neighbours, boundaries);
   }
   const auto timer = timers.measure("rates");
-  kernel_.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries); });
+  medium_.kernel.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries); });
   if (parameters_.consistent_gradients)
     make_gradients_consistent(wanted, viscosity_varies() ? 0.0 : viscosity_at_rest(), fluid, neighbours,
-                              kernel_);
+                              medium_.kernel);
+  if (velocity)
+    medium_.kernel.visit(
+        [&](const auto& W) { add_further_forces(W, parameters_, medium_, fluid, neighbours, boundaries); });
   if (velocity && friction_) brake_by_friction(fluid, boundaries);
 }
 
@@ -159,7 +166,10 @@ void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& bounda
 }
 
 void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
-  kernel_.visit([&](const auto& W) { sweeps().reaction(W, fluid, boundary); });
+  medium_.kernel.visit([&](const auto& W) {
+    sweeps().reaction(W, fluid, boundary);
+    add_further_reactions(W, parameters_, medium_, fluid, boundary);
+  });
   react_by_friction(fluid, boundary);
 }
 

@@ -35,7 +35,7 @@ class Dynamics {
   /// The latter alone.
   void react_by_friction(const Particles& fluid, Boundary& work_piece) const;
 
-  const Kernel& kernel() const { return kernel_; }
+  const Kernel& kernel() const { return medium_.kernel; }
   const EquationOfState& equation_of_state() const { return state_; }
   /// Empty if the case has none.
   const std::optional<WorkPieceFriction>& friction() const { return friction_; }
@@ -66,7 +66,7 @@ class Dynamics {
 
   Parameters parameters_;
   BodyForce body_force_;
-  Kernel kernel_;
+  Medium medium_;
   EquationOfState state_;
   ChosenTerms terms_;
   std::variant<Absent, PowerLaw, Carreau> rheology_;

@@ -10,8 +10,7 @@ WorkPieceFriction::WorkPieceFriction(const Friction& parameters, double spacing,
                                      const Kernel& kernel)
     : form_(parameters.form),
       spacing_(spacing),
-      term_{parameters.coefficient,
-            parameters.regularisation_speed > 0 ? parameters.regularisation_speed : 1e-3 * sound_speed},
+      term_{parameters.coefficient, regularisation_speed(parameters, sound_speed)},
       kernel_(kernel) {}
 
 void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& fluid) const {
@@ -97,14 +96,6 @@ void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, cons
 double WorkPieceFriction::rate(double p, double rho) const {
   const double share = form_ == FrictionForm::as_printed ? printed_share(kernel_, spacing_) : 1.0;
   return share * term_.mu_A * std::max(p, 0.0) / (rho * spacing_ * term_.eps);
-}
-
-std::string WorkPieceFriction::parameters() const {
-  std::string text = fmt::format("mu_A {}, eps {} m/s, ", term_.mu_A, term_.eps);
-  if (form_ == FrictionForm::normalised) return text + "normalised: a plane interface transmits mu_A p";
-  return text +
-         fmt::format("as printed: a plane interface transmits only about {:.2f} mu_A p at h = {:.4g} d_0",
-                     printed_share(kernel_, spacing_), kernel_.h() / spacing_);
 }
 
 }  // namespace toryu::fluid

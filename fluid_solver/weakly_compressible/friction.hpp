@@ -3,7 +3,6 @@
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
-#include "fluid_solver/parameters.hpp"
 #include "fluid_solver/terms/friction.hpp"
 
 namespace toryu::fluid {
@@ -22,8 +21,6 @@ class WorkPieceFriction {
   /// The fastest rate [1/s] at which friction brakes fluid of density `rho` under the pressure `p`: that of
   /// the linear drag at rest, on the row next to a plane interface.
   double rate(double p, double rho) const;
-  /// Symbols and values, for the log.
-  std::string parameters() const;
 
  private:
   template <class W>

@@ -6,45 +6,12 @@
 #include "fluid_solver/terms/continuity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
+#include "fluid_solver/weakly_compressible/pair_loop.hpp"
 #include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
 
 namespace toryu::fluid {
 
 namespace {
-
-/// A field that not every case has.
-Lanes load_if_there(const Field& field, std::size_t first) {
-  return field.empty() ? Lanes(0.0) : load(field, first);
-}
-VecLanes load_if_there(const VecField& field, std::size_t first) {
-  return field[0].empty() ? zero_vector() : load(field, first);
-}
-TensorLanes load_if_there(const TensorField& field, std::size_t first) {
-  return field[0][0].empty() ? zero_tensor() : load(field, first);
-}
-
-Targets load_targets(const Particles& f, std::size_t first) {
-  const VecLanes v = load(f.v, first);
-  return {load(f.x, first),
-          v,
-          v,
-          load_if_there(f.grad_rho, first),
-          load(f.rho, first),
-          load(f.p_rho2, first),
-          load_if_there(f.eta, first),
-          load_if_there(f.eta_grad_v, first)};
-}
-
-Targets load_targets(const Boundary& b, std::size_t first) {
-  return {load(b.x, first),
-          load(b.v, first),
-          load(b.v_viscous, first),
-          zero_vector(),
-          load(b.rho, first),
-          load(b.p_rho2, first),
-          load_if_there(b.eta, first),
-          load_if_there(b.eta_grad_v, first)};
-}
 
 // Each term joins in where it has something to say.
 TORYU_INLINE void add_density(const auto& term, const Targets& i, const Sources& s, std::size_t j,
@@ -78,21 +45,6 @@ TORYU_INLINE void add_at_wall(const auto& term, const Targets& i, const Sources&
     term.at_wall(i, s, j, p, r);
   else
     add_momentum(term, i, s, j, p, r);
-}
-
-Vec lane_sums(const Lanes& m, const VecLanes& v) {
-  Vec sum;
-  for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * v[a]);
-  return sum;
-}
-
-/// Adds the sums over `sources` near a cluster of targets `i`, pair by pair.
-template <class W, class Add>
-TORYU_INLINE void over_pairs(const W& kernel, std::span<const ShiftedNeighbours> lists, const Targets& i,
-                             const Sources& sources, Add&& add) {
-  over_neighbours(kernel, lists, i.x, sources.x,
-                  [&](std::uint32_t j, const Neighbour& n)
-                      TORYU_INLINE_LAMBDA { add(j, make_pair(kernel, n, i, sources, j)); });
 }
 
 template <RatesOf wanted>

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
-#include "fluid_solver/parameters.hpp"
+#include "fluid_solver/terms/particle_shifting.hpp"
 
 namespace toryu::fluid {
 

@@ -213,12 +213,13 @@ TEST(Friction, AsPrintedTransmitsOnlyAShareOfIt) {
 }
 
 TEST(Friction, SaysWhatItTransmits) {
-  EXPECT_THAT(friction(FrictionForm::as_printed).parameters(),
+  const auto said = [](FrictionForm form) {
+    return text(Friction{.coefficient = mu_A, .form = form}, Medium{1000, 20, d_0, kernel}).parameters;
+  };
+  EXPECT_THAT(said(FrictionForm::as_printed),
               testing::HasSubstr("a plane interface transmits only about 0.22 mu_A p at h = 1.2 d_0"));
-  EXPECT_THAT(friction(FrictionForm::normalised).parameters(),
-              testing::HasSubstr("a plane interface transmits mu_A p"));
-  const WorkPieceFriction by_default({.coefficient = mu_A}, d_0, 20, kernel);
-  EXPECT_THAT(by_default.parameters(), testing::HasSubstr("eps 0.02 m/s"));  // c_0/1000
+  EXPECT_THAT(said(FrictionForm::normalised), testing::HasSubstr("a plane interface transmits mu_A p"));
+  EXPECT_THAT(said(FrictionForm::normalised), testing::HasSubstr("eps 0.02 m/s"));  // c_0/1000
 }
 
 // In the solver -------------------------------------------------------------------------------------------

@@ -1,0 +1,54 @@
+/// The optional terms of a fluid. A term is one file in terms/: what a case says of it, what the log says,
+/// and its formula. A new one is a member here, and a name in the list below it, which does not compile while
+/// a name is missing; a term whose formula is a force between pairs acts from then on
+/// (additional_forces.hpp).
+#pragma once
+
+#include <optional>
+
+#include "fluid_solver/terms/artificial_viscosity.hpp"
+#include "fluid_solver/terms/central_force.hpp"
+#include "fluid_solver/terms/consistent_gradients.hpp"
+#include "fluid_solver/terms/density_diffusion.hpp"
+#include "fluid_solver/terms/equation_of_state.hpp"
+#include "fluid_solver/terms/friction.hpp"
+#include "fluid_solver/terms/laminar_viscosity.hpp"
+#include "fluid_solver/terms/particle_shifting.hpp"
+#include "fluid_solver/terms/removal.hpp"
+#include "fluid_solver/terms/rheology.hpp"
+#include "fluid_solver/terms/tensile_control.hpp"
+#include "fluid_solver/terms/wall_repulsion.hpp"
+
+namespace toryu::fluid {
+
+/// In the order in which a case lists them.
+struct OptionalTerms {
+  std::optional<CentralForce> central_force;
+  std::optional<BackgroundPressure> background_pressure;
+  std::optional<DensityDiffusion> density_diffusion;
+  std::optional<ParticleShifting> particle_shifting;
+  std::optional<TensileControl> tensile_control;
+  std::optional<ConsistentGradients> consistent_gradients;
+  std::optional<ArtificialViscosity> artificial_viscosity;
+  std::optional<LaminarViscosity> laminar_viscosity;
+  std::optional<PowerLaw> power_law;
+  std::optional<Carreau> carreau;
+  std::optional<Friction> friction;
+  std::optional<WallRepulsion> wall_repulsion;
+  std::optional<Removal> removal;
+};
+
+/// Calls visit(term) for the std::optional of each.
+template <class Terms, class Visit>
+void for_each_term(Terms& terms, Visit&& visit) {
+  using Base = std::conditional_t<std::is_const_v<Terms>, const OptionalTerms, OptionalTerms>;
+  auto& [central_force, background_pressure, density_diffusion, particle_shifting, tensile_control,
+         consistent_gradients, artificial_viscosity, laminar_viscosity, power_law, carreau, friction,
+         wall_repulsion, removal] = static_cast<Base&>(terms);
+  const auto visit_each = [&](auto&... term) { (visit(term), ...); };
+  visit_each(central_force, background_pressure, density_diffusion, particle_shifting, tensile_control,
+             consistent_gradients, artificial_viscosity, laminar_viscosity, power_law, carreau, friction,
+             wall_repulsion, removal);
+}
+
+}  // namespace toryu::fluid
