@@ -37,6 +37,7 @@ HdfHandle growing_dataset(hid_t file, const std::string& name, const HdfSeriesFi
   const HdfHandle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), limit.data()), H5Sclose,
                         name);
   const HdfHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  H5Pset_obj_track_times(properties, false);  // equal runs give equal files
   H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
   H5Pset_shuffle(properties);
   H5Pset_deflate(properties, 4);
@@ -49,7 +50,9 @@ void write_constant(hid_t file, const std::string& name, hid_t type, const HdfSe
                     const std::vector<std::pair<std::string, std::string>>& attributes) {
   const HdfHandle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
                         name);
-  const HdfHandle made(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  const HdfHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  H5Pset_obj_track_times(properties, false);
+  const HdfHandle made(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
                        H5Dclose, name);
   H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
   text_attribute(made, "unit", unit);

@@ -49,7 +49,7 @@ class Trio:
         return self
 
     def start_all(self, extra=()):
-        for role in ROLES:
+        for role in self.programs:
             self.start(role, extra=extra)
         return self
 
