@@ -24,6 +24,13 @@ inline std::array<Positions, dim> pointers(const TensorField& field) {
   return first;
 }
 
+/// v_ij = v_i - v_j of any vectors of the particles.
+TORYU_INLINE VecLanes difference(const VecLanes& v_i, const Positions& v, std::uint32_t j) {
+  VecLanes v_ij;
+  for (int a = 0; a < dim; ++a) v_ij[a] = v_i[a] - v[a][j];
+  return v_ij;
+}
+
 /// One particle j as the particles i see it.
 struct Neighbour {
   VecLanes x_ij;
@@ -32,26 +39,21 @@ struct Neighbour {
   Lanes G;  ///< gradW_ij = G x_ij
 
   /// factor gradW_ij; with V_j the gradient that sums over neighbours are made of.
-  TORYU_INLINE VecLanes gradient(const Lanes& factor) const {
-    const Lanes factor_G = factor * G;
-    VecLanes product;
-    for (int a = 0; a < dim; ++a) product[a] = factor_G * x_ij[a];
-    return product;
-  }
+  TORYU_INLINE VecLanes gradient(const Lanes& factor) const { return product(factor * G, x_ij); }
 };
 
-/// Calls `add(j, x_ij)` for all particles at `x` near the particles that stand at `x_i`.
+/// Calls `add(j, x_ij)` for the particles `sources` at `x`, seen from those that stand at `x_i`.
+template <class Add>
+TORYU_INLINE void over_sources(std::span<const std::uint32_t> sources, const VecLanes& x_i,
+                               const Positions& x, Add&& add) {
+  for (const std::uint32_t j : sources) add(j, difference(x_i, x, j));
+}
+
+/// The same for all lists of a cluster, each with its shift.
 template <class Add>
 TORYU_INLINE void over_places(std::span<const ShiftedNeighbours> lists, const VecLanes& x_i,
                               const Positions& x, Add&& add) {
-  for (const ShiftedNeighbours& list : lists) {
-    const VecLanes from = shifted(x_i, list.shift);
-    for (const std::uint32_t j : list.sources) {
-      VecLanes x_ij;
-      for (int a = 0; a < dim; ++a) x_ij[a] = from[a] - x[a][j];
-      add(j, x_ij);
-    }
-  }
+  for (const ShiftedNeighbours& list : lists) over_sources(list.sources, shifted(x_i, list.shift), x, add);
 }
 
 /// Calls `add(j, neighbour)` likewise, with distance and kernel.

@@ -68,6 +68,12 @@ TORYU_INLINE Lanes trace(const TensorLanes& t) {
   return sum;
 }
 
+TORYU_INLINE VecLanes product(const Lanes& factor, const VecLanes& vector) {
+  VecLanes scaled;
+  for (int a = 0; a < dim; ++a) scaled[a] = factor * vector[a];
+  return scaled;
+}
+
 TORYU_INLINE Lanes dot(const VecLanes& a, const VecLanes& b) {
   Lanes sum = a[0] * b[0];
   for (int k = 1; k < dim; ++k) sum += a[k] * b[k];

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "common/sph/points.hpp"
+#include "common/sph/tensor.hpp"
 
 namespace toryu {
 
@@ -21,6 +22,9 @@ class Moment {
     xy_ -= x_ij[0] * V_grad[1];
     yy_ -= x_ij[1] * V_grad[1];
   }
+  TORYU_INLINE Lanes determinant() const { return xx_ * yy_ - xy_ * xy_; }
+  /// L_i times the determinant.
+  TORYU_INLINE Tensor<Lanes> adjugate() const { return {yy_, -xy_, -xy_, xx_}; }
   TORYU_INLINE Lanes trace() const { return xx_ + yy_; }
   TORYU_INLINE Lanes smaller_eigenvalue() const {
     const Lanes half_trace = 0.5 * (xx_ + yy_), half_difference = 0.5 * (xx_ - yy_);
@@ -28,11 +32,11 @@ class Moment {
   }
   /// Prepares `renormalised` when all neighbours are in.
   TORYU_INLINE void invert() {
-    const Lanes determinant = xx_ * yy_ - xy_ * xy_, trace = xx_ + yy_;
+    const Lanes det = determinant(), trace = xx_ + yy_;
     // the smaller eigenvalue exceeds m where both do: det - m trace + m^2 > 0 and trace > 2 m
-    const auto regular = (determinant - smallest_moment * trace + smallest_moment * smallest_moment > 0.0) &
+    const auto regular = (det - smallest_moment * trace + smallest_moment * smallest_moment > 0.0) &
                          (trace > 2.0 * smallest_moment);
-    share_ = select(regular, inverse(max(determinant, 1e-12)), 0.0);
+    share_ = select(regular, inverse(max(det, 1e-12)), 0.0);
   }
   /// L_i b; zero where L_i is near singular (few neighbours, one-sided).
   TORYU_INLINE VecLanes renormalised(const VecLanes& b) const {

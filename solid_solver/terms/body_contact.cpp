@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/sph/skin.hpp"
 #include "common/sph/sorted_points.hpp"
 
 namespace toryu::solid {
@@ -50,20 +51,21 @@ void TouchingBodies::find_bodies(const std::vector<Vec>& X) {
 }
 
 void TouchingBodies::find_pairs_if_moved(State& state, const VecField& x) const {
-  double moved_2 = state.x_listed.empty() ? std::numeric_limits<double>::infinity() : 0.0;
-  for (std::size_t k = 0; k < state.x_listed.size(); ++k)
-    moved_2 = std::max(moved_2, (at(x, k) - state.x_listed[k]).squaredNorm());
-  if (moved_2 < 0.25 * skin_ * skin_) return;
-  state.x_listed = points(x);
+  if (!state.x_listed[0].empty()) {
+    const double moved = largest_distance(x, state.x_listed, count_);
+    if (!skin_exhausted(moved, moved, skin_)) return;
+  }
+  state.x_listed = x;
   find_pairs(state);
 }
 
 void TouchingBodies::find_pairs(State& state) const {
   state.pairs.clear();
   const double reach = W_.support() + skin_;
-  const SortedPoints sorted(state.x_listed, reach);
+  const std::vector<Vec> listed = points(state.x_listed);
+  const SortedPoints sorted(listed, reach);
   for (std::uint32_t i = 0; i < count_; ++i)
-    sorted.near(state.x_listed[i], reach, [&](std::uint32_t j) {
+    sorted.near(listed[i], reach, [&](std::uint32_t j) {
       if (i < j && body_[i] != body_[j]) state.pairs.push_back({i, j});
     });
 }

@@ -26,9 +26,9 @@ class TouchingBodies {
     std::uint32_t i, j;
   };
   struct State {
-    std::vector<Vec> x_listed;  ///< positions at the last search [m]
-    Field S;                    ///< of the last push
-    std::vector<Pair> pairs;    ///< of different bodies, within the support and the skin of x_listed
+    VecField x_listed;        ///< positions at the last search [m]
+    Field S;                  ///< of the last push
+    std::vector<Pair> pairs;  ///< of different bodies, within the support and the skin of x_listed
   };
 
   /// `X` [m] and `volume` [m2] of the first `count` particles in storage order, which must not change.

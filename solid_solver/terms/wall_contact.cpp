@@ -3,18 +3,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/sph/neighbour_loop.hpp"
+#include "common/sph/skin.hpp"
+
 namespace toryu::solid {
 
-static_assert(dim == 2, "the sums have two components");
-
 namespace {
-
-/// Largest squared distance between the first `count` points of both.
-double largest_move_squared(const VecField& a, const VecField& b, std::size_t count) {
-  double largest = 0;
-  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, (at(a, k) - at(b, k)).squaredNorm());
-  return largest;
-}
 
 StripOrder strips_of(double spacing) {
   return StripOrder(std::sqrt(static_cast<double>(lane_count)) * spacing);
@@ -68,9 +62,9 @@ void ContactWalls::list(State& state, std::size_t count) const {
 void ContactWalls::prepare(State& state, const VecField& x, std::size_t count, double time) const {
   place(state, time);
   if (!state.solid_listed[0].empty()) {
-    const double solid = std::sqrt(largest_move_squared(x, state.solid_listed, count));
-    const double walls = std::sqrt(largest_move_squared(state.x, state.x_listed, X_.size()));
-    if (solid + walls < 0.9 * skin_) return;
+    const double solid = largest_distance(x, state.solid_listed, count);
+    const double walls = largest_distance(state.x, state.x_listed, X_.size());
+    if (!skin_exhausted(solid, walls, 0.9 * skin_)) return;
   }
   std::vector<std::uint32_t> scratch;
   reorder(state.number, strips_of(spacing_).sort(state.x[0], state.x[1], X_.size()), scratch);
@@ -87,19 +81,16 @@ void ContactWalls::complete(State& state, std::size_t count) const {
 
 Lanes ContactWalls::overlap(const State& state, const VecField& x, std::size_t cluster,
                             VecLanes& gradient) const {
-  const VecLanes x_i = load(x, cluster * lane_count);
   const double V = spacing_ * spacing_, tiny = 1e-16 * W_.h() * W_.h();
   Lanes S = 0.0;
-  gradient = {0.0, 0.0};
-  for (const std::uint32_t w : state.list.sources(cluster)) {
-    const VecLanes x_iw{x_i[0] - state.x[0][w], x_i[1] - state.x[1][w]};
-    const Lanes r_squared = dot(x_iw, x_iw) + tiny, inverse_r = inverse_sqrt(r_squared),
-                r = r_squared * inverse_r;
-    const Lanes slope = V * W_.gradient_over_r(r, inverse_r);
-    S += V * W_.value(r);
-    gradient[0] += slope * x_iw[0];
-    gradient[1] += slope * x_iw[1];
-  }
+  gradient = zero_vector();
+  over_sources(state.list.sources(cluster), load(x, cluster * lane_count), pointers(state.x),
+               [&](std::uint32_t, const VecLanes& x_iw) TORYU_INLINE_LAMBDA {
+                 const Lanes r_squared = dot(x_iw, x_iw) + tiny, inverse_r = inverse_sqrt(r_squared),
+                             r = r_squared * inverse_r;
+                 S += V * W_.value(r);
+                 add_product(gradient, V * W_.gradient_over_r(r, inverse_r), x_iw);
+               });
   return S;
 }
 
@@ -107,7 +98,7 @@ VecLanes ContactWalls::acceleration(const State& state, const VecField& x, std::
   VecLanes gradient;
   const Lanes S = overlap(state, x, cluster, gradient);
   const Lanes p = pressure_scale_ * positive_part(S * (1.0 / S_0_) - 1.0);
-  return {-inverse_rho_ * p * gradient[0], -inverse_rho_ * p * gradient[1]};
+  return product(-inverse_rho_ * p, gradient);
 }
 
 Lanes ContactWalls::energy_density(const State& state, const VecField& x, std::size_t cluster) const {

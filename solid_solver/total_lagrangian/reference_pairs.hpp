@@ -4,6 +4,7 @@
 
 #include "common/sph/cluster_list.hpp"
 #include "common/sph/kernel.hpp"
+#include "common/sph/neighbour_loop.hpp"
 #include "common/sph/points.hpp"
 #include "common/sph/tensor.hpp"
 
@@ -36,6 +37,18 @@ class ReferencePairs {
   Tensor<Lanes> shape(std::size_t cluster) const;  ///< L
 
  private:
+  /// Calls add(j, V_j W'_ij/R_ij, X_ij) for the sources of a cluster.
+  template <class Add>
+  TORYU_INLINE void over_pairs(std::size_t cluster, Add&& add) const {
+    const double* w = weight_.data() + start_[cluster];
+    over_sources(list_.sources(cluster), load(X_, cluster * lane_count), pointers(X_),
+                 [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
+                   const Lanes weight = load(w);  // once, before w moves: else each use reads it anew
+                   w += lane_count;
+                   add(j, weight, X_ij);
+                 });
+  }
+
   const VecField& X_;
   ClusterList list_;
   std::vector<std::size_t> start_;  ///< of a cluster's weights
@@ -47,17 +60,14 @@ template <class Central>
 VecLanes ReferencePairs::central_force_density(const VecField& u, const VecField& v, std::size_t cluster,
                                                Central&& g) const {
   const std::size_t i = cluster * lane_count;
-  const VecLanes x_i{load(X_[0], i) + load(u[0], i), load(X_[1], i) + load(u[1], i)}, v_i = load(v, i);
-  VecLanes f{0.0, 0.0};
-  const double* w = weight_.data() + start_[cluster];
-  for (const std::uint32_t j : list_.sources(cluster)) {
-    const VecLanes x_ij{x_i[0] - (X_[0][j] + u[0][j]), x_i[1] - (X_[1][j] + u[1][j])};
-    const VecLanes v_ij{v_i[0] - v[0][j], v_i[1] - v[1][j]};
-    const Lanes factor = load(w) * g(dot(v_ij, x_ij), dot(x_ij, x_ij));
-    f[0] += factor * x_ij[0];
-    f[1] += factor * x_ij[1];
-    w += lane_count;
-  }
+  const VecLanes u_i = load(u, i), v_i = load(v, i), X_i = load(X_, i);
+  const VecLanes x_i{X_i[0] + u_i[0], X_i[1] + u_i[1]};
+  const Positions X_of = pointers(X_), u_of = pointers(u), v_of = pointers(v);
+  VecLanes f = zero_vector();
+  over_pairs(cluster, [&](std::uint32_t j, const Lanes& weight, const VecLanes&) TORYU_INLINE_LAMBDA {
+    const VecLanes x_ij{x_i[0] - (X_of[0][j] + u_of[0][j]), x_i[1] - (X_of[1][j] + u_of[1][j])};
+    add_product(f, weight * g(dot(difference(v_i, v_of, j), x_ij), dot(x_ij, x_ij)), x_ij);
+  });
   return f;
 }
 

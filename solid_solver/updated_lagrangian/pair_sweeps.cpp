@@ -1,5 +1,8 @@
 #include "solid_solver/updated_lagrangian/pair_sweeps.hpp"
 
+#include "common/sph/neighbour_loop.hpp"
+#include "common/sph/renormalisation.hpp"
+
 namespace toryu::solid {
 
 namespace {
@@ -8,12 +11,13 @@ namespace {
 /// and about 0.3 at its corners.
 constexpr double near_singular = 0.05;
 
-Tensor<Lanes> shape(const Symmetric<Lanes>& M) {
-  const Lanes determinant = M.xx * M.yy - M.xy * M.xy;
-  const auto good = determinant > near_singular;
-  const Lanes scale = inverse(max(determinant, Lanes(near_singular)));
-  const Lanes L_xy = select(good, -M.xy * scale, 0.0);
-  return {select(good, M.yy * scale, 1.0), L_xy, L_xy, select(good, M.xx * scale, 1.0)};
+Tensor<Lanes> shape(const Moment& moment) {
+  const auto regular = moment.determinant() > near_singular;
+  const Lanes scale = inverse(max(moment.determinant(), Lanes(near_singular)));
+  Tensor<Lanes> L = moment.adjugate();
+  for (std::size_t n = 0; n < L.size(); ++n)
+    L[n] = select(regular, L[n] * scale, n == 0 || n == 3 ? 1.0 : 0.0);
+  return L;
 }
 
 Lanes power(const Lanes& a, int n) {
@@ -70,27 +74,25 @@ template <bool renormalised>
 void PairSweeps::sweep(const UpdatedParticles& particles, const ClusterList& list, std::size_t cluster,
                        Tensor<Lanes>& grad_v, Tensor<Lanes>& L) const {
   const std::size_t i = cluster * lane_count;
-  const VecLanes x_i = load(particles.x, i), v_i = load(particles.v, i);
-  Symmetric<Lanes> M{0.0, 0.0, 0.0};
+  const VecLanes v_i = load(particles.v, i);
+  const Positions v = pointers(particles.v);
+  const double* V = particles.V.data();
+  Moment moment;
   grad_v = {0.0, 0.0, 0.0, 0.0};
-  for (const std::uint32_t j : list.sources(cluster)) {
-    const VecLanes x_ij{x_i[0] - particles.x[0][j], x_i[1] - particles.x[1][j]};
-    const VecLanes v_ij{v_i[0] - particles.v[0][j], v_i[1] - particles.v[1][j]};
-    const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared);
-    const Lanes weight = particles.V[j] * W_.gradient_over_r(Lanes(r_squared * inverse_r), inverse_r);
-    const VecLanes V_gradW{weight * x_ij[0], weight * x_ij[1]};
-    grad_v[0] -= v_ij[0] * V_gradW[0];
-    grad_v[1] -= v_ij[0] * V_gradW[1];
-    grad_v[2] -= v_ij[1] * V_gradW[0];
-    grad_v[3] -= v_ij[1] * V_gradW[1];
-    if constexpr (renormalised) {
-      M.xx -= x_ij[0] * V_gradW[0];
-      M.xy -= x_ij[0] * V_gradW[1];
-      M.yy -= x_ij[1] * V_gradW[1];
-    }
-  }
+  over_sources(list.sources(cluster), load(particles.x, i), pointers(particles.x),
+               [&](std::uint32_t j, const VecLanes& x_ij) TORYU_INLINE_LAMBDA {
+                 const VecLanes v_ij = difference(v_i, v, j);
+                 const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared);
+                 const Lanes weight = V[j] * W_.gradient_over_r(Lanes(r_squared * inverse_r), inverse_r);
+                 const VecLanes V_gradW = product(weight, x_ij);
+                 grad_v[0] -= v_ij[0] * V_gradW[0];
+                 grad_v[1] -= v_ij[0] * V_gradW[1];
+                 grad_v[2] -= v_ij[1] * V_gradW[0];
+                 grad_v[3] -= v_ij[1] * V_gradW[1];
+                 if constexpr (renormalised) moment.add(x_ij, V_gradW);
+               });
   if constexpr (renormalised) {
-    L = shape(M);
+    L = shape(moment);
     grad_v = product(grad_v, L);
   }
 }
@@ -120,35 +122,35 @@ template <bool viscous, bool stressed>
 VecLanes PairSweeps::acceleration_of(const UpdatedParticles& particles, const UpdatedRates& rates,
                                      const ClusterList& list, std::size_t cluster) const {
   const std::size_t i = cluster * lane_count;
-  const VecLanes x_i = load(particles.x, i), v_i = load(particles.v, i);
+  const VecLanes v_i = load(particles.v, i);
+  const Positions v = pointers(particles.v);
   const Tensor<Lanes> T_i = load(rates.T, i);
   Symmetric<Lanes> R_i{0.0, 0.0, 0.0};
   if constexpr (stressed) R_i = load(rates.R, i);
-  VecLanes a{0.0, 0.0};
-  for (const std::uint32_t j : list.sources(cluster)) {
-    const VecLanes x_ij{x_i[0] - particles.x[0][j], x_i[1] - particles.x[1][j]};
-    const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared),
-                r = r_squared * inverse_r;
-    const Lanes weight = particles.m[j] * W_.gradient_over_r(r, inverse_r);
-    Tensor<Lanes> T{T_i[0] + rates.T[0][j], T_i[1] + rates.T[1][j], T_i[2] + rates.T[2][j],
-                    T_i[3] + rates.T[3][j]};
-    if constexpr (viscous) {
-      const VecLanes v_ij{v_i[0] - particles.v[0][j], v_i[1] - particles.v[1][j]};
-      const Lanes Pi = (*viscosity_)(dot(v_ij, x_ij), r_squared);
-      T[0] -= Pi;
-      T[3] -= Pi;
-    }
-    if constexpr (stressed) {
-      const Lanes F_n = power(Lanes(W_.value(r) * inverse_W_d0_), stress_->exponent);
-      const Lanes R_xy = (R_i.xy + rates.R.xy[j]) * F_n;
-      T[0] += (R_i.xx + rates.R.xx[j]) * F_n;
-      T[1] += R_xy;
-      T[2] += R_xy;
-      T[3] += (R_i.yy + rates.R.yy[j]) * F_n;
-    }
-    a[0] += weight * (T[0] * x_ij[0] + T[1] * x_ij[1]);
-    a[1] += weight * (T[2] * x_ij[0] + T[3] * x_ij[1]);
-  }
+  VecLanes a = zero_vector();
+  over_sources(list.sources(cluster), load(particles.x, i), pointers(particles.x),
+               [&](std::uint32_t j, const VecLanes& x_ij) TORYU_INLINE_LAMBDA {
+                 const Lanes r_squared = dot(x_ij, x_ij) + tiny_, inverse_r = inverse_sqrt(r_squared),
+                             r = r_squared * inverse_r;
+                 const Lanes weight = particles.m[j] * W_.gradient_over_r(r, inverse_r);
+                 Tensor<Lanes> T{T_i[0] + rates.T[0][j], T_i[1] + rates.T[1][j], T_i[2] + rates.T[2][j],
+                                 T_i[3] + rates.T[3][j]};
+                 if constexpr (viscous) {
+                   const Lanes Pi = (*viscosity_)(dot(difference(v_i, v, j), x_ij), r_squared);
+                   T[0] -= Pi;
+                   T[3] -= Pi;
+                 }
+                 if constexpr (stressed) {
+                   const Lanes F_n = power(Lanes(W_.value(r) * inverse_W_d0_), stress_->exponent);
+                   const Lanes R_xy = (R_i.xy + rates.R.xy[j]) * F_n;
+                   T[0] += (R_i.xx + rates.R.xx[j]) * F_n;
+                   T[1] += R_xy;
+                   T[2] += R_xy;
+                   T[3] += (R_i.yy + rates.R.yy[j]) * F_n;
+                 }
+                 a[0] += weight * (T[0] * x_ij[0] + T[1] * x_ij[1]);
+                 a[1] += weight * (T[2] * x_ij[0] + T[3] * x_ij[1]);
+               });
   return a;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/sph/skin.hpp"
 #include "common/state/serialize.hpp"
 
 namespace toryu::solid {
@@ -115,8 +116,8 @@ void UpdatedLagrangian::find_neighbours_if_moved() {
     furthest = max(furthest, squared);
   }
   // A step adds far less than the tenth of the skin that is left to it.
-  const double allowed = 0.45 * skin_;
-  if (largest_of(furthest) <= allowed * allowed) return;
+  const double moved = std::sqrt(largest_of(furthest));
+  if (!skin_exhausted(moved, moved, 0.9 * skin_)) return;
   check(state_.time);  // particles flung to all ends would make the search take all memory
   find_neighbours();
 }
