@@ -129,7 +129,7 @@ class Death(ProcessCase):
         run.kill("coupler")
         for name in ("coupler.csv", "interface.h5", "coupler_summary.toml"):
             self.assertFalse((run.out / name).exists(), name)
-        self.assertTrue((run.out / "interface.h5.part").exists())
+        self.assertTrue((run.out / "interface.h5.rows.part").exists())
 
     def test_a_new_run_can_start_at_once(self):
         run = self.run_of_three(end_time="1e6").start_all().wait_until_running()

@@ -17,7 +17,7 @@ from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, PEER_LOST
 from toryu_testing import trio
 from toryu_testing.process_case import LIMIT, SOLVERS, ProcessCase
 
-END_TIME = "0.4"  # seconds of the run of the stand-ins: 4000 windows in about a second
+END_TIME = "1"  # seconds of the run of the stand-ins: 10000 windows, in more than a second
 SOME = "case.checkpoint_interval=0.02"
 RESTART = ["--restart"]
 
@@ -35,9 +35,9 @@ class RestartCase(ProcessCase):
         self.assertFalse((run.out / "checkpoint").exists())
         return run.results()
 
-    def assert_goes_on(self, run, expected, extra=()):
+    def assert_goes_on(self, run, expected):
         """Restarts the run; what it has left at its end must be what is expected."""
-        run.start_all(extra=[*RESTART, *extra])
+        run.start_all(extra=RESTART)
         self.assert_all_end(run, DONE)
         found = run.results()
         self.assertEqual(sorted(found), sorted(expected))
@@ -115,23 +115,25 @@ class Solvers(RestartCase):
 
 
 class Killed(RestartCase):
-    def kill_and_go_on(self, run, role, expected, extra=()):
-        run.kill(role)
-        for other in self.others(role):
-            self.assert_ending(run, other, PEER_LOST)
-        self.assert_goes_on(run, expected, extra)
+    def assert_each_goes_on(self, killed, expected):
+        """`killed` maps a role to the run in which its process was killed."""
+        for role, run in killed.items():
+            with self.subTest(role):
+                for other in self.others(role):
+                    self.assert_ending(run, other, PEER_LOST)
+                self.assert_goes_on(run, expected)
 
     def test_at_random_moments(self):
         seed = random.randrange(1000)
         print(f"seed {seed}", end=" ")
         chance = random.Random(seed)
         expected = self.undisturbed()
-        for role in trio.ROLES:
-            with self.subTest(role):
-                run = self.run_of_three(end_time=END_TIME, settings=[SOME]).start_all()
-                run.wait_for_checkpoint()
-                time.sleep(chance.uniform(0, 0.2))
-                self.kill_and_go_on(run, role, expected)
+        killed = {role: self.run_of_three(end_time=END_TIME, settings=[SOME]) for role in trio.ROLES}
+        for role, run in killed.items():
+            run.start_all().wait_for_checkpoint()
+            time.sleep(chance.uniform(0, 0.2))
+            run.kill(role)
+        self.assert_each_goes_on(killed, expected)
 
     def test_during_a_checkpoint(self):
         slow = {"FAULT": "slow checkpoint"}
@@ -139,13 +141,14 @@ class Killed(RestartCase):
         self.addCleanup(os.environ.pop, "FAULT")
         settings = ["case.checkpoint_interval=0.03"]
         expected = self.undisturbed(fluid="faulty_fluid", end_time="0.1")
-        for role in trio.ROLES:
-            with self.subTest(role):
-                run = self.run_of_three(fluid="faulty_fluid", end_time="0.1", settings=settings).start_all()
-                newest = run.wait_for_checkpoint()
-                while not (run.out / f"checkpoint/{newest + 1:06}").exists():
-                    time.sleep(0.01)
-                self.kill_and_go_on(run, role, expected)
+        killed = {role: self.run_of_three(fluid="faulty_fluid", end_time="0.1", settings=settings)
+                  for role in trio.ROLES}
+        for role, run in killed.items():
+            newest = run.start_all().wait_for_checkpoint()
+            while not (run.out / f"checkpoint/{newest + 1:06}").exists():
+                time.sleep(0.01)
+            run.kill(role)
+        self.assert_each_goes_on(killed, expected)
 
 
 class Refused(RestartCase):
