@@ -31,11 +31,11 @@ void CoupledRun::run(const CouplingStart& start, const Checkpoints& checkpoints)
   checkpoints_due_ = {checkpoints.interval, checkpoints.every};
   scheme_ = make_scheme(settings_.coupling, port_, start);
   record_.emplace(settings_, start);
-  if (checkpoints.restart.empty()) {
+  if (checkpoints.restart) {
+    read_state(checkpoints.restart->folder);
+  } else {
     state_.time_step_limit = start.traits.time_step_limit;
     record_->begin(start.motion);
-  } else {
-    read_state(checkpoints.restart);
   }
   if (state_.time >= settings_.end_time) {
     log::warn("nothing to compute: the run is at t = {:g} s, and ends at {:g} s", state_.time,

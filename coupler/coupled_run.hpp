@@ -21,9 +21,9 @@ double window_length(double left, int steps, double limit);
 
 /// What a run does about checkpoints.
 struct Checkpoints {
-  double interval = 0, every = 0;      ///< of simulated and of wall time [s]; both 0: there are none
-  std::string case_text = {};          ///< the case as all three use it
-  std::filesystem::path restart = {};  ///< the folder of that from which the run goes on; or empty
+  double interval = 0, every = 0;          ///< of simulated and of wall time [s]; both 0: there are none
+  std::optional<Checkpoint> restart = {};  ///< from which the run goes on
+  std::string case_text = {};              ///< the case as all three use it
   bool wanted() const { return interval > 0 || every > 0; }
 };
 

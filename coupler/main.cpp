@@ -29,45 +29,40 @@ double processor_time() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Checkpoints as the case asks for them, unless a participant cannot write any.
-Checkpoints checkpoints_of(const Scene& scene, const CouplerLink::Partners& partners) {
-  Checkpoints checkpoints{.interval = scene.checkpoint_interval, .every = scene.checkpoint_every};
+/// There are no checkpoints where a participant cannot write any.
+void drop_unless_all_can(Checkpoints& checkpoints, const CouplerLink::Partners& partners) {
   for (const auto* partner : {&partners.fluid, &partners.solid}) {
     if (partner->can_checkpoint || !checkpoints.wanted()) continue;
     log::warn("{} cannot write checkpoints: the run goes on without", partner->program);
-    checkpoints = {};
+    checkpoints.interval = checkpoints.every = 0;
   }
-  return checkpoints;
 }
 
-/// Joins both participants and runs all windows; `restart` is where the run goes on, if it does.
-void run_windows(const Options& options, const CaseFile& file, const Scene& scene, CouplerLink& link,
-                 CoupledRun& run, const std::optional<Checkpoint>& restart, bool windows_repeat) {
-  const auto partners = link.gather({.windows_repeat = windows_repeat, .restart = restart.has_value()});
-  Checkpoints checkpoints = checkpoints_of(scene, partners);
+/// Joins both participants and runs all windows.
+void run_windows(const CaseFile& file, const Settings& settings, Checkpoints checkpoints, CouplerLink& link,
+                 CoupledRun& run) {
+  const auto partners = link.gather(
+      {.windows_repeat = settings.coupling.windows_repeat(), .restart = checkpoints.restart.has_value()});
+  drop_unless_all_can(checkpoints, partners);
   checkpoints.case_text = merge_used_cases({file.used(), partners.fluid.used_case, partners.solid.used_case});
-  if (restart) {
-    check_same_case(*restart, checkpoints.case_text);
-    checkpoints.restart = restart->folder;
+  CouplerLink::Beginning beginning{.checkpoints = checkpoints.wanted()};
+  if (checkpoints.restart) {
+    check_same_case(*checkpoints.restart, checkpoints.case_text);
+    beginning.restart = std::filesystem::relative(checkpoints.restart->folder, settings.out).string();
   }
-  write_atomically(options.out / "used_case.toml", checkpoints.case_text);
-  const std::string name =
-      restart ? std::filesystem::relative(restart->folder, options.out).string() : std::string();
-  run.run(link.begin({.checkpoints = checkpoints.wanted(), .restart = name}), checkpoints);
+  write_atomically(settings.out / "used_case.toml", checkpoints.case_text);
+  run.run(link.begin(beginning), checkpoints);
 }
 
-void run_and_sum_up(const Options& options, const CaseFile& file, const Scene& scene,
-                    const Settings& settings) {
+void run_and_sum_up(const CaseFile& file, const Settings& settings, const Checkpoints& checkpoints) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  std::optional<Checkpoint> restart;
-  if (options.restart) restart = checkpoint_to_restart(options.out);
   Summary summary;
   summary.participant = "coupler";
   summary.provenance = provenance(1);
   CouplerLink link({.role = "coupler",
                     .version = summary.provenance.version,
-                    .out = options.out,
+                    .out = settings.out,
                     .case_hash = file.hash(),
                     .time_limit = settings.coupling.time_limit,
                     .used_case = file.used()});
@@ -78,10 +73,10 @@ void run_and_sum_up(const Options& options, const CaseFile& file, const Scene& s
     run.report(summary);
     summary.exit_code = ending.code;
     summary.last_words = ending.reason;
-    write_summary(options.out, summary);
+    write_summary(settings.out, summary);
   };
   try {
-    run_windows(options, file, scene, link, run, restart, settings.coupling.windows_repeat());
+    run_windows(file, settings, checkpoints, link, run);
     link.stop(ExitCode::done, "");
   } catch (...) {
     const Ending ending = ending_of_exception();
@@ -117,12 +112,15 @@ ExitCode couple(const Options& options) {
   const RunLock lock(options.out);
   claim_folder(options, "coupler");
   copy_references(scene, file, options.out);
-  run_and_sum_up(options, file, scene,
+  Checkpoints checkpoints{.interval = scene.checkpoint_interval, .every = scene.checkpoint_every};
+  if (options.restart) checkpoints.restart = checkpoint_to_restart(options.out);
+  run_and_sum_up(file,
                  {.end_time = scene.end_time,
                   .frame_interval = scene.frame_interval,
                   .series_interval = scene.series_interval,
                   .coupling = coupling,
-                  .out = options.out});
+                  .out = options.out},
+                 checkpoints);
   return ExitCode::done;
 }
 

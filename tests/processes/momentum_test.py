@@ -45,8 +45,8 @@ class MomentumTest(unittest.TestCase):
                 self.assertEqual(code, DONE, text)
             return last_rows(run.out)
 
-    def check(self, felt, *more):
-        """`felt(whole, friction)`: what the solid felt of the impulse between it and the fluid. Returns the rest."""
+    def check(self, applied, *more):
+        """`applied(whole, friction)`: what the solid applied of the impulse between it and the fluid. Returns the rest."""
         fluid, fluid_change, solid, solid_change = self.run_strip(*more)
         rest = []
         for axis, gravity, changes in zip("xy", (0.0, -9.81), zip(fluid_change, solid_change)):
@@ -56,7 +56,7 @@ class MomentumTest(unittest.TestCase):
             outside = [impulse(fluid, "impulse_from_left", axis), impulse(fluid, "impulse_from_walls", axis),
                        impulse(fluid, "impulse_of_gravity", axis), impulse(solid, "impulse_from_clamps", axis),
                        SOLID_MASS * gravity * solid["time[s]"]]
-            rest.append(from_solid - felt(from_solid, friction))
+            rest.append(from_solid - applied(from_solid, friction))
             size = sum(map(abs, outside)) + abs(from_solid)
             off = sum(outside) + rest[-1] - sum(changes)
             print(f"{axis}: off by {abs(off) / size:.1e} of the impulses", end=" ")
@@ -70,8 +70,8 @@ class MomentumTest(unittest.TestCase):
         self.check(lambda whole, friction: whole, "coupling.scheme=serial_implicit")
 
     def test_closes_but_for_pressure_if_the_solid_feels_friction_alone(self):
-        not_felt = self.check(lambda whole, friction: friction, "coupling.loads=['friction']")
-        self.assertLess(not_felt[0], -1e-3)  # the solid holds the water back, though it feels nothing of it
+        not_applied = self.check(lambda whole, friction: friction, "coupling.loads=['friction']")
+        self.assertLess(not_applied[0], -1e-3)  # the solid holds the water back, though it feels nothing of it
 
 
 if __name__ == "__main__":

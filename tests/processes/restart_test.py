@@ -7,6 +7,7 @@ import contextlib
 import os
 import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -88,19 +89,19 @@ class Interrupted(RestartCase):
 
 
 class Solvers(RestartCase):
-    """The strip's case with the real solvers."""
+    """The strip's case with the real solvers, from a checkpoint in the middle."""
 
     def check(self, settings):
-        settings = [*settings, "case.frame_interval=0.002"]
-        run = self.run_of_three(**SOLVERS, end_time="0.008", settings=settings).start_all()
+        settings = [*settings, "case.frame_interval=0.004"]
+        expected = self.undisturbed(settings, **SOLVERS, end_time="0.02")
+        self.assertIn("solid_000005.hdf:VTKHDF/Points", expected)
+        run = self.run_of_three(**SOLVERS, end_time="0.02", settings=[*settings, "case.checkpoint_interval=0.011"])
+        run.start_all()
         self.assert_all_end(run, DONE)
-        expected = run.results()
-        run = self.run_of_three(**SOLVERS, end_time="0.008", settings=settings).start_all()
-        run.wait_until_running(beyond=20)
-        run.signal("solid", signal.SIGINT)
-        self.assert_all_end(run, INTERRUPTED, "--restart goes on from")
-        self.assertLess(self.summary(run)["simulated_time"], 0.008)
+        self.assertEqual(run.results(), expected, "checkpoints change nothing")
+        shutil.rmtree(run.out / f"checkpoint/{run.wait_for_checkpoint():06}")  # that at the end
         self.assert_goes_on(run, expected)
+        self.assertIn("goes on at t = 0.011", (run.out / "log.txt").read_text())
 
     def test_serial(self):
         self.check([])

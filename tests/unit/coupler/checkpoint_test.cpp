@@ -37,8 +37,8 @@ class CheckpointTest : public CoupledRunTest {
   std::map<std::string, double> restart(double until, const Parameters& coupling) {
     renew_sides();
     Checkpoints from = checkpoints_;
-    from.restart = checkpoint_to_restart(folder_.path).folder;
-    sides_.read_checkpoint(from.restart);
+    from.restart = checkpoint_to_restart(folder_.path);
+    sides_.read_checkpoint(from.restart->folder);
     return run(until, coupling, from);
   }
 
