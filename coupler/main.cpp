@@ -72,7 +72,7 @@ void run_and_sum_up(const CaseFile& file, const Settings& settings, const Checkp
     summary.processor_time = processor_time();
     run.report(summary);
     summary.exit_code = ending.code;
-    summary.last_words = ending.reason;
+    summary.end_reason = ending.reason;
     write_summary(settings.out, summary);
   };
   try {

@@ -68,9 +68,9 @@ void RunRecord::count_steps(long steps, double dt) {
   state_.largest_time_step = std::max(state_.largest_time_step, dt);
 }
 
-void RunRecord::finish(ExitCode code, const std::string& last_words, double waiting_time) {
+void RunRecord::finish(ExitCode code, const std::string& end_reason, double waiting_time) {
   summary_.exit_code = code;
-  summary_.last_words = last_words;
+  summary_.end_reason = end_reason;
   summary_.simulated_time = state_.time;
   summary_.steps = state_.steps;
   summary_.smallest_time_step = state_.steps > 0 ? state_.smallest_time_step : 0;

@@ -50,7 +50,7 @@ class RunRecord {
   double time() const { return state_.time; }
 
   /// Writes the summary.
-  void finish(ExitCode code, const std::string& last_words, double waiting_time);
+  void finish(ExitCode code, const std::string& end_reason, double waiting_time);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -80,7 +80,7 @@ struct Summary {
   std::string participant;  ///< "fluid", "solid", "coupler"
   Provenance provenance;
   ExitCode exit_code = ExitCode::done;
-  std::string last_words;  ///< why it ended, if not at the end
+  std::string end_reason;  ///< why it ended, if not at the end
   double simulated_time = 0, wall_time = 0, waiting_time = 0, processor_time = 0;  // [s]
   long steps = 0;
   double smallest_time_step = 0, largest_time_step = 0;  // [s]

@@ -42,7 +42,7 @@ void write_summary(const std::filesystem::path& out, const Summary& summary) {
   };
   line("participant", toml_text(summary.participant));
   line("exit_code", std::to_string(static_cast<int>(summary.exit_code)));
-  line("last_words", toml_text(summary.last_words));
+  line("end_reason", toml_text(summary.end_reason));
   line("simulated_time", toml_float(summary.simulated_time), "s");
   line("wall_time", toml_float(summary.wall_time), "s");
   line("waiting_time", toml_float(summary.waiting_time), "s, of the wall time");

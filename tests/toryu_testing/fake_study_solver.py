@@ -74,7 +74,7 @@ rows = [f"{t},{values['fluid.x'] + values['fluid.y'] * t},0,{300 * values['fluid
                                   '[fluid.removal]\nroughness = { initial = 2e-6, final = 5e-7, decay_depth = 1e-5 }\n')
 (out / "fluid_summary.toml").write_text(f"""participant = "fluid"
 exit_code = {code}
-last_words = "{'particle 7 left the domain' if code else ''}"
+end_reason = "{'particle 7 left the domain' if code else ''}"
 simulated_time = {0.5 if code else END}
 wall_time = 0.5
 waiting_time = 0.0

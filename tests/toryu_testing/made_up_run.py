@@ -96,7 +96,7 @@ def write_series(out, name, columns, ending=".csv"):
 def write_summary(out, participant, exit_code=0, words="", waiting=0.0, end=0.4):
     (out / f"{participant}_summary.toml").write_text(f"""participant = "{participant}"
 exit_code = {exit_code}
-last_words = "{words}"
+end_reason = "{words}"
 simulated_time = {end}
 wall_time = 61.5
 waiting_time = {waiting}

@@ -92,7 +92,7 @@ class Page(unittest.TestCase):
         self.assertEqual([chart["title"] for chart in content["others"]["solid"]],
                          ["energy and work", "momentum", "leaked mass", "displacement"])
 
-    def test_a_failed_run_says_so_with_its_last_words(self):
+    def test_a_failed_run_says_so_with_its_reason(self):
         self.make(end=0.2, frames=2)
         made_up_run.write_summary(self.out, "fluid", 3, "particle 7 left the <domain>")
         page = self.page()

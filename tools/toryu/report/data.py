@@ -28,12 +28,12 @@ def used_case(case, out, coupler):
 
 
 def state(summaries, exit_code, words):
-    """Exit code and last words of the run: as the launcher saw them, else as the participants left them."""
+    """Exit code of the run and its reason: as the launcher saw them, else as the participants left them."""
     if exit_code is None:
         left = [s["exit_code"] for s in summaries.values()]
         exit_code = min(left, key=lambda c: CAUSE_FIRST.index(c) if c in CAUSE_FIRST else 0) if left else BUG
-        words = words or "; ".join(dict.fromkeys(s["last_words"] for s in summaries.values()
-                                                 if s["exit_code"] == exit_code and s["last_words"]))
+        words = words or "; ".join(dict.fromkeys(s["end_reason"] for s in summaries.values()
+                                                 if s["exit_code"] == exit_code and s.get("end_reason")))
         if not left:
             words = "no participant left a summary"
     return {"code": exit_code, "meaning": MEANING.get(exit_code, f"Exit code {exit_code}"), "words": words}

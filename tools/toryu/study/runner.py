@@ -92,9 +92,9 @@ def prepare(folder, may_go_on):
 
 
 def cause_of(folder, code):
-    """Why a run ended so: the last words of who failed, else the errors that were printed."""
-    words = [s["last_words"] for s in results.read_summaries(folder).values()
-             if s.get("exit_code") == code and s.get("last_words")]
+    """Why a run ended so: the reason that who failed gave, else the errors that were printed."""
+    words = [s["end_reason"] for s in results.read_summaries(folder).values()
+             if s.get("exit_code") == code and s.get("end_reason")]
     printed = (folder / OUTPUT).read_text(encoding="utf-8", errors="replace").splitlines()
     return "; ".join(dict.fromkeys(words or [line.strip() for line in printed if re.search(r"\berror\b", line)]
                                    or printed[-1:]))

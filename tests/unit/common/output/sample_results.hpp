@@ -22,7 +22,7 @@ inline Summary summary() {
   s.participant = "fluid";
   s.provenance = provenance;
   s.exit_code = ExitCode::physics_failed;
-  s.last_words = "particle 7: \"speed\" = 1e3\n\tbeyond C:\\limit \x01";
+  s.end_reason = "particle 7: \"speed\" = 1e3\n\tbeyond C:\\limit \x01";
   s.simulated_time = 2;
   s.wall_time = 1e-7;
   s.waiting_time = 0.25;

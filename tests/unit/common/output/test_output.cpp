@@ -107,7 +107,7 @@ TEST_F(Output, TheSummaryEscapesTextAndKeepsFloatsFloats) {
   const std::string summary = text("fluid_summary.toml");
   EXPECT_THAT(summary, HasSubstr("exit_code = 3\n"));
   EXPECT_THAT(summary,
-              HasSubstr(R"(last_words = "particle 7: \"speed\" = 1e3\n\u0009beyond C:\\limit \u0001")"));
+              HasSubstr(R"(end_reason = "particle 7: \"speed\" = 1e3\n\u0009beyond C:\\limit \u0001")"));
   EXPECT_THAT(summary, HasSubstr("simulated_time = 2.0  # s\n"));
   EXPECT_THAT(summary, HasSubstr("\"wall tank_floor\" = 320\n"));
   EXPECT_THAT(summary, HasSubstr("smallest_time_step = inf"));

@@ -85,7 +85,7 @@ class Results(unittest.TestCase):
 
     def test_summary_is_toml(self):
         summary = tomllib.loads((self.out / "fluid_summary.toml").read_text())
-        self.assertEqual(summary["last_words"], 'particle 7: "speed" = 1e3\n\tbeyond C:\\limit \x01')
+        self.assertEqual(summary["end_reason"], 'particle 7: "speed" = 1e3\n\tbeyond C:\\limit \x01')
         self.assertEqual(summary["particles"], {"fluid": 3, "wall tank_floor": 320})
         self.assertEqual(summary["figures"], {"largest_impulse_error": 1.5e-16, "windows": 40.0})
         self.assertEqual([t["name"] for t in summary["term"]], ["gravity", "pressure"])
