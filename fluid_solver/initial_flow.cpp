@@ -5,6 +5,8 @@
 
 namespace toryu::fluid {
 
+static_assert(dim == 2, "the flows are those of the plane");
+
 namespace {
 
 constexpr double pi = std::numbers::pi;

@@ -7,6 +7,8 @@
 
 namespace toryu::fluid {
 
+static_assert(dim == 2, "columns have the components of the plane");
+
 void FluidModel::fail(std::size_t i, double time, const std::string& quantity, double value,
                       const std::string& limit) const {
   throw PhysicsFailure("fluid", state_.fluid.id[i], time, quantity, fmt::format("{:.6g}", value), limit);

@@ -7,6 +7,8 @@
 
 namespace toryu::fluid {
 
+static_assert(dim == 2, "voids are looked for column by column of the plane");
+
 namespace {
 
 /// Share of the square of side `side` about `x` that lies in the box.

@@ -10,6 +10,8 @@
 
 namespace toryu::fluid {
 
+static_assert(dim == 2, "thickness is that along x and y");
+
 namespace {
 
 constexpr int least_thin_particles = 16;

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <unordered_map>
+
+#include "common/scene/occupancy_index.hpp"
 
 namespace toryu::solid {
 
@@ -15,32 +16,6 @@ namespace {
 
 /// How far a fitted spacing may be from the stated one.
 constexpr double largest_misfit = 0.1;
-
-/// Finds particles by place: squares of the lattice's size.
-class PlaceIndex {
- public:
-  PlaceIndex(const std::vector<Vec>& X, double size) : X_(X), size_(size) {
-    for (std::size_t i = 0; i < X.size(); ++i) squares_[key(square(X[i][0]), square(X[i][1]))].push_back(i);
-  }
-  /// Whether a particle lies closer than `distance` (at most the size of a square) to `x`, in each direction.
-  bool occupied(const Vec& x, double distance) const {
-    for (long a = -1; a <= 1; ++a)
-      for (long b = -1; b <= 1; ++b) {
-        const auto found = squares_.find(key(square(x[0]) + a, square(x[1]) + b));
-        if (found == squares_.end()) continue;
-        for (const std::size_t j : found->second)
-          if ((X_[j] - x).lpNorm<Eigen::Infinity>() < distance) return true;
-      }
-    return false;
-  }
-
- private:
-  long square(double x) const { return std::lround(x / size_); }
-  static std::int64_t key(long a, long b) { return (static_cast<std::int64_t>(a) << 32) ^ (b & 0xffffffff); }
-  const std::vector<Vec>& X_;
-  double size_;
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> squares_;
-};
 
 /// Number of cells along a side; 0, told as a fault, if they do not fill it.
 long cells(const Region& region, int axis, double spacing, const TellFault& tell_fault) {
@@ -89,15 +64,16 @@ bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std:
 }
 
 void find_surface(Body& body) {
-  const PlaceIndex places(body.X, body.spacing);
+  // Half a spacing and a little: where regions meet, their columns need not face each other.
+  OccupancyIndex places(0.6 * body.spacing);
+  places.take(body.X, "");
   body.area_vector.assign(body.size(), Vec::Zero());
   for (std::size_t i = 0; i < body.size(); ++i)
     for (int axis = 0; axis < dim; ++axis)
       for (const double side : {-1.0, 1.0}) {
         const Vec normal = side * Vec::Unit(axis);
         const Vec site = body.X[i] + body.cell[i][axis] * normal;
-        // Half a spacing and a little: where regions meet, their columns need not face each other.
-        if (places.occupied(site, 0.6 * body.spacing)) continue;
+        if (places.taken(site)) continue;
         body.area_vector[i] += body.volume(i) / body.cell[i][axis] * normal;
         body.outside.push_back(site);
       }

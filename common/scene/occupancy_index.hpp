@@ -11,6 +11,8 @@
 
 namespace toryu {
 
+static_assert(dim == 2, "cells of the plane");
+
 struct Overlap {
   Vec place;         ///< of the particle that is too near to another [m]
   std::string with;  ///< the body that was there first

@@ -11,6 +11,7 @@ constexpr std::size_t clusters_per_block = 64;
 /// Appends the sources within `reach` of any of the `lane_count` targets at `x_i`.
 void collect(const VecLanes& x_i, const VecField& sources, const StripOrder& strips, double reach,
              std::vector<std::uint32_t>& found) {
+  static_assert(dim == 2, "boxes and distances of the plane");
   strips.in_box(sources[1], smallest_of(x_i[0]) - reach, largest_of(x_i[0]) + reach,
                 smallest_of(x_i[1]) - reach, largest_of(x_i[1]) + reach,
                 [&](std::size_t begin, std::size_t end) {

@@ -6,8 +6,11 @@
 #include <variant>
 
 #include "common/sph/lanes.hpp"
+#include "common/vector.hpp"
 
 namespace toryu {
+
+static_assert(dim == 2, "the kernels are normalised for two dimensions");
 
 /// Monaghan & Lattanzio (1985); thesis eq. 10-11:
 ///

@@ -9,6 +9,8 @@
 
 namespace toryu {
 
+static_assert(dim == 2, "points are sorted into strips of the plane");
+
 class SortedPoints {
  public:
   /// `reach` [m] is about how far `near` will look.

@@ -8,7 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "common/vector.hpp"
+
 namespace toryu {
+
+static_assert(dim == 2, "strips lie side by side in a plane; in space they would be columns");
 
 class StripOrder {
  public:

@@ -14,6 +14,8 @@
 
 namespace toryu::fluid {
 
+static_assert(dim == 2, "the effective viscosity is a sum over a lattice of the plane");
+
 struct ArtificialViscosity {
   static constexpr const char* section = "artificial_viscosity";
   static constexpr const char* help = "between approaching pairs (Monaghan 1992)";

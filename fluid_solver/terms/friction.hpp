@@ -32,6 +32,8 @@
 
 namespace toryu::fluid {
 
+static_assert(dim == 2, "the share as printed is a sum over a lattice of the plane");
+
 /// What the length d_s of (33) is: see terms/friction.hpp.
 enum class FrictionForm { normalised, as_printed };
 struct Friction {
