@@ -1,5 +1,5 @@
-/// Guards: what lies beyond an edge of stability that a map has found is said when a case is read, with the
-/// name of the map.
+/// Stability warnings: what lies beyond an edge of stability that a map has found is said when a case is
+/// read, with the name of the map.
 #pragma once
 
 #include <optional>

@@ -38,7 +38,7 @@ struct Frame {
 struct ActiveTerm {
   std::string name;        ///< "artificial viscosity"
   std::string formula;     ///< plain text, the paper's symbols
-  std::string source;      ///< "Monaghan 1992, eq. 23-24"
+  std::string source;      ///< "Monaghan 1992; thesis eq. 23-24"
   std::string parameters;  ///< "alpha 0.02, beta 0; effective kinematic viscosity 1.3e-6 m2/s"
 };
 

@@ -55,7 +55,7 @@ inline double effective_kinematic_viscosity(double alpha, double h, double c_0) 
 
 inline ActiveTerm text(const ArtificialViscosity& viscosity, const Medium& medium) {
   return {
-      "artificial viscosity", "- sum_j m_j Pi_ij gradW_ij", "Monaghan 1992, eq. 23-24",
+      "artificial viscosity", "- sum_j m_j Pi_ij gradW_ij", "Monaghan 1992; thesis eq. 23-24",
       fmt::format("alpha {}, beta {}; acts like a kinematic viscosity of {:.3g} m2/s", viscosity.alpha,
                   viscosity.beta, effective_kinematic_viscosity(viscosity.alpha, medium.h(), medium.c_0))};
 }

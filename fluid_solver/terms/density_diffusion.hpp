@@ -50,7 +50,7 @@ struct DensityDiffusionTerm {
 
 inline ActiveTerm text(const DensityDiffusion& diffusion, const Medium&) {
   return {"density diffusion", "delta h c_0 sum_j V_j psi_ij . gradW_ij",
-          diffusion.gradient == DiffusionGradient::renormalised ? "Marrone et al. 2011, eq. 18-21"
+          diffusion.gradient == DiffusionGradient::renormalised ? "Marrone et al. 2011; thesis eq. 18-21"
                                                                 : "Molteni & Colagrossi 2009",
           fmt::format("delta {}", diffusion.delta)};
 }

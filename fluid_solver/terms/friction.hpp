@@ -101,7 +101,8 @@ inline ActiveTerm text(const Friction& friction, const Medium& medium) {
           ? "normalised: a plane interface transmits mu_A p"
           : fmt::format("as printed: a plane interface transmits only about {:.2f} mu_A p at h = {:.4g} d_0",
                         printed_share(medium.kernel, medium.d_0), medium.h() / medium.d_0);
-  return {"friction", "F_s = mu_A sum_f V_f max(p_f, 0) d_s v_fs/sqrt(v_fs^2 + eps^2) W_sf", "eq. 33, mended",
+  return {"friction", "F_s = mu_A sum_f V_f max(p_f, 0) d_s v_fs/sqrt(v_fs^2 + eps^2) W_sf",
+          "Kato's thesis, eq. 33, mended",
           fmt::format("mu_A {}, eps {} m/s, {}", friction.coefficient, eps, transmitted)};
 }
 

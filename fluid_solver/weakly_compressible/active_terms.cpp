@@ -12,13 +12,15 @@ using Texts = std::vector<ActiveTerm>;
 
 void add_medium(Texts& texts, const Parameters& p, const EquationOfState& state) {
   texts.push_back({"equation of state", "p = rho_0 c_0^2/gamma [(rho/rho_0)^gamma - 1]",
-                   "Monaghan 1994, eq. 3",
+                   "Monaghan 1994; thesis eq. 3",
                    fmt::format("rho_0 {} kg/m3, c_0 {} m/s, gamma {}", state.rho_0, state.c_0, state.gamma)});
-  texts.push_back({"continuity", "Drho_i/Dt = rho_i sum_j V_j v_ij . gradW_ij", "eq. 18",
+  texts.push_back({"continuity", "Drho_i/Dt = rho_i sum_j V_j v_ij . gradW_ij",
+                   "Monaghan 1994; thesis eq. 18",
                    fmt::format("{}, h = {:.4g} m = {} d_0",
                                p.kernel == KernelForm::wendland_c2 ? "Wendland C2" : "cubic spline", p.h(),
                                p.smoothing_ratio)});
-  texts.push_back({"pressure", "- sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2) gradW_ij", "eq. 22", ""});
+  texts.push_back(
+      {"pressure", "- sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2) gradW_ij", "Monaghan 1992; thesis eq. 22", ""});
 }
 
 }  // namespace
@@ -31,7 +33,8 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
       if (term) texts.push_back(text(*term, medium_));
   });
   texts.push_back(
-      {"walls", "pressure and velocity extrapolated from the fluid", "Adami, Hu & Adams 2012, eq. 27-29",
+      {"walls", "pressure and velocity extrapolated from the fluid",
+       "Adami, Hu & Adams 2012; thesis eq. 27-29",
        fmt::format("{}{}", parameters_.wall_model.slip == WallSlip::no_slip ? "no slip" : "free slip",
                    parameters_.wall_model.suction ? "" : ", no suction")});
   if (const Vec& g = body_force_.gravity; g.norm() > 0)

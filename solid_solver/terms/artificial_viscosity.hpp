@@ -17,8 +17,10 @@ struct ArtificialViscosity {
   double beta = 1.0;
 };
 inline void describe(ParameterTable& table, ArtificialViscosity& p) {
-  table.number("alpha", p.alpha, {.minimum = 0, .maximum = 10, .help = "linear coefficient A of (23)"});
-  table.number("beta", p.beta, {.minimum = 0, .maximum = 10, .help = "quadratic coefficient B of (23)"});
+  table.number("alpha", p.alpha,
+               {.minimum = 0, .maximum = 10, .help = "linear coefficient A (Monaghan 1992)"});
+  table.number("beta", p.beta,
+               {.minimum = 0, .maximum = 10, .help = "quadratic coefficient B (Monaghan 1992)"});
 }
 
 /// The term as the pair loop needs it.

@@ -288,7 +288,7 @@ std::vector<ActiveTerm> UpdatedLagrangian::active_terms() const {
       {"updated Lagrangian stress",
        renormalised ? "Dv_i/Dt = sum_j m_j (sigma_i L_i/rho_i^2 + sigma_j L_j/rho_j^2) gradW_ij"
                     : "Dv_i/Dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2) gradW_ij",
-       "thesis eq. 22",
+       "Monaghan 1992; thesis eq. 22",
        fmt::format("h {:g} m, {}", parameters_.h(),
                    parameters_.integrator == Integrator::midpoint ? "midpoint steps of two evaluations"
                                                                   : "symplectic steps of one evaluation")});
