@@ -16,7 +16,7 @@ import sys
 
 from toryu import PROGRAMS, results, summary_text
 from toryu.folder_lock import FolderTaken, lock_folder
-from toryu.processes import BAD_INPUT, BUG, DONE, Run, says_yes
+from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED, Run, says_yes
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
 ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
@@ -245,7 +245,8 @@ def main(arguments):
         if words:
             print(words, file=sys.stderr)
         reported = report(options, content, code, words)
-        if code not in (DONE, BAD_INPUT) and newest_checkpoint(options.out):
+        # a restart repeats a failure of physics
+        if code not in (DONE, BAD_INPUT, PHYSICS_FAILED) and newest_checkpoint(options.out):
             print(f"go on with: {go_on_with(arguments, options)}")
     return code or (DONE if reported else BUG)
 

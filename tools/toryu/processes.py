@@ -32,6 +32,12 @@ PR_SET_PDEATHSIG = 1
 libc = ctypes.CDLL(None, use_errno=True)
 
 
+def requests_to_end():
+    """The signals that ask a run to end; under nohup it outlives its terminal."""
+    ignored = signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+    return (signal.SIGINT, signal.SIGTERM) if ignored else (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
 def start(command, stream, environment=None):
     """Starts a process in a group of its own that is asked to end if this one dies. `stream` takes what it says."""
     parent = os.getpid()
@@ -216,7 +222,7 @@ class Run:
         for end in (reader, writer):
             os.set_blocking(end, False)
         old_wakeup = signal.set_wakeup_fd(writer)
-        handlers = {n: signal.signal(n, lambda *_: None) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+        handlers = {n: signal.signal(n, lambda *_: None) for n in requests_to_end()}
         self.selector.register(reader, selectors.EVENT_READ, lambda: self._interrupted(reader))
         return reader, writer, old_wakeup, handlers
 

@@ -80,7 +80,7 @@ class HowToGoOn(Launch):
         return "go on with: " + shlex.join(["./run.sh", *self.command(*options)[3:]])
 
     def test_a_run_that_failed_says_how(self):
-        for code in (3, 4, 1):
+        for code in (4, 1):
             self.plan(fluid=f"checkpoint 000001; say fluid_solver: error: so; end {code}")
             self.assertEqual(self.last_line("--overwrite", "--set=a.b=two words"),
                              self.command_to_go_on("--set=a.b=two words", "--restart"))
@@ -90,14 +90,28 @@ class HowToGoOn(Launch):
         self.assertEqual(self.last_line(), self.command_to_go_on("--restart"))
 
     def test_a_run_that_went_on_before_says_the_same_again(self):
-        self.plan(fluid="checkpoint 000001; end 3")
+        self.plan(fluid="checkpoint 000001; end 4")
         self.launch()
         self.assertEqual(self.last_line("--restart"), self.command_to_go_on("--restart"))
 
     def test_a_run_that_is_done_or_has_no_checkpoint_says_nothing_of_it(self):
-        for plan in ("checkpoint 000001", "checkpoint 000001; end 2", "end 3"):
+        for plan in ("checkpoint 000001", "checkpoint 000001; end 2", "end 4"):
             self.plan(fluid=plan)
             self.assertNotIn("go on with", self.launch().stdout, plan)
+
+    def test_a_failure_of_physics_would_only_be_repeated(self):
+        self.plan(fluid="checkpoint 000001; end 3")
+        self.assertNotIn("go on with", self.launch().stdout)
+
+
+class WithoutATerminal(Launch):
+    def test_under_nohup_a_run_outlives_it(self):
+        self.plan(*["ready; wait 2"] * 3)
+        process = subprocess.Popen(["nohup", *self.command()], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.wait_for(self.started)
+        process.send_signal(signal.SIGHUP)
+        words = process.communicate(timeout=30)[1]
+        self.assertEqual(process.returncode, 0, words)
 
 
 class LastCheckpoint(Launch):

@@ -13,7 +13,8 @@ from dataclasses import asdict, dataclass, field
 
 from toryu import results
 from toryu.folder_lock import FolderTaken, lock_folder
-from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, start
+from toryu.processes import (BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED,
+                             requests_to_end, start)
 from toryu.results_folder import newest_checkpoint
 from toryu.study import timing
 
@@ -142,7 +143,7 @@ class Runner:
         records = self.done(settings)
         waiting = [s for s in settings if s.key not in records]
         self.progress.begin(len(settings), [r.elapsed for r in records.values()], self.jobs)
-        old = {n: signal.signal(n, self._interrupted) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+        old = {n: signal.signal(n, self._interrupted) for n in requests_to_end()}
         try:
             while waiting or self.running:
                 if self.interruptions and not self.running:
