@@ -86,7 +86,8 @@ std::size_t HdfSeriesFile::row_size() const {
 }
 
 HdfSeriesFile::~HdfSeriesFile() {
-  const bool whole = !spool_ || std::fclose(spool_) == 0;
+  if (!spool_) return;  // nothing was written, and what an earlier run left stays
+  const bool whole = std::fclose(spool_) == 0;
   std::error_code failure;
   try {
     std::ifstream rows(rows_path(), std::ios::binary);
@@ -104,7 +105,7 @@ HdfSeriesFile::~HdfSeriesFile() {
 /// The file from what is known of it and its rows, as many as are whole.
 void HdfSeriesFile::write_all(std::ifstream& rows) const {
   const HdfHandle file(H5Fcreate((path_.string() + ".part").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Fclose, path_.string());
+                       H5Fclose, fmt::format("write '{}.part'", path_.string()));
   for (const auto& c : constants_)
     write_constant(file, c.name, c.numbers.empty() ? H5T_NATIVE_UINT32 : H5T_NATIVE_DOUBLE, c.shape,
                    c.numbers.empty() ? static_cast<const void*>(c.integers.data()) : c.numbers.data(), c.unit,
@@ -174,9 +175,14 @@ HdfSeriesFile::State HdfSeriesFile::state() {
 
 void HdfSeriesFile::resume(const State& then) {
   if (then.rows == 0) return;
-  if (!std::filesystem::exists(rows_path())) read_back(then.rows);
+  const auto wanted = then.rows * row_size();
   std::error_code failure;
-  const auto size = std::filesystem::file_size(rows_path(), failure), wanted = then.rows * row_size();
+  auto size = std::filesystem::file_size(rows_path(), failure);
+  // Rows that are too few are left of a restart that did not get beyond reading them back.
+  if (failure || (size < wanted && std::filesystem::exists(path_))) {
+    read_back(then.rows);
+    size = std::filesystem::file_size(rows_path(), failure);
+  }
   if (failure || size < wanted)
     throw BadInput(
         {{.place = rows_path().string(),
@@ -190,13 +196,19 @@ void HdfSeriesFile::resume(const State& then) {
 /// The rows of a file that was completed.
 void HdfSeriesFile::read_back(std::uint64_t rows) const {
   const auto missing = [&](const std::string& what) {
+    std::error_code ignored;
+    std::filesystem::remove(rows_path(), ignored);
     throw BadInput({{.place = path_.string(), .message = "cannot go on: " + what}});
   };
   if (!std::filesystem::exists(path_)) missing("there is no such file");
-  const HdfHandle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path_.string());
+  const hid_t opened = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (opened < 0) missing("it is no HDF5 file, or not whole");
+  const HdfHandle file(opened, H5Fclose, "read it");
   std::vector<HdfHandle> datasets;
-  for (const auto& series : series_)
+  for (const auto& series : series_) {
+    if (H5Lexists(file, series.name.c_str(), H5P_DEFAULT) <= 0) missing("it has no " + series.name);
     datasets.emplace_back(H5Dopen2(file, series.name.c_str(), H5P_DEFAULT), H5Dclose, series.name);
+  }
   std::ofstream spool(rows_path(), std::ios::binary | std::ios::trunc);
   std::vector<double> row(row_size() / sizeof(double));
   for (hsize_t n = 0; n < rows; ++n) {

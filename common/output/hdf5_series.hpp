@@ -1,7 +1,8 @@
 /// An HDF5 file of a run: datasets known at the start, and series that gain a row at a time. A program that
 /// is killed may leave an HDF5 file that cannot be read, so rows go to `PATH.rows.part` one after the other
 /// first. The file is made of them at the end of its life, however the run ended, as `PATH.part`, and gets
-/// its name when it is complete; then the rows are removed. A later program can go on from any row.
+/// its name when it is complete; then the rows are removed. A later program can go on from any row. Without
+/// a row there is no file, and one that is there stays.
 #pragma once
 
 #include <cstdio>

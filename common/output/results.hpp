@@ -50,7 +50,7 @@ class SeriesWriter {
  public:
   struct State {
     std::vector<std::string> columns;
-    std::uint64_t size = 0;  ///< of the file [bytes]
+    std::uint64_t rows = 0;
   };
 
   SeriesWriter(const std::filesystem::path& out, const std::string& name);
@@ -60,8 +60,8 @@ class SeriesWriter {
   /// How far the series is; all of it is on the disk then. Throws std::runtime_error if that fails.
   State state();
   /// Goes on from `then`: what the file holds beyond is cut off. Rows may have other columns from now on: new
-  /// ones are `nan` in the rows before, and what is no longer observed is `nan` in the rows to come. Throws
-  /// BadInput if the file is missing or shorter.
+  /// ones are `nan` in the rows before, and what is no longer observed is `nan` in the rows to come. The file
+  /// may have got columns since `then`: they stay. Throws BadInput if the file is missing or shorter.
   void resume(const State& then);
 
  private:
@@ -71,8 +71,8 @@ class SeriesWriter {
 
 template <class Archive>
 void serialize(Archive& archive, SeriesWriter::State& state) {
-  auto& [columns, size] = state;
-  archive(columns, size);
+  auto& [columns, rows] = state;
+  archive(columns, rows);
 }
 
 /// `NAME_summary.toml`: what ran, how long, where the time went, which terms were active.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/output/atomic_file.hpp"
@@ -15,6 +16,14 @@ namespace toryu {
 
 namespace {
 using Clock = std::chrono::steady_clock;
+
+std::vector<std::string> columns_of(const std::string& head) {
+  std::vector<std::string> columns;
+  std::istringstream cells(head);
+  for (std::string cell; std::getline(cells, cell, ',');) columns.push_back(cell);
+  return columns;
+}
+
 constexpr auto flush_interval = std::chrono::milliseconds(200);  // what a person watching takes for "now"
 }  // namespace
 
@@ -22,6 +31,7 @@ struct SeriesWriter::File {
   std::filesystem::path path, temporary;
   std::ofstream stream;
   std::vector<std::string> columns;
+  std::uint64_t rows = 0;
   /// Which value of a row stands in each column behind the time, -1 for none: after a restart with other
   /// observers. Empty: one after the other.
   std::vector<int> order;
@@ -104,6 +114,7 @@ void SeriesWriter::write(double time, const std::vector<Observation>& row) {
   for (const int k : file_->order)
     line += k < 0 ? ",nan" : fmt::format(",{}", row[static_cast<std::size_t>(k)].value);
   file_->stream << line << '\n';
+  ++file_->rows;
   if (const auto now = Clock::now(); now - file_->flushed > flush_interval) {
     file_->stream.flush();
     file_->flushed = now;
@@ -116,7 +127,7 @@ SeriesWriter::State SeriesWriter::state() {
   file_->stream.flush();
   file_->must_be_good();
   synchronise(file_->temporary);
-  return {file_->columns, std::filesystem::file_size(file_->temporary)};
+  return {file_->columns, file_->rows};
 }
 
 void SeriesWriter::resume(const State& then) {
@@ -124,15 +135,25 @@ void SeriesWriter::resume(const State& then) {
   std::error_code failure;
   if (!std::filesystem::exists(file_->temporary))
     std::filesystem::rename(file_->path, file_->temporary, failure);
-  const auto size = std::filesystem::file_size(file_->temporary, failure);
-  if (failure || size < then.size)
-    throw BadInput({{.place = file_->temporary.string(),
-                     .message = failure ? "cannot go on: " + failure.message()
-                                        : fmt::format("cannot go on: it has {} bytes, and had {} at the "
-                                                      "checkpoint",
-                                                      size, then.size)}});
-  std::filesystem::resize_file(file_->temporary, then.size);
-  file_->columns = then.columns;
+  const auto refuse = [&](const std::string& why) {
+    throw BadInput({{.place = file_->temporary.string(), .message = "cannot go on: " + why}});
+  };
+  if (failure) refuse(failure.message());
+  std::ifstream file(file_->temporary, std::ios::binary);
+  std::string line;
+  if (!file) refuse(std::strerror(errno));
+  std::uintmax_t size = 0;
+  const auto next = [&] {
+    const bool whole = std::getline(file, line) && !file.eof();
+    if (whole) size += line.size() + 1;
+    return whole;
+  };
+  if (!next()) refuse("it has no head");
+  file_->columns = columns_of(line);
+  for (; file_->rows < then.rows; ++file_->rows)
+    if (!next()) refuse(fmt::format("it has {} rows, and had {} at the checkpoint", file_->rows, then.rows));
+  file.close();
+  std::filesystem::resize_file(file_->temporary, size);
   file_->resumed = true;
   file_->open(std::ios::app);
 }

@@ -5,7 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/output/hdf5_file.hpp"
+#include "common/error/failure.hpp"
+#include "common/output/hdf5_series.hpp"
 #include "common/run/provenance.hpp"
 #include "tests/unit/common/output/sample_results.hpp"
 
@@ -100,6 +101,92 @@ TEST_F(Output, ARowOfAnotherLengthIsABug) {
   SeriesWriter series(out, "solid");
   series.write(0.0, {{"tip_x", "m", 0.1}});
   EXPECT_THROW(series.write(0.1, {}), std::logic_error);
+}
+
+TEST_F(Output, ASeriesThatGotColumnsSinceACheckpointGoesOnFromItAllTheSame) {
+  SeriesWriter::State then;
+  {
+    SeriesWriter series(out, "solid");
+    series.write(0.0, {{"a", "m", 1}});
+    series.write(0.1, {{"a", "m", 2}});
+    then = series.state();
+    series.write(0.2, {{"a", "m", 3}});
+  }
+  for (int k = 0; k < 2; ++k) {  // the second time as after a kill before the next checkpoint
+    SeriesWriter series(out, "solid");
+    series.resume(then);
+    series.write(0.2, {{"b", "m", 5}, {"a", "m", 4}});
+  }
+  EXPECT_EQ(text("solid.csv"), "time[s],a[m],b[m]\n0,1,nan\n0.1,2,nan\n0.2,4,5\n");
+  {
+    SeriesWriter series(out, "solid");
+    series.resume(then);
+    series.write(0.2, {{"a", "m", 4}});
+  }
+  EXPECT_EQ(text("solid.csv"), "time[s],a[m],b[m]\n0,1,nan\n0.1,2,nan\n0.2,4,nan\n");
+}
+
+TEST_F(Output, ASeriesThatLacksRowsIsNotGoneOnWith) {
+  SeriesWriter::State then;
+  {
+    SeriesWriter series(out, "solid");
+    series.write(0.0, {{"a", "m", 1}});
+    series.write(0.1, {{"a", "m", 2}});
+    then = series.state();
+  }
+  std::ofstream(out / "solid.csv", std::ios::trunc) << "time[s],a[m]\n0,1\n0.1";
+  SeriesWriter series(out, "solid");
+  EXPECT_THAT([&] { series.resume(then); },
+              testing::ThrowsMessage<BadInput>(HasSubstr("it has 1 rows, and had 2 at the checkpoint")));
+}
+
+/// A series file in HDF5 of numbers 0, 1, 2, ...
+struct Numbers {
+  explicit Numbers(const fs::path& path) : file(path) { file.series("x", "m", {}); }
+  void append(std::initializer_list<double> values) {
+    for (const double& x : values) file.append({&x});
+  }
+  HdfSeriesFile file;
+};
+
+std::vector<double> numbers_in(const fs::path& path) {
+  const HdfHandle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "file");
+  const HdfHandle dataset(H5Dopen2(file, "x", H5P_DEFAULT), H5Dclose, "x");
+  const HdfHandle space(H5Dget_space(dataset), H5Sclose, "x");
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  return values;
+}
+
+TEST_F(Output, AnHdfSeriesThatIsNotGoneOnWithStaysAsItIs) {
+  const fs::path path = out / "a.h5";
+  Numbers(path).append({0, 1, 2});
+  { Numbers refused(path); }
+  EXPECT_THAT(numbers_in(path), ElementsAre(0, 1, 2));
+  EXPECT_THAT(files(), ElementsAre("a.h5"));
+}
+
+TEST_F(Output, AnHdfSeriesGoesOnWhereReadingItBackWasCutShort) {
+  const fs::path path = out / "a.h5";
+  Numbers(path).append({0, 1, 2});
+  std::ofstream(out / "a.h5.rows.part") << "half";
+  {
+    Numbers numbers(path);
+    numbers.file.resume({2});
+    numbers.append({7});
+  }
+  EXPECT_THAT(numbers_in(path), ElementsAre(0, 1, 7));
+  Numbers more(path);
+  EXPECT_THAT([&] { more.file.resume({4}); },
+              testing::ThrowsMessage<BadInput>(HasSubstr("it has less than 4 rows")));
+  EXPECT_THAT(files(), ElementsAre("a.h5"));
+}
+
+TEST_F(Output, AnHdfSeriesThatIsDamagedIsNotGoneOnWith) {
+  std::ofstream(out / "a.h5") << "no HDF5";
+  Numbers numbers(out / "a.h5");
+  EXPECT_THAT([&] { numbers.file.resume({1}); },
+              testing::ThrowsMessage<BadInput>(HasSubstr("cannot go on: it is no HDF5 file")));
 }
 
 TEST_F(Output, TheSummaryEscapesTextAndKeepsFloatsFloats) {
