@@ -97,6 +97,17 @@ std::vector<std::pair<long, fs::path>> checkpoints(const fs::path& out, bool who
   return found;
 }
 
+/// Refuses a checkpoint of which `path` is damaged; says so if there is an older one.
+[[noreturn]] void refuse_damaged(const fs::path& path, const std::string& how) {
+  const fs::path folder = path.parent_path();
+  const auto whole = checkpoints(folder.parent_path().parent_path(), true);
+  refuse(path, fmt::format(
+                   "is damaged: {}{}", how,
+                   whole.size() < 2
+                       ? ""
+                       : fmt::format("; remove {} to go on from the checkpoint before it", folder.string())));
+}
+
 /// Every value of a case by its dotted key.
 void flatten(const toml::node& node, const std::string& key, std::map<std::string, std::string>& found) {
   if (const auto* table = node.as_table()) {
@@ -108,7 +119,10 @@ void flatten(const toml::node& node, const std::string& key, std::map<std::strin
   } else {
     std::ostringstream text;
     node.visit([&](const auto& value) {
-      if constexpr (toml::is_array<decltype(value)> || toml::is_value<decltype(value)>) text << value;
+      if constexpr (toml::is_floating_point<decltype(value)>)
+        text << fmt::format("{}", value.get());
+      else if constexpr (toml::is_array<decltype(value)> || toml::is_value<decltype(value)>)
+        text << value;
     });
     found[key] = text.str();
   }
@@ -134,11 +148,14 @@ std::optional<Checkpoint> newest_checkpoint(const fs::path& out) {
   try {
     const toml::table manifest = toml::parse_file(path.string());
     Checkpoint found{folder, {number, manifest["time"].value<double>().value(), {}}};
-    for (const auto& part : *manifest["parts"].as_array())
-      found.manifest.parts.push_back(part.value<std::string>().value());
+    const toml::array* parts = manifest["parts"].as_array();
+    if (!parts) throw std::bad_optional_access();
+    for (const auto& part : *parts) found.manifest.parts.push_back(part.value<std::string>().value());
     return found;
+  } catch (const std::bad_optional_access&) {
+    refuse_damaged(path, "it takes 'time', a number, and 'parts', a list of texts");
   } catch (const std::exception& failure) {
-    refuse(path, fmt::format("is no manifest of a checkpoint: {}", failure.what()));
+    refuse_damaged(path, failure.what());
   }
 }
 
@@ -196,7 +213,8 @@ void complete_checkpoint(const fs::path& folder, double time, const std::string&
 }
 
 void abandon_checkpoint(const fs::path& folder) noexcept {
-  std::error_code ignored;  // the manifest first: what is half removed must not look whole
+  if (folder.empty()) return;  // it could not even be made
+  std::error_code ignored;     // the manifest first: what is half removed must not look whole
   fs::remove(folder / manifest_name, ignored);
   fs::remove_all(folder, ignored);
 }
@@ -227,7 +245,7 @@ void read_part(const fs::path& folder, const std::string& name, const std::strin
   for (const auto& [property, ours] : properties_of(role)) {
     std::getline(file, line);
     const std::string prefix = property + ": ";
-    if (!line.starts_with(prefix)) refuse(path, "is damaged: its head is not whole");
+    if (!line.starts_with(prefix)) refuse_damaged(path, "its head is not whole");
     if (const std::string theirs = line.substr(prefix.size()); theirs != ours)
       errors.push_back({.place = path.string(),
                         .message = fmt::format("cannot go on: its {} is {}, that of this program {}",
@@ -240,17 +258,22 @@ void read_part(const fs::path& folder, const std::string& name, const std::strin
   file >> size >> sum;
   file.get();
   const auto rest = fs::file_size(path) - static_cast<std::uintmax_t>(file.tellg());
-  if (!file || rest != size) refuse(path, fmt::format("is damaged: it holds {} bytes of {}", rest, size));
+  if (!file || rest != size) refuse_damaged(path, fmt::format("it holds {} bytes of {}", rest, size));
   std::string payload(size, '\0');
   file.read(payload.data(), static_cast<std::streamsize>(size));
-  if (!file || checksum(payload) != sum) refuse(path, "is damaged: its checksum is another");
+  if (!file || checksum(payload) != sum) refuse_damaged(path, "its checksum is another");
   std::istringstream stream(std::move(payload), std::ios::binary);
   read(stream);
 }
 
 void check_same_case(const Checkpoint& checkpoint, const std::string& case_text) {
   std::map<std::string, std::string> then, now;
-  flatten(toml::parse_file((checkpoint.folder / "case.toml").string()), "", then);
+  const fs::path path = checkpoint.folder / "case.toml";
+  try {
+    flatten(toml::parse_file(path.string()), "", then);
+  } catch (const toml::parse_error& failure) {
+    refuse_damaged(path, std::string(failure.description()));
+  }
   flatten(toml::parse(case_text), "", now);
   std::vector<InputError> errors;
   const auto differ = [&](const std::string& key, const std::string& message) {
