@@ -23,6 +23,10 @@ void catch_interruptions() {
   action.sa_flags = SA_RESTART;  // a half-done write goes on
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before = {};
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);  // nohup asks to outlive the terminal
 }
 
 bool interruption_requested() {

@@ -1,11 +1,11 @@
-/// SIGINT and SIGTERM as a wish that a program fulfils at its next step.
+/// SIGINT, SIGTERM and SIGHUP as a wish that a program fulfils at its next step.
 #pragma once
 
 namespace toryu {
 
-/// From now on SIGINT and SIGTERM only ask to stop.
+/// From now on SIGINT, SIGTERM and, unless it is ignored as under nohup, SIGHUP only ask to stop.
 void catch_interruptions();
-/// True once SIGINT or SIGTERM came.
+/// True once one of them came.
 bool interruption_requested();
 /// Throws Interrupted if so; call it once a step.
 void throw_if_interrupted();
