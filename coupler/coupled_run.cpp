@@ -53,7 +53,7 @@ void CoupledRun::run(const CouplingStart& start, const Checkpoints& checkpoints)
 }
 
 void CoupledRun::advance() {
-  auto& [time, time_step_limit, window, wall, processor, waiting] = state_;
+  auto& [time, time_step_limit, window, wall, processor, waiting, parts] = state_;
   const double left = settings_.end_time - time;
   const double dt = window_length(left, settings_.coupling.fluid_steps_per_window, time_step_limit);
   window = {.number = window.number + 1, .iteration = 0, .time = time, .dt = dt};
@@ -131,6 +131,7 @@ void CoupledRun::write_state(std::ostream& stream) {
   now.wall_time = wall_time();
   now.processor_time += static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   now.waiting_time = waiting_time();
+  now.parts = sum_of(state_.parts, timers_.parts());
   write_states(stream, now);
   scheme_->write_state(stream);
   record_->write_state(stream);
@@ -163,7 +164,7 @@ void CoupledRun::report(Summary& summary) const {
   summary.processor_time += state_.processor_time;
   summary.waiting_time = waiting_time();
   summary.time_step_rule = "fluid's limit";
-  summary.parts = timers_.parts();
+  summary.parts = sum_of(state_.parts, timers_.parts());
   if (record_) record_->report(summary);
 }
 

@@ -35,6 +35,8 @@ class CoupledRun {
   /// Runs all windows to the end. Throws Interrupted, after a last checkpoint, if it is asked to stop by a
   /// signal to any of the processes or by the file `stop`.
   void run(const CouplingStart& start, const Checkpoints& checkpoints = {});
+  /// Whether a window was computed, or a checkpoint read.
+  bool has_begun() const { return state_.window.number > 0; }
   /// Adds what is known of the run so far, to a summary that has the times of this process already.
   void report(Summary& summary) const;
 
@@ -42,6 +44,7 @@ class CoupledRun {
     double time = 0, time_step_limit = 0;                        ///< [s]
     Window window;                                               ///< the last one
     double wall_time = 0, processor_time = 0, waiting_time = 0;  ///< before the restart [s]
+    std::vector<Timers::Part> parts;                             ///< of that time
   };
 
  private:
@@ -70,8 +73,8 @@ class CoupledRun {
 
 template <class Archive>
 void serialize(Archive& archive, CoupledRun::State& state) {
-  auto& [time, time_step_limit, window, wall_time, processor_time, waiting_time] = state;
-  archive(time, time_step_limit, window, wall_time, processor_time, waiting_time);
+  auto& [time, time_step_limit, window, wall_time, processor_time, waiting_time, parts] = state;
+  archive(time, time_step_limit, window, wall_time, processor_time, waiting_time, parts);
 }
 
 }  // namespace toryu::coupling

@@ -39,8 +39,8 @@ void drop_unless_all_can(Checkpoints& checkpoints, const CouplerLink::Partners& 
 }
 
 /// Joins both participants and runs all windows.
-void run_windows(const CaseFile& file, const Settings& settings, Checkpoints checkpoints, CouplerLink& link,
-                 CoupledRun& run) {
+void run_windows(const CaseFile& file, const Scene& scene, const Settings& settings, Checkpoints checkpoints,
+                 CouplerLink& link, CoupledRun& run) {
   const auto partners = link.gather(
       {.windows_repeat = settings.coupling.windows_repeat(), .restart = checkpoints.restart.has_value()});
   drop_unless_all_can(checkpoints, partners);
@@ -51,10 +51,12 @@ void run_windows(const CaseFile& file, const Settings& settings, Checkpoints che
     beginning.restart = std::filesystem::relative(checkpoints.restart->folder, settings.out).string();
   }
   write_atomically(settings.out / "used_case.toml", checkpoints.case_text);
+  copy_references(scene, file, settings.out);
   run.run(link.begin(beginning), checkpoints);
 }
 
-void run_and_sum_up(const CaseFile& file, const Settings& settings, const Checkpoints& checkpoints) {
+void run_and_sum_up(const CaseFile& file, const Scene& scene, const Settings& settings,
+                    const Checkpoints& checkpoints) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   Summary summary;
@@ -76,13 +78,14 @@ void run_and_sum_up(const CaseFile& file, const Settings& settings, const Checkp
     write_summary(settings.out, summary);
   };
   try {
-    run_windows(file, settings, checkpoints, link, run);
+    run_windows(file, scene, settings, checkpoints, link, run);
     link.stop(ExitCode::done, "");
   } catch (...) {
     const Ending ending = ending_of_exception();
     link.stop(ending.code, ending.reason);
     try {
-      finish(ending);
+      // where a run was to go on and could not, the summary of the run before stays
+      if (run.has_begun() || !checkpoints.restart) finish(ending);
     } catch (const std::exception& failure) {
       log::error("{}", failure.what());  // what ended the run says more, and is thrown on
     }
@@ -111,10 +114,9 @@ ExitCode couple(const Options& options) {
 
   const RunLock lock(options.out);
   claim_folder(options, "coupler");
-  copy_references(scene, file, options.out);
   Checkpoints checkpoints{.interval = scene.checkpoint_interval, .every = scene.checkpoint_every};
   if (options.restart) checkpoints.restart = checkpoint_to_restart(options.out);
-  run_and_sum_up(file,
+  run_and_sum_up(file, scene,
                  {.end_time = scene.end_time,
                   .frame_interval = scene.frame_interval,
                   .series_interval = scene.series_interval,

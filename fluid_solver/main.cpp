@@ -32,11 +32,11 @@ RunRecord::Counts particle_counts(const FluidModel& model) {
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidModel& model) {
   claim_folder(options, "fluid");
+  CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
   model.record_surface(options.out);
   RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
-  CheckpointsAlone checkpoints(options, scene, file.used());
   checkpoints.resume(record);
   run_recorded(record, [&] { run_alone(scene, model, record, 1, checkpoints); });
 }

@@ -41,11 +41,11 @@ void list_detached(const Options& options, const Parameters& parameters, SolidMo
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene,
                    const Parameters& parameters, SolidModel& model) {
   claim_folder(options, "solid");
+  CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
   list_detached(options, parameters, model);
-  CheckpointsAlone checkpoints(options, scene, file.used());
   checkpoints.resume(record);
   run_recorded(record, [&] {
     run_alone(scene, model, record, scene.series_interval == 0 ? 1 : steps_between_checks, checkpoints);

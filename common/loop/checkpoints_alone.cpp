@@ -8,17 +8,18 @@ namespace toryu {
 
 CheckpointsAlone::CheckpointsAlone(const Options& options, const Scene& scene, std::string case_text)
     : out_(options.out),
-      restart_(options.restart),
       wanted_(scene.checkpoint_interval > 0 || scene.checkpoint_every > 0),
       case_text_(std::move(case_text)),
       schedule_(scene.checkpoint_interval, scene.checkpoint_every),
-      stop_(out_) {}
+      stop_(out_) {
+  if (!options.restart) return;
+  restart_ = checkpoint_to_restart(out_);
+  check_same_case(*restart_, case_text_);
+}
 
 void CheckpointsAlone::resume(RunRecord& record) {
   if (!restart_) return;
-  const Checkpoint checkpoint = checkpoint_to_restart(out_);
-  check_same_case(checkpoint, case_text_);
-  record.read_checkpoint(checkpoint.folder);
+  record.read_checkpoint(restart_->folder);
   schedule_.note(record.time(), record.wall_time());
 }
 

@@ -2,6 +2,7 @@
 /// due, at the end, and where the run is asked to stop.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/loop/run_record.hpp"
@@ -13,11 +14,12 @@ namespace toryu {
 
 class CheckpointsAlone {
  public:
-  /// `case_text` is the used case.
+  /// `case_text` is the used case. If the options ask to go on, finds the newest checkpoint of the results.
+  /// Throws BadInput if there is none or if it is of another case: to be made before anything is written.
   CheckpointsAlone(const Options& options, const Scene& scene, std::string case_text);
 
-  /// Goes on from the newest checkpoint of the results, if the options ask for it. Throws BadInput if there
-  /// is none, or if it is of another case or program.
+  /// Goes on from that checkpoint, if the options ask for it. Throws BadInput if it is of another program or
+  /// damaged.
   void resume(RunRecord& record);
   /// After what is due at a time has been written: writes a checkpoint if one is due. Where the run is asked
   /// to stop, by a signal or by the file `stop`, writes a last one and throws Interrupted.
@@ -29,7 +31,8 @@ class CheckpointsAlone {
   void write(RunRecord& record);
 
   std::filesystem::path out_;
-  bool restart_, wanted_;
+  std::optional<Checkpoint> restart_;
+  bool wanted_;
   std::string case_text_;
   CheckpointSchedule schedule_;
   StopFile stop_;

@@ -31,7 +31,8 @@ RunRecord::RunRecord(const std::string& participant, const Options& options, con
       series_(options.out, participant),
       frames_due_(scene.frame_interval),
       series_due_(scene.series_interval),
-      every_step_(scene.series_interval == 0) {
+      every_step_(scene.series_interval == 0),
+      to_be_resumed_(options.restart) {
   summary_.participant = participant;
   summary_.provenance = provenance(omp_get_max_threads());
   summary_.time_step_rule = solver.time_step_rule();
@@ -68,23 +69,30 @@ void RunRecord::count_steps(long steps, double dt) {
   state_.largest_time_step = std::max(state_.largest_time_step, dt);
 }
 
-void RunRecord::finish(ExitCode code, const std::string& end_reason, double waiting_time) {
+void RunRecord::finish(ExitCode code, const std::string& end_reason) {
+  if (to_be_resumed_) return;
   summary_.exit_code = code;
   summary_.end_reason = end_reason;
   summary_.simulated_time = state_.time;
   summary_.steps = state_.steps;
   summary_.smallest_time_step = state_.steps > 0 ? state_.smallest_time_step : 0;
   summary_.largest_time_step = state_.largest_time_step;
-  summary_.waiting_time = state_.waiting_time + waiting_time;
+  summary_.waiting_time = waiting_time();
   summary_.wall_time = wall_time();
   summary_.processor_time = state_.processor_time + processor_time();
   summary_.time_step_rule = solver_.time_step_rule();
   summary_.figures = solver_.figures();
-  summary_.parts = solver_timers_.parts();
-  for (const auto& part : timers_.parts()) summary_.parts.push_back(part);
+  summary_.parts = parts();
   write_summary(out_, summary_);
   log::info("{} steps to t = {:g} s in {:.2f} s", summary_.steps, summary_.simulated_time,
             summary_.wall_time);
+}
+
+/// Where the time went, before a restart too.
+std::vector<Timers::Part> RunRecord::parts() const {
+  auto now = solver_timers_.parts();
+  now.insert(now.end(), timers_.parts().begin(), timers_.parts().end());
+  return sum_of(state_.parts, now);
 }
 
 double RunRecord::wall_time() const {
@@ -96,6 +104,8 @@ void RunRecord::write_checkpoint(const std::filesystem::path& folder) {
   State now = state_;
   now.wall_time = wall_time();
   now.processor_time += processor_time();
+  now.waiting_time = waiting_time();
+  now.parts = parts();
   now.frames_due = frames_due_.state();
   now.series_due = series_due_.state();
   now.series = series_.state();
@@ -111,6 +121,7 @@ void RunRecord::read_checkpoint(const std::filesystem::path& folder) {
     read_states(stream, state_);
     solver_.read_state(stream);
   });
+  to_be_resumed_ = false;
   frames_due_.resume(state_.frames_due, state_.time);
   series_due_.resume(state_.series_due, state_.time);
   frames_.resume(state_.frames);

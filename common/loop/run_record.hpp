@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -49,8 +50,10 @@ class RunRecord {
   /// Time of the state that was written last [s].
   double time() const { return state_.time; }
 
-  /// Writes the summary.
-  void finish(ExitCode code, const std::string& end_reason, double waiting_time);
+  /// How to ask for the time spent waiting for partners since the start of the program [s]; without it, none.
+  void measure_waiting(std::function<double()> waited) { waited_ = std::move(waited); }
+  /// Writes the summary. Where a run was to go on and could not, that of the run before stays.
+  void finish(ExitCode code, const std::string& end_reason);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -60,16 +63,20 @@ class RunRecord {
     long steps = 0;
     double smallest_time_step = std::numeric_limits<double>::infinity(), largest_time_step = 0;  ///< [s]
     double wall_time = 0, processor_time = 0, waiting_time = 0;  ///< before the restart [s]
+    std::vector<Timers::Part> parts;                             ///< of that time
     Schedule::State frames_due, series_due;
     SeriesWriter::State series;
     FrameWriter::State frames;
   };
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
-    auto& [time, steps, smallest, largest, wall, processor, waiting, frames_due, series_due, series, frames] =
-        state;
-    archive(time, steps, smallest, largest, wall, processor, waiting, frames_due, series_due, series, frames);
+    auto& [time, steps, smallest, largest, wall, processor, waiting, parts, frames_due, series_due, series,
+           frames] = state;
+    archive(time, steps, smallest, largest, wall, processor, waiting, parts, frames_due, series_due, series,
+            frames);
   }
+  double waiting_time() const { return state_.waiting_time + (waited_ ? waited_() : 0); }
+  std::vector<Timers::Part> parts() const;
   std::string role() const { return participant_ + "_solver"; }
 
   std::string participant_;
@@ -80,6 +87,8 @@ class RunRecord {
   SeriesWriter series_;
   Schedule frames_due_, series_due_;
   bool every_step_;
+  bool to_be_resumed_;
+  std::function<double()> waited_;
   State state_;
   Summary summary_;
   Timers timers_;

@@ -71,8 +71,12 @@ void check_start(const Solver& solver, const std::string& section) {
 
 void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks,
                CheckpointsAlone& checkpoints) {
-  Progress progress(scene.end_time, "step");
   double time = record.time();
+  if (record.steps() > 0 && time >= scene.end_time) {
+    log::warn("nothing to compute: the run is at t = {:g} s, and ends at {:g} s", time, scene.end_time);
+    return;
+  }
+  Progress progress(scene.end_time, "step");
   if (record.steps() == 0) record.check_and_write(time);
   while (time < scene.end_time) {
     const double until = std::min(scene.end_time, record.next_output());
@@ -88,20 +92,20 @@ void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps
 
 void run_recorded(RunRecord& record, const std::function<void()>& body, const std::function<void()>& leave,
                   const std::function<double()>& waiting_time) {
-  const auto waited = [&] { return waiting_time ? waiting_time() : 0.0; };
+  record.measure_waiting(waiting_time);
   try {
     body();
   } catch (...) {
     if (leave) leave();
     const Ending ending = ending_of_exception();
     try {
-      record.finish(ending.code, ending.reason, waited());
+      record.finish(ending.code, ending.reason);
     } catch (const std::exception& failure) {
       log::error("{}", failure.what());  // what ended the run says more, and is thrown on
     }
     throw;
   }
-  record.finish(ExitCode::done, "", waited());
+  record.finish(ExitCode::done, "");
 }
 
 }  // namespace toryu

@@ -1,6 +1,7 @@
 /// Where the time of a run goes: named parts, summed over the run, named by the code that does the work.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -49,5 +50,27 @@ class Timers {
  private:
   std::vector<Part> parts_;
 };
+
+/// Parts of two times of a run; those of one name are one part.
+inline std::vector<Timers::Part> sum_of(std::vector<Timers::Part> before,
+                                        const std::vector<Timers::Part>& after) {
+  for (const auto& part : after) {
+    const auto same = std::find_if(before.begin(), before.end(),
+                                   [&](const Timers::Part& other) { return other.name == part.name; });
+    if (same == before.end()) {
+      before.push_back(part);
+    } else {
+      same->seconds += part.seconds;
+      same->calls += part.calls;
+    }
+  }
+  return before;
+}
+
+template <class Archive>
+void serialize(Archive& archive, Timers::Part& part) {
+  auto& [name, seconds, calls] = part;
+  archive(name, seconds, calls);
+}
 
 }  // namespace toryu
