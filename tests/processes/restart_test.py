@@ -88,6 +88,29 @@ class Interrupted(RestartCase):
         self.assert_goes_on(run, expected)
 
 
+class Alone(RestartCase):
+    """A medium that wears a wall, by the fluid solver alone."""
+    CASE = pathlib.Path(__file__).resolve().parents[2] / "cases/abrasive_flow/rigid.toml"
+
+    def start(self, run, *options):
+        run.case = self.CASE
+        run.start("fluid", extra=["--set", "case.frame_interval=0.005", *options])
+
+    def test_what_is_refused_leaves_the_results(self):
+        run = self.run_of_three(**SOLVERS, end_time="0.01")
+        self.start(run)
+        self.assert_ending(run, "fluid", DONE)
+        left = {name: (run.out / name).read_bytes()
+                for name in ("surface.h5", "fluid.csv", "used_case.toml", "fluid_summary.toml")}
+        self.start(run, "--set", "fluid.sound_speed=2.5", *RESTART)
+        self.assert_ending(run, "fluid", BAD_INPUT, "fluid.sound_speed: error: is 2.5, and was 2 in the checkpoint")
+        for name, content in left.items():
+            self.assertEqual((run.out / name).read_bytes(), content, name)
+        self.start(run, *RESTART)
+        self.assert_ending(run, "fluid", DONE, "nothing to compute: the run is at t = 0.01 s, and ends at 0.01 s")
+        self.assertIn("surface.h5:preston_depth", run.results())
+
+
 class Solvers(RestartCase):
     """The strip's case with the real solvers, from a checkpoint in the middle."""
 
@@ -153,6 +176,11 @@ class Killed(RestartCase):
 
 
 class Refused(RestartCase):
+    def everything(self, run):
+        """All files but what the processes say."""
+        return {path: path.read_bytes() for path in run.out.rglob("*")
+                if path.is_file() and path.suffix not in (".err", ".txt", ".lock")}
+
     def test_without_a_checkpoint(self):
         run = self.run_of_three(end_time="0.01").start("coupler", extra=RESTART)
         self.assert_ending(run, "coupler", BAD_INPUT, f"{run.out} holds no checkpoint")
@@ -160,9 +188,23 @@ class Refused(RestartCase):
     def test_of_another_case(self):
         run = self.run_of_three(end_time="0.01").start_all()
         self.assert_all_end(run, DONE)
+        left = self.everything(run)
         run.settings.append("coupling.extrapolation_order=1")
         run.start_all(extra=RESTART)
         self.assert_all_end(run, BAD_INPUT, "coupling.extrapolation_order", "is 1, and was 0 in the checkpoint")
+        self.assertEqual(self.everything(run), left, "nothing is touched")
+
+    def test_of_a_damaged_checkpoint(self):
+        run = self.run_of_three(end_time="0.01").start_all()
+        self.assert_all_end(run, DONE)
+        results, state = run.results(), run.out / "checkpoint/000001/coupler.state"
+        whole = state.read_bytes()
+        state.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+        run.start_all(extra=RESTART)
+        self.assert_all_end(run, BAD_INPUT, "coupler.state", "is damaged: its checksum is another")
+        self.assertEqual(run.results(), results)
+        state.write_bytes(whole)
+        self.assert_goes_on(run, results)
 
     def test_by_who_cannot(self):
         run = self.run_of_three(end_time="0.01").start_all()
