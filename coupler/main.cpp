@@ -13,10 +13,10 @@
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
+#include "common/run/run_lock.hpp"
 #include "common/scene/scene.hpp"
 #include "common/state/checkpoint.hpp"
 #include "coupler/coupled_run.hpp"
-#include "coupler/run_lock.hpp"
 #include "coupler/stability_warnings.hpp"
 #include "coupler/used_case.hpp"
 

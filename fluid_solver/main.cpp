@@ -11,6 +11,7 @@
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
+#include "common/run/run_lock.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/stability_warnings.hpp"
@@ -31,6 +32,7 @@ RunRecord::Counts particle_counts(const FluidModel& model) {
 }
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene, FluidModel& model) {
+  const RunLock lock(options.out);
   claim_folder(options, "fluid");
   CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());

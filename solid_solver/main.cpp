@@ -11,6 +11,7 @@
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
+#include "common/run/run_lock.hpp"
 #include "solid_solver/detached_list.hpp"
 #include "solid_solver/make_model.hpp"
 #include "solid_solver/stability_warnings.hpp"
@@ -40,6 +41,7 @@ void list_detached(const Options& options, const Parameters& parameters, SolidMo
 
 void compute_alone(const Options& options, const CaseFile& file, const Scene& scene,
                    const Parameters& parameters, SolidModel& model) {
+  const RunLock lock(options.out);
   claim_folder(options, "solid");
   CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());

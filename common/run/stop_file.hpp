@@ -12,13 +12,15 @@ class StopFile {
   explicit StopFile(const std::filesystem::path& out) : path_(out / "stop") {}
 
   /// Whether the file is there; looks at most five times a second. A file that was found is removed, so that
-  /// it does not stop the next run as well.
+  /// it does not stop the next run as well; one that may not be removed counts all the same.
   bool found() {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked_ < std::chrono::milliseconds(200)) return false;
     looked_ = now;
     std::error_code none;
-    return std::filesystem::remove(path_, none);
+    const bool there = std::filesystem::exists(path_, none);
+    if (there) std::filesystem::remove(path_, none);
+    return there;
   }
 
  private:

@@ -110,6 +110,17 @@ class Alone(RestartCase):
         self.assert_ending(run, "fluid", DONE, "nothing to compute: the run is at t = 0.01 s, and ends at 0.01 s")
         self.assertIn("surface.h5:preston_depth", run.results())
 
+    def test_two_in_one_folder_are_refused(self):
+        run = self.run_of_three(**SOLVERS)
+        self.start(run)
+        run.wait_for_log("largest time step", LIMIT)
+        run.case = self.CASE
+        run.start("fluid", name="second", extra=RESTART)
+        self.assert_ending(run, "second", BAD_INPUT, f"{run.out}: error: another run writes its results here")
+        run.signal("fluid", signal.SIGHUP)
+        self.assert_ending(run, "fluid", INTERRUPTED)
+        self.assertEqual(run.wait_for_checkpoint(), 1)
+
 
 class Solvers(RestartCase):
     """The strip's case with the real solvers, from a checkpoint in the middle."""

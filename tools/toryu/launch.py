@@ -186,9 +186,9 @@ def hold(out, name):
 
 def set_former_aside(options):
     """Former results are kept beside the new ones, or removed if that was asked for."""
-    # A coupler that was started by hand holds the folder by its own lock.
-    by_hand = (options.out / "coupler.lock").exists()
-    with hold(options.out, "coupler.lock") if by_hand else contextlib.nullcontext():
+    # Programs that were started by hand hold the folder by a lock of their own.
+    by_hand = (options.out / "run.lock").exists()
+    with hold(options.out, "run.lock") if by_hand else contextlib.nullcontext():
         try:
             if options.overwrite:
                 remove_former(options.out)

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "common/output/hdf5_file.hpp"
+#include "common/run/run_lock.hpp"
 #include "coupler/exchange_audit.hpp"
 #include "coupler/interface_record.hpp"
-#include "coupler/run_lock.hpp"
 #include "coupler/stability_warnings.hpp"
 #include "coupler/used_case.hpp"
 #include "tests/unit/coupler/scratch_folder.hpp"

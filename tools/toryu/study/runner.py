@@ -80,9 +80,10 @@ def hold(out):
 
 def prepare(folder, may_go_on):
     """Makes the folder of a run ready; returns whether a run that was left half done goes on there from a checkpoint,
-    else removes it. Its launcher may still be ending: it holds the folder's lock."""
+    else removes it. Its launcher or its programs may still be ending: they hold the folder's locks."""
+    patience = PATIENCE + LAST_PATIENCE
     try:
-        with lock_folder(folder, "launch.lock", PATIENCE + LAST_PATIENCE):
+        with lock_folder(folder, "launch.lock", patience), lock_folder(folder, "run.lock", patience):
             if may_go_on and newest_checkpoint(folder):
                 return True
             shutil.rmtree(folder, ignore_errors=True)

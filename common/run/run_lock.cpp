@@ -1,4 +1,4 @@
-#include "coupler/run_lock.hpp"
+#include "common/run/run_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -6,10 +6,10 @@
 
 #include "common/error/failure.hpp"
 
-namespace toryu::coupling {
+namespace toryu {
 
 RunLock::RunLock(const std::filesystem::path& out)
-    : file_(open((out / "coupler.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
+    : file_(open((out / "run.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
   if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   const bool held = file_ >= 0;
   if (held) close(file_);
@@ -23,4 +23,4 @@ RunLock::~RunLock() {
   close(file_);
 }
 
-}  // namespace toryu::coupling
+}  // namespace toryu

@@ -1,11 +1,11 @@
-/// One run at a time in a results folder.
+/// One run at a time in a results folder: held by its lead, the coupler or a solver alone.
 #pragma once
 
 #include <filesystem>
 
-namespace toryu::coupling {
+namespace toryu {
 
-/// Holds `coupler.lock` in the folder while it lives; the system frees it if the process dies. Throws
+/// Holds `run.lock` in the folder while it lives; the system frees it if the process dies. Throws
 /// BadInput if another run holds it.
 class RunLock {
  public:
@@ -18,4 +18,4 @@ class RunLock {
   int file_;
 };
 
-}  // namespace toryu::coupling
+}  // namespace toryu
