@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(OfAFluid, TankState,
                          [](const auto& setting) {
                            return std::get<0>(setting.param).name +
                                   (std::get<1>(setting.param) == Integrator::midpoint ? "Midpoint"
-                                                                                   : "Symplectic");
+                                                                                      : "Symplectic");
                          });
 
 }  // namespace
