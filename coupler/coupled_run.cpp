@@ -61,7 +61,7 @@ void CoupledRun::advance() {
   const auto start = Clock::now();
   const Exchange done = [&] {
     const auto scope = timers_.measure(turns);
-    return scheme_->compute(window);
+    return scheme_->compute(state_.window);
   }();
   const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
 

@@ -70,7 +70,9 @@ Health SolidModel::health() const {
 
 std::vector<Observation> SolidModel::observe() const {
   std::vector<Observation> row;
-  for (const auto& [asked, point] : observers_) {
+  for (const auto& observer : observers_) {
+    const auto& asked = observer.first;
+    const auto& point = observer.second;
     const Vec u = point.value([&](std::size_t i) { return displacement(i); });
     row.push_back({asked.name + "_displacement_x", "m", u[0]});
     row.push_back({asked.name + "_displacement_y", "m", u[1]});

@@ -70,7 +70,7 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 
 std::filesystem::path find_case_file(const std::filesystem::path& path) {
   if (std::filesystem::is_regular_file(path)) return path;
-  const auto file = path / "case.toml";
+  auto file = path / "case.toml";
   if (std::filesystem::is_regular_file(file)) return file;
   const bool folder = std::filesystem::is_directory(path);
   throw BadInput({{.place = path.string(),
