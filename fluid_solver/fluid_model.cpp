@@ -34,6 +34,14 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
   start_momentum_ = momentum();
 }
 
+void FluidModel::save() {
+  saved_ = state_;
+}
+
+void FluidModel::restore() {
+  state_ = *saved_;
+}
+
 void FluidModel::write_state(std::ostream& stream) const {
   write_states(stream, state_);
 }

@@ -35,8 +35,8 @@ class FluidModel : public Solver {
   /// Fills the regions and the walls of the scene. Throws BadInput if bodies overlap or nothing is filled.
   FluidModel(const Parameters& parameters, const Scene& scene);
 
-  void save() override { saved_ = state_; }
-  void restore() override { state_ = *saved_; }
+  void save() override;
+  void restore() override;
   void write_state(std::ostream& stream) const override;
   void read_state(std::istream& stream) override;
   void check(double time) const override;

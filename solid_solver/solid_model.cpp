@@ -71,6 +71,10 @@ Vec SolidModel::initial_velocity(std::size_t particle) const {
   return velocity ? velocity->at(body_.X[particle]) : Vec(Vec::Zero());
 }
 
+void SolidModel::save() {
+  saved_ = state_;
+}
+
 void SolidModel::restore() {
   state_ = saved_;
   find_slots();

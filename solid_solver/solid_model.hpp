@@ -51,7 +51,7 @@ class SolidModel : public Solver {
  public:
   SolidModel(const Parameters& parameters, const Body& body, const Scene& scene);
 
-  void save() override { saved_ = state_; }
+  void save() override;
   void restore() override;
   void accept() override;
   void write_state(std::ostream& stream) const override;
