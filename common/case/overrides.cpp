@@ -48,7 +48,7 @@ std::string store(toml::node* node, const std::vector<std::string>& parts, toml:
       toml::node* inner = table->get(part);
       const bool taken_away = inner && inner->value_exact<bool>() == false;
       if (last)
-        node = put(*table, part, std::move(value), place);
+        node = put(*table, part, std::move(value), place);  // NOLINT(bugprone-use-after-move): the last turn
       else
         node = inner && !taken_away ? inner : put(*table, part, toml::table(), place);
     } else if (toml::array* array = node->as_array()) {

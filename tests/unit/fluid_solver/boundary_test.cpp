@@ -46,7 +46,9 @@ Taken extrapolated(const std::vector<Vec>& places, const Fluid& fluid, const Vec
   Boundary boundary;
   boundary.place(places, std::vector<double>(places.size(), d_0 * d_0), 1000, 0.3);
   boundary.move_to([&](std::uint32_t k) { return Kinematics{places[k], v_w, a_w}; });
-  const auto [particles, strips] = in_order(fluid);
+  const auto ordered = in_order(fluid);
+  const Particles& particles = ordered.first;
+  const StripOrder& strips = ordered.second;
   boundary.list_for_wall.build(boundary.x, boundary.count, particles.x, strips, 1.1 * kernel.support());
 #pragma omp parallel
   extrapolate(boundary, particles, kernel, g);
