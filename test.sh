@@ -3,16 +3,18 @@
 # undefined-behaviour sanitizers. Installs what is missing. tests/README.md says which label holds what.
 #   ./test.sh             all but the long ones
 #   ./test.sh --browser   and the report in a browser
-#   ./test.sh --all       and the long validation, the benchmarks and the browser
+#   ./test.sh --all       and the long validation, the benchmarks, the browser, clang-tidy on every file, and the unit
+#                         tests by Clang and for other processors
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 without=(long benchmark browser)
+all=
 groups=(run study test)
 case ${1-} in
   "") ;;
   --browser) without=(long benchmark) groups+=(browser) ;;
-  --all) without=(none) groups+=(browser) ;;
+  --all) without=(none) groups+=(browser) all=1 ;;
   *)
     echo "test.sh: unknown option '$1'; --browser, --all or none" >&2
     exit 2
@@ -31,6 +33,10 @@ tools/build.sh release -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON
 run_tests build/release --label-exclude "^($(IFS='|' && echo "${without[*]}"))\$"
 tools/build.sh debug -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON unit_tests
 run_tests build/debug --label-regex '^unit$'
+if [ -n "$all" ]; then
+  tools/check_code.sh --all || failed=1
+  tools/test_targets.sh || failed=1
+fi
 
 awk -v seconds=$SECONDS '/tests passed, [0-9]+ tests? failed out of/ {
     for (i = 1; i < NF; ++i) if ($i == "failed") bad += $(i - 2)
