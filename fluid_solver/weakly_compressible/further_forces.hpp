@@ -7,7 +7,12 @@
 ///
 ///     momentum(i, sources, j, pair, rates)       between particles of the fluid: adds to rates.a
 ///     at_wall(i, sources, j, pair, rates)        the same with a boundary, on either side; may be absent
-///     prepare(W, fluid, neighbours, boundaries)  finds a field of the term's own before; may be absent
+///     prepare(W, fluid, neighbours, boundaries)  finds fields of the force's own before; may be absent
+///     seen_from(first)                           what the particles from number `first` on feel, with the
+///                                                fields there in lanes; without it the force itself
+///
+/// A force lives for one evaluation, and so do its fields: they belong to no state and need no place in
+/// particles.hpp.
 #pragma once
 
 #include "fluid_solver/parameters.hpp"
@@ -20,15 +25,28 @@ template <class Visit>
 void for_each_further_force(const OptionalTerms& terms, const Medium& medium, Visit&& visit) {
   for_each_term(terms, [&](const auto& term) {
     if constexpr (requires { pair_force(*term, medium); })
-      if (term) visit(pair_force(*term, medium));
+      if (term) {
+        auto force = pair_force(*term, medium);
+        visit(force);
+      }
   });
+}
+
+/// `force` as the particles from number `first` on feel it.
+template <class Force>
+auto seen_from(const Force& force, std::size_t first) {
+  if constexpr (requires { force.seen_from(first); })
+    return force.seen_from(first);
+  else
+    return force;
 }
 
 /// What a force does to one cluster of `fluid`, and what of it each boundary did.
 template <class W, class Force>
-void add_to_cluster(const W& kernel, const Force& force, Particles& fluid, const ClusterList& neighbours,
+void add_to_cluster(const W& kernel, const Force& of_all, Particles& fluid, const ClusterList& neighbours,
                     std::vector<Boundary>& boundaries, std::size_t cluster) {
   const std::size_t first = cluster * lane_count;
+  const auto force = seen_from(of_all, first);
   const Targets i = load_targets(fluid, first);
   const Sources own = sources(fluid);
   Rates rates;
@@ -52,7 +70,7 @@ void add_to_cluster(const W& kernel, const Force& force, Particles& fluid, const
 template <class W>
 void add_further_forces(const W& kernel, const OptionalTerms& terms, const Medium& medium, Particles& fluid,
                         const ClusterList& neighbours, std::vector<Boundary>& boundaries) {
-  for_each_further_force(terms, medium, [&](const auto& force) {
+  for_each_further_force(terms, medium, [&](auto& force) {
     if constexpr (requires { force.prepare(kernel, fluid, neighbours, boundaries); })
       force.prepare(kernel, fluid, neighbours, boundaries);
 #pragma omp parallel for schedule(dynamic, 8)
