@@ -1,7 +1,7 @@
 /// The optional terms of a fluid. A term is one file in terms/: what a case says of it, what the log says,
 /// and its formula. A new one is a member here, and a name in the list below it, which does not compile while
 /// a name is missing; a term whose formula is a force between pairs acts from then on
-/// (additional_forces.hpp).
+/// (weakly_compressible/further_forces.hpp).
 #pragma once
 
 #include <optional>
@@ -16,6 +16,7 @@
 #include "fluid_solver/terms/particle_shifting.hpp"
 #include "fluid_solver/terms/removal.hpp"
 #include "fluid_solver/terms/rheology.hpp"
+#include "fluid_solver/terms/surface_tension.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
 #include "fluid_solver/terms/wall_repulsion.hpp"
 
@@ -35,6 +36,7 @@ struct OptionalTerms {
   std::optional<Carreau> carreau;
   std::optional<Friction> friction;
   std::optional<WallRepulsion> wall_repulsion;
+  std::optional<SurfaceTension> surface_tension;
   std::optional<Removal> removal;
 };
 
@@ -44,11 +46,11 @@ void for_each_term(Terms& terms, Visit&& visit) {
   using Base = std::conditional_t<std::is_const_v<Terms>, const OptionalTerms, OptionalTerms>;
   auto& [central_force, background_pressure, density_diffusion, particle_shifting, tensile_control,
          consistent_gradients, artificial_viscosity, laminar_viscosity, power_law, carreau, friction,
-         wall_repulsion, removal] = static_cast<Base&>(terms);
+         wall_repulsion, surface_tension, removal] = static_cast<Base&>(terms);
   const auto visit_each = [&](auto&... term) { (visit(term), ...); };
   visit_each(central_force, background_pressure, density_diffusion, particle_shifting, tensile_control,
              consistent_gradients, artificial_viscosity, laminar_viscosity, power_law, carreau, friction,
-             wall_repulsion, removal);
+             wall_repulsion, surface_tension, removal);
 }
 
 }  // namespace toryu::fluid

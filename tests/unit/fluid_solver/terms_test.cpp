@@ -7,9 +7,11 @@
 #include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/laminar_viscosity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
+#include "fluid_solver/terms/surface_tension.hpp"
 #include "fluid_solver/terms/variable_viscosity.hpp"
 #include "fluid_solver/terms/wall_repulsion.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
+#include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
@@ -274,6 +276,85 @@ TEST(WallRepulsion, IsThePrintedForceWithinItsRangeAndKeepsMomentum) {
   const double r = 0.05, a = w.m / (rho_0 * d_0 * d_0) * B * c * c / d_0 * (1 - r / r_0);
   expect_near(first_lane(sum_over(i, {w, beyond}, kernel, add).a), a * Vec(0.6, 0.8));
   EXPECT_LT(unbalance(i, w, add), 1e-14);
+}
+
+TEST(SurfaceTension, PullsAPairAsWorkedByHandAndKeepsMomentum) {
+  const double H = 0.02;
+  const std::array<Point, 2> points{{{{0, 0}, {0, 0}, 1000, 0.2}, {{0.006, 0.008}, {0, 0}, 1000, 0.1}}};
+  std::array<Eigen::Matrix2d, 2> stress;
+  stress[0] << 2, -1, -1, 3;
+  stress[1] << 1, 2, 2, -4;
+  const auto on = [&](int i, int j) {
+    TensorField T;
+    resize(T, 1);
+    for (int a = 0; a < dim; ++a) set(T[a], 0, stress[j].row(a));
+    TensorLanes T_i;
+    for (int a = 0; a < dim; ++a)
+      for (int b = 0; b < dim; ++b) T_i[a][b] = stress[i](a, b);
+    const SurfaceTensionPair force{SmoothKernel(H), T_i, pointers(T)};
+    return first_lane(sum_over(points[i], {points[j]}, kernel, [&](auto&&... a) { force.momentum(a...); }).a);
+  };
+  // r = H/2, so gradS = -24/(pi H^4) 0.75^2 x_ij; (T_i + T_j) x_ij = (3 1; 1 -1) (-0.006, -0.008)
+  const double slope = -24 * 0.5625 / (std::numbers::pi * H * H * H * H);
+  expect_near(on(0, 1), 0.1 * slope * Vec(-0.026, 0.002));
+  expect_near(on(1, 0), 0.2 * slope * Vec(0.026, -0.002));
+}
+
+TEST(SurfaceTension, IsAStressAlongTheSurfaceAlone) {
+  const SurfaceTensionForce force(7e6, 1, 0.02);
+  const auto T = force.stress({Lanes(3.0), Lanes(4.0)}, Lanes(1000.0));  // |n| - n_0 = 4
+  const double expected[2][2] = {{28 * 0.64, -28 * 0.48}, {-28 * 0.48, 28 * 0.36}};
+  for (int a = 0; a < dim; ++a)
+    for (int b = 0; b < dim; ++b) EXPECT_NEAR(T[a][b][0], expected[a][b], 1e-12);
+  EXPECT_EQ(force.stress({Lanes(0.6), Lanes(0.7)}, Lanes(1000.0))[0][0][0], 0) << "below n_0";
+}
+
+/// A block of fluid at rest, of which surface tension alone takes hold.
+Setting block_under_tension(double sigma) {
+  Setting s = empty_space();
+  s.parameters.density_diffusion.reset();
+  s.parameters.artificial_viscosity.reset();
+  s.parameters.kernel = KernelForm::wendland_c2;
+  s.parameters.smoothing_ratio = 1.8;
+  s.parameters.surface_tension = SurfaceTension{sigma};
+  s.parameters.regions = {{"block", {Vec(-0.8, -0.6), Vec(0.8, 0.6)}, Vec::Zero()}};
+  return s;
+}
+
+TEST(SurfaceTension, PullsTheHalvesOfABlockTogetherByTwiceSigmaAndLeavesTheInsideAlone) {
+  const double sigma = 3;
+  for (const double ratio : {1.5, 1.8, 2.0}) {
+    Setting setting = block_under_tension(sigma);
+    setting.parameters.smoothing_ratio = ratio;
+    WeaklyCompressible solver = setting.solver();
+    solver.advance(1e-9);
+    const auto& f = solver.particles();
+    double left = 0, largest = 0, inside = 0;
+    for (std::size_t i = 0; i < f.count; ++i) {
+      const double a = at(f.a, i).norm();
+      if (at(f.x, i)[0] < 0) left += f.m[i] * f.a[0][i];
+      largest = std::max(largest, a);
+      if (at(f.x, i).cwiseAbs().maxCoeff() < 0.15) inside = std::max(inside, a);
+    }
+    EXPECT_NEAR(left, 2 * sigma, 1e-6) << ratio;  // a surface above, one below
+    EXPECT_LT(inside, 1e-10 * largest) << ratio;
+  }
+}
+
+TEST(SurfaceTension, KeepsTheMomentumOfParticlesInDisorder) {
+  Setting setting = block_under_tension(3);
+  setting.parameters.start_disorder = 0.3;
+  WeaklyCompressible solver = setting.solver();
+  solver.advance(1e-9);
+  const auto& f = solver.particles();
+  Vec sum = Vec::Zero();
+  double sizes = 0;
+  for (std::size_t i = 0; i < f.count; ++i) {
+    sum += f.m[i] * at(f.a, i);
+    sizes += f.m[i] * at(f.a, i).norm();
+  }
+  EXPECT_GT(sizes, 3);
+  EXPECT_LT(sum.norm(), 1e-14 * sizes);
 }
 
 TEST(EquationOfState, HasTheSoundSpeedAsTheSlopeOfPressure) {
