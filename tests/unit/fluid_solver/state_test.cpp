@@ -136,6 +136,7 @@ const Variant variants[] = {
        s.parameters.particle_shifting = ParticleShifting{};
        s.parameters.consistent_gradients = ConsistentGradients{};
      }},
+    {"SurfaceTension", [](Setting& s) { s.parameters.surface_tension = SurfaceTension{5}; }},
     {"TensileControl", [](Setting& s) { s.parameters.tensile_control = TensileControl{}; }},
     {"Piston",
      [](Setting& s) {
