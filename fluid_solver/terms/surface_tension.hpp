@@ -150,6 +150,12 @@ inline SurfaceTensionForce pair_force(const SurfaceTension& tension, const Mediu
   return {tension.coefficient / sum, n_0, support};
 }
 
+/// That of the shortest capillary waves (Brackbill, Kothe & Zemach 1992) [s].
+inline double time_step_limit(const SurfaceTension& tension, const Medium& medium) {
+  const double h3 = std::pow(medium.h(), 3);
+  return 0.25 * std::sqrt(medium.rho_0 * h3 / (2 * std::numbers::pi * tension.coefficient));
+}
+
 inline ActiveTerm text(const SurfaceTension& tension, const Medium&) {
   return {"surface tension", "sum_j m_j (T_i/rho_i^2 + T_j/rho_j^2) gradS_ij, T = K sigma (|n| I - n n/|n|)",
           "Lafaurie et al. 1994", fmt::format("sigma {} N/m", tension.coefficient)};

@@ -35,6 +35,7 @@ class Dynamics {
   /// The latter alone.
   void react_by_friction(const Particles& fluid, Boundary& work_piece) const;
 
+  const Medium& medium() const { return medium_; }
   const Kernel& kernel() const { return medium_.kernel; }
   const EquationOfState& equation_of_state() const { return state_; }
   /// Empty if the case has none.

@@ -1,7 +1,6 @@
 #include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "common/sph/skin.hpp"
@@ -18,18 +17,24 @@ struct StepLimit {
   std::string_view rule;
 };
 
-StepLimit smallest_limit(const Parameters& p, const Extremes& largest) {
-  const double h = p.h(), never = std::numeric_limits<double>::infinity();
+/// A term has a limit of its own if there is a function `time_step_limit(term, medium)`.
+StepLimit smallest_limit(const Parameters& p, const Medium& medium, const Extremes& largest) {
+  const double h = p.h();
   double nu = largest.viscosity / p.density;
   if (p.artificial_viscosity)
     nu += effective_kinematic_viscosity(p.artificial_viscosity->alpha, h, p.sound_speed);
-  const std::array<StepLimit, 4> limits{
-      {{acoustic_share * h / (p.sound_speed + largest.speed), "acoustic"},
-       {nu > 0 ? viscous_share * h * h / nu : never, "viscous"},
-       {largest.acceleration > 0 ? force_share * std::sqrt(h / largest.acceleration) : never, "force"},
-       {largest.friction_rate > 0 ? friction_share / largest.friction_rate : never, "friction"}}};
-  return *std::min_element(limits.begin(), limits.end(),
-                           [](const auto& a, const auto& b) { return a.value < b.value; });
+  StepLimit smallest{acoustic_share * h / (p.sound_speed + largest.speed), "acoustic"};
+  const auto limit = [&](double value, std::string_view rule) {
+    if (value < smallest.value) smallest = {value, rule};
+  };
+  if (nu > 0) limit(viscous_share * h * h / nu, "viscous");
+  if (largest.acceleration > 0) limit(force_share * std::sqrt(h / largest.acceleration), "force");
+  if (largest.friction_rate > 0) limit(friction_share / largest.friction_rate, "friction");
+  for_each_term(p, [&]<class Term>(const std::optional<Term>& term) {
+    if constexpr (requires { time_step_limit(*term, medium); })
+      if (term) limit(time_step_limit(*term, medium), Term::section);
+  });
+  return smallest;
 }
 
 /// field += dt rate.
@@ -61,11 +66,11 @@ std::unique_ptr<FluidModel> make_model(const Parameters& parameters, const Scene
 }
 
 double WeaklyCompressible::time_step_limit() const {
-  return parameters_.time_step_share * smallest_limit(parameters_, state_.largest).value;
+  return parameters_.time_step_share * smallest_limit(parameters_, dynamics_.medium(), state_.largest).value;
 }
 
 std::string_view WeaklyCompressible::time_step_rule() const {
-  return smallest_limit(parameters_, state_.largest).rule;
+  return smallest_limit(parameters_, dynamics_.medium(), state_.largest).rule;
 }
 
 void WeaklyCompressible::advance_from(const Start& start, double dt) {

@@ -235,6 +235,11 @@ TEST(WeaklyCompressible, NamesTheLimitThatRulesTheStep) {
   setting.parameters.artificial_viscosity.reset();
   EXPECT_EQ(setting.solver().time_step_rule(), "viscous");
   EXPECT_NEAR(setting.solver().time_step_limit(), 0.125 * h * h / 5.0, 1e-12);
+  setting.parameters.surface_tension = SurfaceTension{1e6};
+  EXPECT_EQ(setting.solver().time_step_rule(), "surface_tension");
+  EXPECT_NEAR(setting.solver().time_step_limit(), 0.25 * std::sqrt(1e-3 * h * h * h / (2 * std::numbers::pi)),
+              1e-12);
+  setting.parameters.surface_tension.reset();
   setting.scene.gravity = Vec(0, -1e7);
   WeaklyCompressible heavy = setting.solver();
   heavy.advance(1e-6);
