@@ -1,4 +1,4 @@
-// Free surfaces that swing: cases/oscillating_drop, standing_wave.
+// Free surfaces that swing: cases/oscillating_drop, standing_wave, capillary_drop.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -76,6 +76,35 @@ TEST(StandingWave, HasThePeriodOfAiry) {
   const double found = omega * (passes[2] - passes[0]) / (2 * std::numbers::pi);
   RecordProperty("period_over_exact", std::to_string(found));
   EXPECT_NEAR(found, 1.0, 0.05);
+}
+
+TEST(CapillaryDrop, HasThePeriodOfRayleigh) {
+  const double sigma = 0.072, rho = 1000, R = 1e-3;
+  const double period = 2 * std::numbers::pi / std::sqrt(6 * sigma / (rho * R * R * R));
+  const auto passes = zeros(history(FluidCase("capillary_drop", {"fluid.spacing=1e-4"}), 0.018));
+  ASSERT_GE(passes.size(), 4u);
+  const double found = 2 * (passes[3] - passes[0]) / 3;
+  RecordProperty("period_over_exact", std::to_string(found / period));
+  EXPECT_NEAR(found / period, 1.0, 0.03);
+}
+
+/// Mean pressure of the inner half of a resting drop, over sigma/(R - h/2): the tension sits h/2 deep.
+TEST(CapillaryDrop, BearsThePressureOfLaplaceAtRest) {
+  const double sigma = 0.072, R = 1e-3;
+  const FluidCase the_case("capillary_drop/resting.toml", {"fluid.spacing=1e-4"});
+  WeaklyCompressible solver = the_case.solver();
+  run_until(solver, 4e-3);
+  double sum = 0, count = 0;
+  while (solver.time() < 8e-3) {
+    solver.advance(solver.time_step_limit());
+    const auto& f = solver.particles();
+    for (std::size_t i = 0; i < f.count; ++i)
+      if (at(f.x, i).norm() < 0.5 * R) sum += f.p[i], ++count;
+  }
+  const double found = sum / count * (R - 0.5 * the_case.parameters.h()) / sigma;
+  RecordProperty("pressure_over_exact", std::to_string(found));
+  EXPECT_NEAR(found, 1.0, 0.05);
+  EXPECT_LT(solver.kinetic_energy(), 1e-4 * 2 * std::numbers::pi * R * sigma) << "it does not stir itself";
 }
 
 }  // namespace
