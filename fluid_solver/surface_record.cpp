@@ -77,7 +77,7 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
     if (place_[b].empty()) continue;
     const bool rubbed = !body.friction_force[0].empty();
     for (std::size_t k = 0; k < body.count; ++k) {
-      const std::uint32_t s = place_[b][body.id[k]];
+      const std::size_t s = place_[b][body.id[k]];
       if (s == none) continue;
       const Contact contact = contact_of(body, k, fluid, kernel);
       const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
