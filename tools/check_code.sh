@@ -30,21 +30,27 @@ base() {
 }
 # A file that reads the header $1: its own, or any.
 reader() {
-  local own=${1%.hpp}.cpp header
+  local own=${1%.*}.cpp headers=("$1") header includes files
   if [ -f "$own" ]; then
     echo "$own"
     return
   fi
-  for header in "$1" $(git grep -lF "#include \"$1\"" -- '*.hpp'); do
-    git grep -lF "#include \"$header\"" -- '*.cpp' ':!tests' | head -1
-  done | head -1
+  while [ ${#headers[@]} -gt 0 ]; do
+    includes=()
+    for header in "${headers[@]}"; do includes+=(-e "#include \"$header\""); done
+    if files=$(git grep -lF "${includes[@]}" -- '*.cpp' ':!tests'); then
+      head -1 <<<"$files"
+      return
+    fi
+    mapfile -t headers < <(git grep -lF "${includes[@]}" -- '*.hpp' '*.ipp' ':!tests')
+  done
 }
 
 if [ "${1-}" = --all ]; then
   mapfile -t files < <(sources)
 elif commit=$(base); then
-  mapfile -t files < <(git diff --name-only --diff-filter=d "$commit" -- '*.cpp' '*.hpp' ':!tests' | while read -r file; do
-    case $file in *.hpp) reader "$file" ;; *) echo "$file" ;; esac
+  mapfile -t files < <(git diff --name-only --diff-filter=d "$commit" -- '*.cpp' '*.hpp' '*.ipp' ':!tests' | while read -r file; do
+    case $file in *.cpp) echo "$file" ;; *) reader "$file" ;; esac
   done | sort -u)
 else
   echo "check_code.sh: no history to compare with, clang-tidy is left out; --all checks every file" >&2
