@@ -132,14 +132,12 @@ SeriesWriter::State SeriesWriter::state() {
 
 void SeriesWriter::resume(const State& then) {
   if (then.columns.empty()) return;
-  std::error_code failure;
-  if (!std::filesystem::exists(file_->temporary))
-    std::filesystem::rename(file_->path, file_->temporary, failure);
+  const bool completed = !std::filesystem::exists(file_->temporary);
+  const std::filesystem::path& there = completed ? file_->path : file_->temporary;
   const auto refuse = [&](const std::string& why) {
-    throw BadInput({{.place = file_->temporary.string(), .message = "cannot go on: " + why}});
+    throw BadInput({{.place = there.string(), .message = "cannot go on: " + why}});
   };
-  if (failure) refuse(failure.message());
-  std::ifstream file(file_->temporary, std::ios::binary);
+  std::ifstream file(there, std::ios::binary);
   std::string line;
   if (!file) refuse(std::strerror(errno));
   std::uintmax_t size = 0;
@@ -149,11 +147,13 @@ void SeriesWriter::resume(const State& then) {
     return whole;
   };
   if (!next()) refuse("it has no head");
-  file_->columns = columns_of(line);
+  const auto columns = columns_of(line);
   for (; file_->rows < then.rows; ++file_->rows)
     if (!next()) refuse(fmt::format("it has {} rows, and had {} at the checkpoint", file_->rows, then.rows));
   file.close();
+  if (completed) std::filesystem::rename(file_->path, file_->temporary);
   std::filesystem::resize_file(file_->temporary, size);
+  file_->columns = columns;
   file_->resumed = true;
   file_->open(std::ios::app);
 }

@@ -244,7 +244,9 @@ def main(arguments):
         code, words = Run(commands, lead=next(iter(commands)), environment=environment)()
         if words:
             print(words, file=sys.stderr)
-        reported = report(options, content, code, words)
+        # A restart that is refused leaves the report of the run before.
+        refused = code == BAD_INPUT and options.restart is not None
+        reported = refused or report(options, content, code, words)
         # a restart repeats a failure of physics
         if code not in (DONE, BAD_INPUT, PHYSICS_FAILED) and newest_checkpoint(options.out):
             print(f"go on with: {go_on_with(arguments, options)}")

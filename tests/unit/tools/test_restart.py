@@ -50,6 +50,13 @@ class Restart(Launch):
             2, "--overwrite: error: would remove what --restart goes on from; give one of them\n"))
         self.assertIsNotNone(newest_checkpoint(self.out))
 
+    def test_one_that_is_refused_leaves_the_report(self):
+        self.leave_checkpoints()
+        self.plan(fluid="end 2")
+        done = self.launch("--restart")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertFalse((self.out / "report.html").exists())
+
     def test_the_newest_whole_checkpoint_counts(self):
         self.leave_checkpoints(whole=("000002", "000010"), half=("000011",))
         self.leave_checkpoints(whole=("part",))

@@ -135,9 +135,13 @@ TEST_F(Output, ASeriesThatLacksRowsIsNotGoneOnWith) {
     then = series.state();
   }
   std::ofstream(out / "solid.csv", std::ios::trunc) << "time[s],a[m]\n0,1\n0.1";
-  SeriesWriter series(out, "solid");
-  EXPECT_THAT([&] { series.resume(then); },
-              testing::ThrowsMessage<BadInput>(HasSubstr("it has 1 rows, and had 2 at the checkpoint")));
+  {
+    SeriesWriter series(out, "solid");
+    EXPECT_THAT([&] { series.resume(then); },
+                testing::ThrowsMessage<BadInput>(HasSubstr("it has 1 rows, and had 2 at the checkpoint")));
+  }
+  EXPECT_EQ(text("solid.csv"), "time[s],a[m]\n0,1\n0.1");
+  EXPECT_THAT(files(), ElementsAre("solid.csv"));
 }
 
 /// A series file in HDF5 of numbers 0, 1, 2, ...
