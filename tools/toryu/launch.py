@@ -33,7 +33,7 @@ def parse(arguments):
         epilog="Ctrl-C asks the programs to write a last checkpoint and to end; a second one ends them at once. All other "
                "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
                "4 a process was lost, 130 interrupted.")
-    parser.add_argument("case", metavar="CASE")
+    parser.add_argument("case", metavar="CASE", nargs="?")
     parser.add_argument("--out", metavar="DIR", help="results folder; default out/<case name>. Results of a former run "
                         "that are there are kept in DIR.1, DIR.2, ...")
     parser.add_argument("--overwrite", action="store_true", help="remove the results of a former run")
@@ -55,6 +55,10 @@ def parse(arguments):
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
                         help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
+    if options.case is None and options.restart and results.case_file(options.restart).is_file():
+        options.case, options.restart = options.restart, ""  # "--restart CASE": the case stands where a folder may
+    if options.case is None:
+        parser.error("the following arguments are required: CASE")
     options.passed_on = [f"--set={pair}" for pair in options.set] + unknown
     for name in ("end_time", "threads", "log_level"):
         if (value := getattr(options, name)) is not None:

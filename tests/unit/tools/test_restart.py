@@ -43,6 +43,18 @@ class Restart(Launch):
         self.assertEqual((refused.returncode, refused.stderr), (
             2, f"--out {self.out}: error: the run of --restart {self.folder} goes on where it is; give one of them\n"))
 
+    def test_it_may_stand_before_the_case(self):
+        self.leave_checkpoints()
+        command = self.command()
+        command.remove(str(self.case))
+        at = command.index("--out")
+        done = subprocess.run([*command[:at], "--restart", str(self.case), *command[at:]], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("--restart", (self.out / "coupler.arguments").read_text().splitlines())
+        nothing = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(nothing.returncode, 2)
+        self.assertIn("the following arguments are required: CASE", nothing.stderr)
+
     def test_it_is_no_use_with_overwrite(self):
         self.leave_checkpoints()
         done = self.launch("--restart", "--overwrite")
