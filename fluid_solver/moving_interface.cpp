@@ -38,10 +38,12 @@ void MovingInterface::add_load(const Boundary& boundary, const Vec& received, do
   }
   if (!boundary.friction_force[0].empty()) {
     state_.sum.friction_force.resize(dim * count_);
-    for (std::size_t k = 0; k < boundary.count; ++k)
+    for (std::size_t k = 0; k < boundary.count; ++k) {
+      const std::size_t n = boundary.id[k];
       for (int a = 0; a < dim; ++a)
-        state_.sum.friction_force[dim * boundary.id[k] + static_cast<std::size_t>(a)] +=
+        state_.sum.friction_force[dim * n + static_cast<std::size_t>(a)] +=
             boundary.friction_force[a][k] * dt;
+    }
   }
   state_.sum.impulse_on_fluid += received * dt;
   state_.load_time += dt;
