@@ -111,6 +111,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
   body.spacing = parameters.spacing;
   const auto& regions = parameters.regions;
   std::vector<Box> boxes;
+  boxes.reserve(regions.size());
   for (const auto& region : regions) boxes.push_back(region.box);
   check_size(boxes, parameters.spacing);
   for (std::size_t a = 0; a < regions.size(); ++a) {

@@ -26,8 +26,9 @@ Lattice make_lattice() {
   Lattice lattice;
   for (int i = 0; i < side * side; ++i) {
     // Out of place by up to a tenth of the spacing, the same way each time.
-    lattice.x.push_back(i % side + 0.1 * std::sin(12.9898 * i));
-    lattice.y.push_back(i / side + 0.1 * std::sin(78.233 * i));
+    const int column = i % side, row = i / side;
+    lattice.x.push_back(column + 0.1 * std::sin(12.9898 * i));
+    lattice.y.push_back(row + 0.1 * std::sin(78.233 * i));
     lattice.rho.push_back(1.0 + 0.01 * std::sin(0.1 * i));
     lattice.p.push_back(0.0);
   }

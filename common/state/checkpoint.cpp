@@ -171,7 +171,7 @@ Checkpoint checkpoint_to_restart(const fs::path& out) {
 fs::path open_checkpoint(const fs::path& out) {
   const auto present = checkpoints(out, false);
   const long number = present.empty() ? 1 : present.back().first + 1;
-  const fs::path folder = out / folder_name / fmt::format("{:06}", number);
+  fs::path folder = out / folder_name / fmt::format("{:06}", number);
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure)
