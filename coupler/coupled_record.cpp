@@ -72,7 +72,8 @@ void CoupledRecord::note_times(const Exchange& done, double elapsed) {
 }
 
 void CoupledRecord::audit(const Window& window, const Exchange& done) {
-  const double error = audit_.compare(done.fluid.load, done.applied, done.solid.impulse_taken, window.dt);
+  const double error = audit_.compare(done.fluid.load, done.returned, done.applied, done.solid.motion.impulse,
+                                      done.solid.impulse_taken, window.dt);
   state_.row.impulse_error = std::max(state_.row.impulse_error, error);
   if (error <= ExchangeAudit::tolerance || state_.warned_of_impulse) return;
   log::warn(
@@ -83,8 +84,8 @@ void CoupledRecord::audit(const Window& window, const Exchange& done) {
 }
 
 void CoupledRecord::audit_work(const Window& window, const Exchange& done) {
-  work_.note(done.sent, done.interface_position, done.applied, done.solid.motion.position,
-             done.solid.health.kinetic_energy);
+  work_.note(done.sent, done.interface_start, done.interface_position, done.applied, done.solid.motion,
+             window.dt, done.solid.health.kinetic_energy);
   if (state_.warned_of_work || !work_.feeds()) return;
   log::warn(
       "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "

@@ -27,13 +27,17 @@ double sum_of_lengths(const std::vector<double>& vectors) {
   return sum;
 }
 
-double ExchangeAudit::compare(const InterfaceLoad& of_fluid, const InterfaceLoad& applied,
+double ExchangeAudit::compare(const InterfaceLoad& of_fluid, const std::vector<double>& returned,
+                              const InterfaceLoad& applied, const std::vector<double>& excess,
                               const Vec& impulse_taken, double dt) {
-  const Vec impulse_of_fluid = dt * (sum_of(of_fluid.force) + sum_of(of_fluid.friction_force));
-  const Vec impulse_applied = dt * (sum_of(applied.force) + sum_of(applied.friction_force));
-  const double scale_of_fluid =
-      dt * (sum_of_lengths(of_fluid.force) + sum_of_lengths(of_fluid.friction_force));
-  const double scale_applied = dt * (sum_of_lengths(applied.force) + sum_of_lengths(applied.friction_force));
+  const auto impulse = [dt](const InterfaceLoad& load, const std::vector<double>& more) {
+    return Vec(dt * (sum_of(load.force) + sum_of(load.friction_force)) + sum_of(more));
+  };
+  const auto scale = [dt](const InterfaceLoad& load, const std::vector<double>& more) {
+    return dt * (sum_of_lengths(load.force) + sum_of_lengths(load.friction_force)) + sum_of_lengths(more);
+  };
+  const Vec impulse_of_fluid = impulse(of_fluid, returned), impulse_applied = impulse(applied, excess);
+  const double scale_of_fluid = scale(of_fluid, returned), scale_applied = scale(applied, excess);
   const double error = std::max(relative(impulse_of_fluid + of_fluid.impulse_on_fluid, scale_of_fluid),
                                 relative(impulse_applied - impulse_taken, scale_applied));
   state_.largest = std::max(state_.largest, error);

@@ -17,11 +17,12 @@ class ExchangeAudit {
   /// Differences above this are reported: the two sides round differently, but no more.
   static constexpr double tolerance = 1e-12;
 
-  /// Compares, over a window of `dt` [s], `of_fluid` (its whole load) with what the fluid says it received,
-  /// and `applied` (what the solid was handed) with what the solid says it took. Returns the larger of the
-  /// two differences, relative to the sum of the lengths of the particles' forces times dt: the scale of what
-  /// was summed.
-  double compare(const InterfaceLoad& of_fluid, const InterfaceLoad& applied, const Vec& impulse_taken,
+  /// Compares, over a window of `dt` [s], `of_fluid` (its whole load) and `returned` (the impulse that it was
+  /// to give) with what the fluid says it received, and `applied` (what the solid was handed) and `excess`
+  /// (what its impedance came to) with what the solid says it took. Returns the larger of the two
+  /// differences, relative to the sum of the lengths of all these: the scale of what was summed.
+  double compare(const InterfaceLoad& of_fluid, const std::vector<double>& returned,
+                 const InterfaceLoad& applied, const std::vector<double>& excess, const Vec& impulse_taken,
                  double dt);
 
   double largest() const { return state_.largest; }

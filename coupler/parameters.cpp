@@ -31,8 +31,9 @@ void describe(ParameterTable& table, ImplicitParameters& p) {
 
 void describe(ParameterTable& table, Parameters& p) {
   table.choice(
-      "scheme", p.scheme, {"serial_explicit", "parallel_explicit", "serial_implicit"},
-      {.help = "the fluid, then the solid under its load; both at once, the solid under the load of the "
+      "scheme", p.scheme, {"serial_robin", "serial_explicit", "parallel_explicit", "serial_implicit"},
+      {.help = "the fluid, then the solid under its load, which answers the solid's motion by the fluid's "
+               "impedance, or is constant; both at once, the solid under the load of the "
                "window before; or in turn again and again until the motion settles"});
   table.optional("implicit", p.implicit, "the iteration of 'serial_implicit'");
   if (p.scheme == SchemeKind::serial_implicit && !p.implicit) p.implicit.emplace();

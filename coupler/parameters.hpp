@@ -10,7 +10,7 @@
 namespace toryu::coupling {
 
 /// In which order both sides compute a window: see schemes.hpp.
-enum class SchemeKind { serial_explicit, parallel_explicit, serial_implicit };
+enum class SchemeKind { serial_robin, serial_explicit, parallel_explicit, serial_implicit };
 
 /// How an iteration gets to its next guess: see acceleration.hpp.
 enum class AccelerationKind { fixed, aitken, quasi_newton };
@@ -27,7 +27,7 @@ struct ImplicitParameters {
 void describe(ParameterTable& table, ImplicitParameters& p);
 
 struct Parameters {
-  SchemeKind scheme = SchemeKind::serial_explicit;
+  SchemeKind scheme = SchemeKind::serial_robin;
   std::optional<ImplicitParameters> implicit;
   int extrapolation_order = 0;  ///< of the interface's motion: see extrapolation.hpp
   int fluid_steps_per_window = 1;

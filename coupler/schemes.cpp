@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/link/serialize.hpp"
 #include "common/state/serialize.hpp"
 #include "coupler/acceleration.hpp"
 #include "coupler/extrapolation.hpp"
+#include "coupler/prediction.hpp"
 
 namespace toryu::coupling {
 
@@ -20,6 +22,13 @@ constexpr double least_displacement = 1e-6;
 /// guess, which no window would keep, may be one that a solver cannot bear.
 constexpr double longest_step = 0.05;
 
+/// The impedance that the solid feels in `serial_robin`, over the fluid's. The fluid answers a change within
+/// a window, and what the impedance lets the solid feel of it there is what the load of the next window does
+/// not feed back. Any factor is consistent, since its impulse returns. Measured (pushed column, 20 to 300
+/// kg/m3, windows of 1, 2, 4 fluid steps, 0.2 s): 0.5 bears windows of 1, 1 windows of 1 and of 2 at 300
+/// kg/m3, 1.4 all but windows of 2 below 300 kg/m3, 2 all; above, the way is not nearer to theory.
+constexpr double impedance_factor = 2.0;
+
 double root_mean_square(const Values& values) {
   return values.size() > 0 ? values.norm() / std::sqrt(static_cast<double>(values.size())) : 0.0;
 }
@@ -27,7 +36,10 @@ double root_mean_square(const Values& values) {
 /// What of the fluid's load the case passes on to the solid.
 InterfaceLoad passed_on(const InterfaceLoad& of_fluid, const Parameters& parameters) {
   InterfaceLoad load = of_fluid;
-  if (!parameters.passes_on("pressure_and_viscous")) std::fill(load.force.begin(), load.force.end(), 0.0);
+  if (!parameters.passes_on("pressure_and_viscous")) {
+    std::fill(load.force.begin(), load.force.end(), 0.0);
+    std::fill(load.impedance.begin(), load.impedance.end(), 0.0);
+  }
   if (!parameters.passes_on("friction")) load.friction_force.clear();
   return load;
 }
@@ -62,6 +74,48 @@ class SerialExplicit final : public Scheme {
   const Parameters& parameters_;
   CouplingPort& port_;
   Extrapolation extrapolation_;
+};
+
+/// The time in which sound crosses the fluid's kernel [s]; without end if the fluid knows no sound.
+double response_time(const FluidTraits& fluid) {
+  return fluid.sound_speed > 0 ? fluid.reach / fluid.sound_speed : std::numeric_limits<double>::infinity();
+}
+
+class SerialRobin final : public Scheme {
+ public:
+  SerialRobin(const Parameters& parameters, CouplingPort& port, const CouplingStart& start)
+      : parameters_(parameters), port_(port), prediction_(start.motion, response_time(start.traits)) {}
+
+  Exchange compute(Window& window) override {
+    Exchange done;
+    InterfaceMotion motion = prediction_.over(window.dt);
+    done.fluid = port_.ask_fluid(window, motion);
+    done.sent = passed_on(done.fluid.load, parameters_);
+    done.applied = done.sent;
+    for (double& z : done.applied.impedance) z *= impedance_factor;
+    if (!done.applied.impedance.empty()) done.applied.velocity = motion.velocity;
+    done.solid = port_.ask_solid(window, done.applied);
+    done.interface_start = prediction_.now().position;
+    done.interface_position = std::move(motion.position);
+    done.returned = std::move(motion.impulse);
+    prediction_.note(done.solid.motion, window.dt);
+    done.fluid_compute = done.fluid.health.compute_time;
+    done.solid_compute = done.solid.health.compute_time;
+    done.compute = done.fluid_compute + done.solid_compute;
+    return done;
+  }
+
+  void write_state(std::ostream& stream) const override { write_states(stream, prediction_.state()); }
+  void read_state(std::istream& stream) override {
+    Prediction::State state;
+    read_states(stream, state);
+    prediction_.resume(state);
+  }
+
+ private:
+  const Parameters& parameters_;
+  CouplingPort& port_;
+  Prediction prediction_;
 };
 
 class ParallelExplicit final : public Scheme {
@@ -206,6 +260,8 @@ class SerialImplicit final : public Scheme {
 std::unique_ptr<Scheme> make_scheme(const Parameters& parameters, CouplingPort& port,
                                     const CouplingStart& start) {
   switch (parameters.scheme) {
+    case SchemeKind::serial_robin:
+      return std::make_unique<SerialRobin>(parameters, port, start);
     case SchemeKind::serial_explicit:
       return std::make_unique<SerialExplicit>(parameters, port, start);
     case SchemeKind::parallel_explicit:

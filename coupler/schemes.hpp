@@ -1,5 +1,7 @@
 /// The coupling schemes: in which order both sides compute a window, and what each of them knows then.
 ///
+///     serial_robin        fluid over n with the motion predicted; solid over n under the load of n, which
+///                         answers its motion by the fluid's impedance
 ///     serial_explicit     fluid over n with the motion extrapolated; solid over n under the load of n
 ///     parallel_explicit   at once: fluid over n with the motion extrapolated, solid under the load of n-1
 ///     serial_implicit     as serial_explicit, and again with the solid's answer, relaxed, until it settles
@@ -19,7 +21,9 @@ namespace toryu::coupling {
 /// What a window brought.
 struct Exchange {
   FluidAnswer fluid;
+  std::vector<double> interface_start;     ///< where that began, if not where the window before left it [m]
   std::vector<double> interface_position;  ///< to which the fluid brought its copy of the interface [m]
+  std::vector<double> returned;            ///< the impulse that the fluid gave at the start [N s/m]
   InterfaceLoad sent;                      ///< what of the fluid's load the case passes on to the solid
   InterfaceLoad applied;                   ///< what the solid computed the window with
   SolidAnswer solid;

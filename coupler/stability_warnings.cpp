@@ -60,11 +60,17 @@ double foreseen_window(const CaseFile& file, const FluidTraits& fluid, int steps
 
 std::vector<std::string> stability_warnings(const CaseFile& file, const Parameters& coupling) {
   std::vector<std::string> said;
-  if (coupling.fluid_steps_per_window > largest_calm_window)
+  const bool lags =
+      coupling.scheme == SchemeKind::serial_explicit || coupling.scheme == SchemeKind::parallel_explicit;
+  if (lags && coupling.fluid_steps_per_window > largest_calm_window)
     said.push_back(fmt::format(
         "fluid_steps_per_window = {}: above {} the force on the interface may ring and the motion be wrong "
         "without a failure; compare with 1, see cases/pushed_column/window_map.toml",
         coupling.fluid_steps_per_window, largest_calm_window));
+  if (lags && !file.has("solid.artificial_viscosity") && !file.has("solid.damping"))
+    said.push_back(
+        "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
+        "it; take scheme = 'serial_robin', or give it [solid.artificial_viscosity]");
   const auto number = [&](const char* key) { return file.number(key).value_or(0.0); };
   FluidTraits fluid{.density = number("fluid.density"),
                     .sound_speed = number("fluid.sound_speed"),

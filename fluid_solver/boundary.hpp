@@ -78,6 +78,11 @@ struct Boundary {
   void make_work_piece(const std::vector<Vec>& area_vectors);
   bool is_work_piece() const { return !area_vector[0].empty(); }
   bool moves() const { return !std::holds_alternative<Still>(motion); }
+  /// Whether a cluster of the fluid is in reach.
+  bool acts_on(std::size_t cluster) const {
+    const auto near = list_for_fluid.near(cluster);
+    return near.size() > 1 || !near[0].sources.empty();
+  }
   bool is_interface() const { return std::holds_alternative<MovingInterface>(motion); }
   /// Puts the particles in strip order again after they moved.
   void sort();

@@ -5,6 +5,7 @@
 
 #include "common/run/log.hpp"
 #include "common/state/serialize.hpp"
+#include "fluid_solver/interface_contact.hpp"
 #include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
@@ -71,12 +72,22 @@ MovingInterface& FluidModel::interface() {
 }
 
 void FluidModel::begin_window(const InterfaceMotion& motion, double dt) {
+  Boundary& boundary = state_.boundaries.back();
   interface().begin_window(motion, state_.time, dt);
-  state_.boundaries.back().move(state_.time);
+  boundary.move(state_.time);
+  state_.contact_changed = state_.impedance_wanted = !motion.impulse.empty();
+  if (std::all_of(motion.impulse.begin(), motion.impulse.end(), [](double J) { return J == 0; })) return;
+  const GivenImpulse given = give_impulse(motion.impulse, boundary, state_.fluid, kernel_);
+  interface().note_impulse(given.not_given, given.received, given.work);
+  boundary.impulse.total += given.received;
 }
 
 InterfaceLoad FluidModel::take_load() {
-  return interface().take_load();
+  InterfaceLoad load = interface().take_load();
+  if (state_.impedance_wanted)
+    load.impedance = impedance(state_.boundaries.back(), state_.fluid, kernel_, parameters_.density,
+                               parameters_.sound_speed);
+  return load;
 }
 
 void FluidModel::move_boundaries(double time) {

@@ -57,6 +57,7 @@ class FluidModel : public Solver {
   }
   void attach(const Interface& interface);
   void begin_window(const InterfaceMotion& motion, double dt);
+  /// The mean load over the window, with the impedance if the motion asked for it.
   InterfaceLoad take_load();
 
   double time() const { return state_.time; }
@@ -80,14 +81,17 @@ class FluidModel : public Solver {
     Vec gravity_impulse = Vec::Zero();  ///< since the start [N.s per metre]
     Extremes largest = {};
     bool density_rate_known = false;  ///< of the symplectic step, from the last one
+    bool contact_changed = false;     ///< since then: the velocity at the interface
+    bool impedance_wanted = false;    ///< with the load of the present window
     std::optional<SurfaceRecord> surface_record = {};
     std::optional<SuctionWatch> suction_watch = {};
   };
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
-    auto& [time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known, surface_record,
-           suction_watch] = state;
-    archive(time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known);
+    auto& [time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known, contact_changed,
+           impedance_wanted, surface_record, suction_watch] = state;
+    archive(time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known,
+            contact_changed, impedance_wanted);
     if (surface_record) archive(*surface_record);
     bool watched = suction_watch.has_value();  // until it has warned
     archive(watched);

@@ -14,11 +14,11 @@ MovingInterface::MovingInterface(const Interface& interface, double response_tim
 }
 
 void MovingInterface::begin_window(const InterfaceMotion& motion, double time, double dt) {
-  const bool first = state_.last_dt == 0;
+  const bool first = state_.last_dt == 0, has_velocity = first || !motion.impulse.empty();
   const double share = state_.last_dt / (state_.last_dt + response_time_);
   for (std::size_t k = 0; k < count_; ++k) {
     const Vec now = vector_of(motion.position, k);
-    state_.start[k] = first ? Vec(now - vector_of(motion.velocity, k) * dt) : state_.end[k];
+    state_.start[k] = has_velocity ? Vec(now - vector_of(motion.velocity, k) * dt) : state_.end[k];
     state_.end[k] = now;
     const Vec mean = (state_.end[k] - state_.start[k]) / dt;
     const Vec change = first ? Vec(Vec::Zero()) : Vec((mean - state_.velocity[k]) / state_.last_dt);
@@ -27,6 +27,12 @@ void MovingInterface::begin_window(const InterfaceMotion& motion, double time, d
   }
   state_.window_start = time;
   state_.last_dt = dt;
+}
+
+void MovingInterface::note_impulse(const std::vector<double>& not_given, const Vec& received, double work) {
+  for (std::size_t n = 0; n < not_given.size(); ++n) state_.sum.force[n] -= not_given[n];
+  state_.sum.impulse_on_fluid += received;
+  state_.sum.work_of_impulse += work;
 }
 
 void MovingInterface::add_load(const Boundary& boundary, const Vec& received, double dt) {

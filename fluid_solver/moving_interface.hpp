@@ -17,7 +17,8 @@ class MovingInterface {
 
   /// Begins a window of `dt` [s] at `time` [s], in which the interface is brought to where `motion` says.
   /// Each particle goes there in a straight line from where the last window left it: displacement and
-  /// velocity agree exactly, and no position ever jumps.
+  /// velocity agree exactly, and no position ever jumps. Only a motion with an impulse has a velocity of its
+  /// own, and begins where the solid is: the way between is of second order in `dt`.
   ///
   /// The acceleration that (29) uses is the change of that velocity, averaged over the response time. Taken
   /// as it is, it would be an added mass that lags by a window: a layer of the solid with mass m_s per area
@@ -35,6 +36,9 @@ class MovingInterface {
 
   /// Adds the boundary's force over `dt` [s] to the load; `received` is the force that the fluid got from it.
   void add_load(const Boundary& boundary, const Vec& received, double dt);
+  /// Takes impulses back that found no fluid, dim values a particle [N s/m]: the next load makes them good.
+  /// `received` is what the fluid did get, `work` [J/m] what that did to it.
+  void note_impulse(const std::vector<double>& not_given, const Vec& received, double work);
   /// The mean load since the last call.
   InterfaceLoad take_load();
 
@@ -48,9 +52,9 @@ class MovingInterface {
   template <class Archive>
   friend void serialize(Archive& archive, MovingInterface& interface) {
     auto& [window_start, last_dt, start, end, velocity, acceleration, load_time, sum] = interface.state_;
-    auto& [pressure, force, friction_force, impulse_on_fluid] = sum;
+    auto& [pressure, force, friction_force, impulse_on_fluid, work_of_impulse, impedance, of_copy] = sum;
     archive(window_start, last_dt, start, end, velocity, acceleration, load_time, pressure, force,
-            friction_force, impulse_on_fluid);
+            friction_force, impulse_on_fluid, work_of_impulse, impedance, of_copy);
   }
 
   std::size_t count_;

@@ -63,8 +63,8 @@ std::vector<std::uint32_t> join(SolidLink& link, const SolidModel& model) {
   return interface.id;
 }
 
-/// Takes turns with the fluid until the coupler ends the run. In each window the load is constant and the
-/// solid takes as many equal sub-steps as its stability needs.
+/// Takes turns with the fluid until the coupler ends the run. In each window the load is constant, but
+/// for its impedance, and the solid takes as many equal sub-steps as its stability needs.
 void take_turns(SolidLink& link, SolidModel& model, RunRecord& record,
                 const std::vector<std::uint32_t>& touched) {
   take_windows(link, model, record, [&](const SolidLink::Turn& turn) {
@@ -74,7 +74,11 @@ void take_turns(SolidLink& link, SolidModel& model, RunRecord& record,
       link.count_step();
       for (long n = 0; n < steps.taken; ++n) impulse_taken += steps.dt * force;
     });
-    link.send(model.motion(touched), impulse_taken, model.health());
+    InterfaceMotion motion = model.motion(touched);
+    motion.impulse = model.excess_impulse();
+    for (std::size_t n = 0; n < touched.size() && !motion.impulse.empty(); ++n)
+      impulse_taken += vector_of(motion.impulse, n);
+    link.send(motion, impulse_taken, model.health());
   });
 }
 
@@ -127,11 +131,6 @@ ExitCode solve(const Options& options) {
     compute_alone(options, file, scene, parameters, *model);
     return ExitCode::done;
   }
-  if (!parameters.artificial_viscosity && !parameters.damping)
-    log::warn(
-        "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
-        "it; "
-        "give it [solid.artificial_viscosity]");
   compute_coupled(options, file, scene, parameters, *model);
   return ExitCode::done;
 }

@@ -194,9 +194,41 @@ Vec SolidModel::set_interface_load(const std::vector<std::uint32_t>& particles, 
     state_.u_at_load.push_back(displacement(particles[n]));
     sum += force;
   }
+  state_.impedance.clear();
+  for (std::size_t n = 0; dim * n < load.velocity.size(); ++n) {
+    const Vec z = vector_of(load.impedance, n);
+    const double value = z.norm();
+    state_.impedance.push_back(
+        {value > 0 ? Vec(z / value) : Vec(Vec::Zero()), value, vector_of(load.velocity, n)});
+  }
   find_external();
   state_.load_sum = sum_of_loads();
   return sum;
+}
+
+void SolidModel::brake_by_impedance(double dt, double kept) {
+  for (std::size_t n = 0; n < state_.impedance.size(); ++n) {
+    Impedance& z = state_.impedance[n];
+    if (z.value == 0) continue;
+    const auto i = state_.loaded[n];
+    const std::size_t k = slot_[i];
+    const Vec rest = constant_[i] + state_.load[n] / mass(i);
+    const Vec w = kept * at(state_.v, k) + 0.5 * dt * mobile_[k] * (at(state_.a, k) + rest);
+    const double rate = z.value / mass(i);
+    const double brake = rate / (1.0 + 0.5 * dt * mobile_[k] * rate) * z.normal.dot(z.velocity - w);
+    set(state_.external, k, rest + brake * z.normal);
+    const double impulse = dt * mass(i) * brake;
+    z.impulse += impulse;
+    state_.past_work += impulse * (z.normal.dot(w) + 0.5 * dt * mobile_[k] * brake);
+    state_.impulses.loads += impulse * z.normal;
+  }
+}
+
+std::vector<double> SolidModel::excess_impulse() const {
+  std::vector<double> impulse;
+  for (const Impedance& z : state_.impedance)
+    for (int a = 0; a < dim; ++a) impulse.push_back(z.impulse * z.normal[a]);
+  return impulse;
 }
 
 Vec SolidModel::sum_of_loads() const {

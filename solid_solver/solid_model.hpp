@@ -44,6 +44,20 @@ void serialize(Archive& archive, Impulses& impulses) {
   archive(loads, walls, clamps);
 }
 
+/// How the fluid answers the normal velocity of a particle of the interface.
+struct Impedance {
+  Vec normal = Vec::Zero();
+  double value = 0;            ///< [kg/(s.m)]
+  Vec velocity = Vec::Zero();  ///< of the fluid's copy of the particle [m/s]
+  double impulse = 0;          ///< taken along the normal, beyond the load's force [N s/m]
+};
+
+template <class Archive>
+void serialize(Archive& archive, Impedance& impedance) {
+  auto& [normal, value, velocity, impulse] = impedance;
+  archive(normal, value, velocity, impulse);
+}
+
 /// Takes all particles that have come off so far, whenever there are new ones.
 using RecordDetached = std::function<void(const std::vector<DetachedParticle>&)>;
 
@@ -70,6 +84,9 @@ class SolidModel : public Solver {
   /// Sets the force on the interface [N per metre depth], which holds until the next call. Returns the sum
   /// that the solid takes per second, clamps included [N per metre depth].
   Vec set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load);
+  /// What the interface has taken since then beyond that force, by the load's impedance: dim values a
+  /// particle [N s per metre depth]; empty if the load has none.
+  std::vector<double> excess_impulse() const;
   Health health() const;
   const Impulses& impulses() const { return state_.impulses; }
   /// From now on `record` gets the particles that come off, once that is final. Needs [solid.detachment].
@@ -103,6 +120,7 @@ class SolidModel : public Solver {
     Vec idle_external = Vec::Zero();
     std::vector<std::uint32_t> loaded;  ///< numbers of the interface's particles
     std::vector<Vec> load, u_at_load;   ///< of the interface [N/m], [m]
+    std::vector<Impedance> impedance;   ///< of the interface, where the load has any
     double past_work = 0;               ///< of earlier interface loads [J/m]
     Vec load_sum = Vec::Zero();         ///< of gravity and all loads [N/m]
     Impulses impulses;
@@ -114,12 +132,20 @@ class SolidModel : public Solver {
   };
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
-    auto& [time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, past_work,
-           load_sum, impulses, walls, bodies, detachment, bonds, energy] = state;
-    archive(time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, past_work,
-            load_sum, impulses, walls, bodies, detachment, bonds, energy);
+    auto& [time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, impedance,
+           past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy] = state;
+    archive(time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, impedance,
+            past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy);
   }
 
+  /// Adds to the external acceleration what the interface's impedance z makes of it in a step `dt` [s]:
+  ///
+  ///     m a = -z n n.(w - w_c),   w = v + dt/2 (a_rest - z/m n n.(w - w_c))
+  ///
+  /// with w_c the velocity of the fluid's copy: w is the velocity at which a step of two kicks drifts, so
+  /// that damping is stable for any z, and its impulse is z (w_c dt - du). `kept` is what other damping
+  /// leaves of the velocity in the first kick.
+  void brake_by_impedance(double dt, double kept = 1.0);
   /// Throws if the strain of a particle is beyond its limit.
   virtual void check_strain(double time) const = 0;
   [[noreturn]] void fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,

@@ -100,7 +100,7 @@ CaseFile::CaseFile(const std::filesystem::path& path, const std::vector<std::str
 CaseFile::~CaseFile() = default;
 
 bool CaseFile::has(const std::string& section) const {
-  const toml::node* node = content_->root.get(section);
+  const toml::node* node = content_->root.at_path(section).node();
   return node && node->value_exact<bool>() != false;
 }
 

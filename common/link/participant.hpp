@@ -57,6 +57,10 @@ struct Interface {
 /// Kinematics of the interface at one time, dim values a particle.
 struct InterfaceMotion {
   std::vector<double> position, velocity;  ///< [m], [m/s]
+  /// From the solid, what it took beyond the force of the load, by the load's impedance; to the fluid, what
+  /// it is to give when the window starts [N s per metre depth]. Empty where the scheme does without: only a
+  /// motion with it asks the fluid for an impedance, and has the copy start where `velocity` comes from.
+  std::vector<double> impulse = {};
 };
 
 /// What the fluid does to the interface, averaged over a window.
@@ -67,6 +71,12 @@ struct InterfaceLoad {
   /// Impulse that the fluid itself received from the interface over the window, summed on its side [N s per
   /// metre].
   Vec impulse_on_fluid = Vec::Zero();
+  double work_of_impulse = 0;  ///< what the impulse of the motion did to the fluid [J per metre]
+  /// How the fluid answers the interface's normal velocity: rho c_0 times the area that a particle bears,
+  /// along its outward normal n, dim values [kg/(s.m)]. A particle at v feels `force` + n z n.(velocity - v),
+  /// z the length. Empty where the scheme does without.
+  std::vector<double> impedance = {};
+  std::vector<double> velocity = {};  ///< of the fluid's copy of the interface; goes with the impedance [m/s]
 };
 
 /// A coupling window granted by the coupler. Iteration 0 takes the one before as it stands; with a higher

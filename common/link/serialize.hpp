@@ -7,14 +7,14 @@ namespace toryu {
 
 template <class Archive>
 void serialize(Archive& archive, InterfaceMotion& motion) {
-  auto& [position, velocity] = motion;
-  archive(position, velocity);
+  auto& [position, velocity, impulse] = motion;
+  archive(position, velocity, impulse);
 }
 
 template <class Archive>
 void serialize(Archive& archive, InterfaceLoad& load) {
-  auto& [pressure, force, friction_force, impulse_on_fluid] = load;
-  archive(pressure, force, friction_force, impulse_on_fluid);
+  auto& [pressure, force, friction_force, impulse_on_fluid, work_of_impulse, impedance, velocity] = load;
+  archive(pressure, force, friction_force, impulse_on_fluid, work_of_impulse, impedance, velocity);
 }
 
 template <class Archive>

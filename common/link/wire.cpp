@@ -95,11 +95,12 @@ toryu_Motion motion(const toryu_WindowHead& window, const InterfaceMotion& motio
   message.window = window;
   message.position = sequence(motion.position);
   message.velocity = sequence(motion.velocity);
+  message.impulse = sequence(motion.impulse);
   return message;
 }
 
 InterfaceMotion motion(const toryu_Motion& message) {
-  return {values(message.position), values(message.velocity)};
+  return {values(message.position), values(message.velocity), values(message.impulse)};
 }
 
 toryu_Load load(const toryu_WindowHead& window, const InterfaceLoad& load) {
@@ -109,12 +110,20 @@ toryu_Load load(const toryu_WindowHead& window, const InterfaceLoad& load) {
   message.force = sequence(load.force);
   message.friction_force = sequence(load.friction_force);
   set(message.impulse_on_fluid, load.impulse_on_fluid);
+  message.work_of_impulse = load.work_of_impulse;
+  message.impedance = sequence(load.impedance);
+  message.velocity = sequence(load.velocity);
   return message;
 }
 
 InterfaceLoad load(const toryu_Load& message) {
-  return {values(message.pressure), values(message.force), values(message.friction_force),
-          vector(message.impulse_on_fluid)};
+  return {.pressure = values(message.pressure),
+          .force = values(message.force),
+          .friction_force = values(message.friction_force),
+          .impulse_on_fluid = vector(message.impulse_on_fluid),
+          .work_of_impulse = message.work_of_impulse,
+          .impedance = values(message.impedance),
+          .velocity = values(message.velocity)};
 }
 
 void check(const Interface& interface, const std::string& sender) {
@@ -130,6 +139,7 @@ void check(const Interface& interface, const std::string& sender) {
 void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender) {
   check_values(motion.position, particles, dim, "position", sender);
   check_values(motion.velocity, particles, dim, "velocity", sender);
+  if (!motion.impulse.empty()) check_values(motion.impulse, particles, dim, "impulse", sender);
 }
 
 void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender) {
@@ -137,8 +147,13 @@ void check(const InterfaceLoad& load, std::size_t particles, const std::string& 
   check_values(load.force, particles, dim, "force", sender);
   if (!load.friction_force.empty())
     check_values(load.friction_force, particles, dim, "friction force", sender);
+  if (!load.velocity.empty()) check_values(load.velocity, particles, dim, "velocity", sender);
+  if (!load.impedance.empty() || !load.velocity.empty())
+    check_values(load.impedance, particles, dim, "impedance", sender);
   if (!load.impulse_on_fluid.allFinite())
     throw PhysicsFailure(fmt::format("{}: impulse on the fluid is not finite", sender));
+  if (!std::isfinite(load.work_of_impulse))
+    throw PhysicsFailure(fmt::format("{}: work of the impulse is not finite", sender));
 }
 
 void check(const toryu_WindowHead& window, const Window& expected, const std::string& sender) {

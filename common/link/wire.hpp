@@ -11,7 +11,7 @@
 namespace toryu::wire {
 
 /// Raised whenever a message changes its meaning; processes of different protocols refuse each other.
-inline constexpr std::uint32_t protocol = 4;
+inline constexpr std::uint32_t protocol = 5;
 inline constexpr const char* units = "SI";
 
 // A topic has one writer's role; what passes through the coupler has a topic on each of its sides.

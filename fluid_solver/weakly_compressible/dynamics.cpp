@@ -157,6 +157,13 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
   if (velocity && friction_) brake_by_friction(fluid, boundaries);
 }
 
+void Dynamics::renew_density_rates(Particles& fluid, const ClusterList& neighbours,
+                                   std::vector<Boundary>& boundaries) const {
+  medium_.kernel.visit([&](const auto& W) {
+    sweeps().rates(W, RatesOf::density, fluid, neighbours, boundaries, &boundaries.back());
+  });
+}
+
 void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const {
   for (Boundary& boundary : boundaries)
     if (boundary.is_work_piece()) {

@@ -44,10 +44,11 @@ struct PairSweeps {
   bool tensile_control;  ///< needs `off_surface_and_walls` of the fluid
 
   /// Fills the rates a, drho of `fluid`, and what each boundary did to it where the velocity is among them.
-  /// Opens a parallel region. Defined for CubicSpline and WendlandC2.
+  /// Opens a parallel region. With `beside`, only for the clusters near that boundary. Defined for
+  /// CubicSpline and WendlandC2.
   template <class W>
   void rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-             std::vector<Boundary>& boundaries) const;
+             std::vector<Boundary>& boundaries, const Boundary* beside = nullptr) const;
 
   /// Fills `boundary.force`: the forces on the fluid's side gathered pair by pair on the boundary's.
   template <class W>

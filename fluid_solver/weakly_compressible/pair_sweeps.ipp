@@ -77,8 +77,8 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
   i.p_rho2 = p_rho2_i;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     if constexpr (of_velocity<wanted>) boundaries[b].force_on_fluid.by_cluster[cluster].setZero();
+    if (!boundaries[b].acts_on(cluster)) continue;
     const auto near = boundaries[b].list_for_fluid.near(cluster);
-    if (near.size() == 1 && near[0].sources.empty()) continue;
     const Sources wall = sources(boundaries[b]);
     // Summed apart: where a wall is only grazed, its share of the acceleration is below the rounding of the
     // rest.
@@ -120,22 +120,23 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
 
 template <RatesOf wanted, class W, class... Terms>
 void rates_of_all(const PairSweeps& sweeps, const W& kernel, Particles& fluid, const ClusterList& neighbours,
-                  std::vector<Boundary>& boundaries, const Terms... term) {
+                  std::vector<Boundary>& boundaries, const Boundary* beside, const Terms... term) {
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c)
-    rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, c, term...);
+    if (!beside || beside->acts_on(c))
+      rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, c, term...);
 }
 
 }  // namespace
 
 template <class W>
 void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                       std::vector<Boundary>& boundaries) const {
+                       std::vector<Boundary>& boundaries, const Boundary* beside) const {
   // Terms that a sweep does not ask for are not told apart: each combination is compiled once.
   if (wanted == RatesOf::both)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries,
+          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, beside,
                                       Continuity{rest_density, wall_suction}, Pressure{wall_suction},
                                       term...);
         },
@@ -143,14 +144,14 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
   else if (wanted == RatesOf::velocity)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries,
+          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries, beside,
                                           Pressure{wall_suction}, term...);
         },
         terms.artificial, terms.viscous, terms.repulsion);
   else
     std::visit(
         [&](const auto& diffusion) {
-          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries,
+          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, beside,
                                          Continuity{rest_density, wall_suction}, diffusion);
         },
         terms.diffusion);

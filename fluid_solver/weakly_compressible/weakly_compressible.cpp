@@ -120,8 +120,12 @@ void WeaklyCompressible::step_midpoint(double dt) {
 
 void WeaklyCompressible::step_symplectic(double dt) {
   const std::size_t clusters = state_.fluid.clusters();
-  if (!state_.density_rate_known) evaluate(RatesOf::density);
+  if (!state_.density_rate_known)
+    evaluate(RatesOf::density);
+  else if (state_.contact_changed)
+    dynamics_.renew_density_rates(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);
   state_.density_rate_known = true;
+  state_.contact_changed = false;
   add(state_.fluid.x, 0.5 * dt, state_.fluid.v, clusters);
   add(state_.fluid.rho, 0.5 * dt, state_.fluid.drho, clusters);
   move_boundaries(state_.time + 0.5 * dt);

@@ -9,8 +9,10 @@
 ///     x += dt/2 v;   rho += dt/2 drho(x^(n+1), v^(n+1))
 ///
 /// drho of the end serves the next step's beginning, so each rate is found once a step, each by a loop over
-/// pairs of its own. Sound is a leapfrog of rho and v: undamped, stable up to w dt = 2. Viscosity, density
-/// diffusion and the factor rho of continuity are taken half a step old, to the first order.
+/// pairs of its own; only beside an interface whose velocity a new window has changed it is found anew, for
+/// otherwise the pressure would answer that change a step late. Sound is a leapfrog of rho and v: undamped,
+/// stable up to w dt = 2. Viscosity, density diffusion and the factor rho of continuity are taken half a step
+/// old, to the first order.
 #pragma once
 
 #include "fluid_solver/fluid_model.hpp"

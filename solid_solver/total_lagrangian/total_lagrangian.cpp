@@ -55,6 +55,7 @@ void TotalLagrangian::read_state(std::istream& stream) {
 void TotalLagrangian::advance(double dt) {
   const auto scope = timers_.measure("steps");
   state_.time += dt;
+  brake_by_impedance(dt, parameters_.damping ? parameters_.damping->factor(0.5 * dt) : 1.0);
   count_impulses(0.5 * dt);  // of the first kick
 #pragma omp parallel
   {

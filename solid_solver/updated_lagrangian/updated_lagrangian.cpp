@@ -66,6 +66,8 @@ void UpdatedLagrangian::advance(double dt) {
   find_neighbours_if_moved();
   {
     const auto scope = timers_.measure("steps");
+    const bool kicks = parameters_.integrator != Integrator::midpoint;
+    brake_by_impedance(dt, kicks && parameters_.damping ? parameters_.damping->factor(0.5 * dt) : 1.0);
     parameters_.integrator == Integrator::midpoint ? midpoint_step(dt) : symplectic_step(dt);
   }
   end_step();

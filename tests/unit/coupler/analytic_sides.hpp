@@ -35,7 +35,7 @@ struct AnalyticSides final : CouplingPort {
 
   CouplingStart start() const {
     return {
-        {.time_step_limit = time_step_limit, .density = 1, .sound_speed = 1, .spacing = 1},
+        {.reach = 0.1, .time_step_limit = time_step_limit, .density = 1, .sound_speed = 1, .spacing = 1},
         {.id = {7}, .position = {0, 0}, .volume = {1}, .area_vector = {0, 0}, .mass = {mass}, .spacing = 1},
         {{0, 0}, {0, 0}}};
   }

@@ -86,7 +86,7 @@ TEST_F(CheckpointTest, ARunThatGoesOnIsBitwiseThatWithoutAnEnd) {
   Parameters three_steps = explicit_scheme(SchemeKind::serial_explicit, 2);
   three_steps.fluid_steps_per_window = 3;
   for (const auto& coupling :
-       {explicit_scheme(SchemeKind::serial_explicit), three_steps,
+       {explicit_scheme(SchemeKind::serial_robin), explicit_scheme(SchemeKind::serial_explicit), three_steps,
         explicit_scheme(SchemeKind::parallel_explicit), implicit(AccelerationKind::fixed),
         implicit(AccelerationKind::aitken), implicit(AccelerationKind::quasi_newton)}) {
     SCOPED_TRACE(fmt::format("scheme {}, relaxation {}", static_cast<int>(coupling.scheme),

@@ -28,10 +28,10 @@ InterfaceLoad opposite_forces() {
 TEST(ExchangeAudit, IsRelativeToTheForcesAndNotToTheirSum) {
   ExchangeAudit audit;
   const auto load = opposite_forces();
-  EXPECT_EQ(audit.compare(load, load, Vec::Zero(), 0.1), 0);
+  EXPECT_EQ(audit.compare(load, {}, load, {}, Vec::Zero(), 0.1), 0);
   // The lengths are 5 and 5, so the scale is 10 x 0.1 s.
-  EXPECT_DOUBLE_EQ(audit.compare(load, load, Vec(0.002, 0), 0.1), 0.002);
-  EXPECT_EQ(audit.compare(load, load, Vec::Zero(), 0.1), 0);
+  EXPECT_DOUBLE_EQ(audit.compare(load, {}, load, {}, Vec(0.002, 0), 0.1), 0.002);
+  EXPECT_EQ(audit.compare(load, {}, load, {}, Vec::Zero(), 0.1), 0);
   EXPECT_DOUBLE_EQ(audit.largest(), 0.002);
 }
 
@@ -40,15 +40,23 @@ TEST(ExchangeAudit, SeesBothSides) {
   InterfaceLoad of_fluid{{0}, {2, 0}, {0, 1}, Vec(-0.2, -0.1)};
   InterfaceLoad applied = of_fluid;
   applied.force = {0, 0};  // the case passes on friction alone
-  EXPECT_NEAR(audit.compare(of_fluid, applied, Vec(0, 0.1), 0.1), 0, 1e-15);
+  EXPECT_NEAR(audit.compare(of_fluid, {}, applied, {}, Vec(0, 0.1), 0.1), 0, 1e-15);
   of_fluid.impulse_on_fluid.x() = -0.23;
-  EXPECT_NEAR(audit.compare(of_fluid, applied, Vec(0, 0.1), 0.1), 0.1, 1e-12);
+  EXPECT_NEAR(audit.compare(of_fluid, {}, applied, {}, Vec(0, 0.1), 0.1), 0.1, 1e-12);
+}
+
+TEST(ExchangeAudit, CountsTheImpulseOfAnImpedanceOnBothSides) {
+  ExchangeAudit audit;
+  InterfaceLoad of_fluid{{0}, {2, 0}, {}, Vec(-0.7, 0)};
+  EXPECT_NEAR(audit.compare(of_fluid, {0.5, 0}, of_fluid, {0.1, 0}, Vec(0.3, 0), 0.1), 0, 1e-15);
+  EXPECT_NEAR(audit.compare(of_fluid, {0.5, 0}, of_fluid, {0.1, 0}, Vec(0.2, 0), 0.1), 0.1 / 0.3, 1e-12);
+  EXPECT_NEAR(audit.compare(of_fluid, {0.4, 0}, of_fluid, {0.1, 0}, Vec(0.3, 0), 0.1), 0.1 / 0.6, 1e-12);
 }
 
 TEST(ExchangeAudit, ImpulseFromNowhereIsInfinite) {
   ExchangeAudit audit;
   const InterfaceLoad none{{0}, {0, 0}, {}, Vec::Zero()};
-  EXPECT_EQ(audit.compare(none, none, Vec(1e-9, 0), 0.1), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(audit.compare(none, {}, none, {}, Vec(1e-9, 0), 0.1), std::numeric_limits<double>::infinity());
 }
 
 /// Reads `[coupling]` with the given lines.
@@ -82,21 +90,29 @@ TEST(Parameters, AnUnknownLoadIsAFault) {
                   "case.toml:2:1: error: 'loads' must name 'pressure_and_viscous', 'friction' or both")));
 }
 
-/// What is said of a layer of 20 mm and `density` [kg/m3] in water of 10 mm with more lines, and of
+Parameters serial_explicit() {
+  Parameters coupling;
+  coupling.scheme = SchemeKind::serial_explicit;
+  return coupling;
+}
+
+constexpr const char* damped = "damping.rate = 1";
+
+/// What is said of a layer of 20 mm and `density` [kg/m3] in water of 10 mm, each with more lines, and of
 /// `coupling`.
-std::vector<std::string> said_of(double density, const Parameters& coupling,
-                                 const std::string& of_fluid = "") {
+std::vector<std::string> said_of(double density, const Parameters& coupling, const std::string& of_fluid = "",
+                                 const std::string& of_solid = damped) {
   const Folder folder;
   std::ofstream(folder.path / "case.toml") << fmt::format(
-      "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\n{}\n[solid]\ndensity = {}\n"
+      "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\n{}\n[solid]\ndensity = {}\n{}\n"
       "[[solid.region]]\nbox = {{ min = [0, 0], max = [1, 0.5] }}\n"
       "[[solid.region]]\nbox = {{ min = [0, 0.5], max = [1, 0.52] }}\n",
-      of_fluid, density);
+      of_fluid, density, of_solid);
   return stability_warnings(CaseFile(folder.path, {}), coupling);
 }
 
 TEST(StabilityWarnings, ForeseeALayerThatIsTooLight) {
-  Parameters coupling;
+  Parameters coupling = serial_explicit();
   EXPECT_TRUE(said_of(200, coupling).empty());  // 0.4 of a row of fluid
   EXPECT_THAT(
       said_of(180, coupling),
@@ -105,41 +121,52 @@ TEST(StabilityWarnings, ForeseeALayerThatIsTooLight) {
   EXPECT_THAT(said_of(200, coupling), testing::SizeIs(1));
   coupling.scheme = SchemeKind::serial_implicit;
   EXPECT_TRUE(said_of(180, coupling).empty());
+  EXPECT_TRUE(said_of(180, {}).empty());
+}
+
+TEST(StabilityWarnings, TellOfALagThatNothingDamps) {
+  EXPECT_TRUE(said_of(2000, serial_explicit()).empty());
+  EXPECT_THAT(said_of(2000, serial_explicit(), "", ""),
+              testing::ElementsAre(testing::HasSubstr("nothing damps the solid: the lag of a window")));
+  EXPECT_TRUE(said_of(2000, {}, "", "").empty());
 }
 
 TEST(StabilityWarnings, CountAWindowAsLongAsTheFluidsSteps) {
   // C = 0.25 h/d_0 times share or steps, h = 1.3 d_0: (C/2)^2 = 0.660 at 5, above the least of 0.385
   const auto bears = testing::ElementsAre(testing::HasSubstr("the scheme bears 0.66"));
-  EXPECT_TRUE(said_of(300, {}).empty());  // 0.6 of a row
-  EXPECT_THAT(said_of(300, {}, "time_step_share = 5"), bears);
-  Parameters two_steps;
+  EXPECT_TRUE(said_of(300, serial_explicit()).empty());  // 0.6 of a row
+  EXPECT_THAT(said_of(300, serial_explicit(), "time_step_share = 5"), bears);
+  Parameters two_steps = serial_explicit();
   two_steps.fluid_steps_per_window = 2;
   EXPECT_THAT(said_of(300, two_steps, "time_step_share = 2.5"), bears);
   // of viscosity the window is shorter: 0.125 h^2/nu is a tenth of 0.25 h/c_0 at nu = 5 h c_0 = 1.3 m2/s
-  EXPECT_TRUE(said_of(300, {}, "time_step_share = 5\nlaminar_viscosity.dynamic_viscosity = 1300").empty());
-  EXPECT_TRUE(said_of(300, {}, "time_step_share = 5\ncarreau.zero_shear_viscosity = 1300").empty());
+  EXPECT_TRUE(
+      said_of(300, serial_explicit(), "time_step_share = 5\nlaminar_viscosity.dynamic_viscosity = 1300")
+          .empty());
+  EXPECT_TRUE(
+      said_of(300, serial_explicit(), "time_step_share = 5\ncarreau.zero_shear_viscosity = 1300").empty());
   const std::string power_law =
       "time_step_share = 5\npower_law.smallest_viscosity = 1\n"
       "power_law.largest_viscosity = 1300\npower_law.exponent = ";
-  EXPECT_TRUE(said_of(300, {}, power_law + "0.5").empty());
-  EXPECT_THAT(said_of(300, {}, power_law + "1.5"), bears);  // thin while it is at rest
+  EXPECT_TRUE(said_of(300, serial_explicit(), power_law + "0.5").empty());
+  EXPECT_THAT(said_of(300, serial_explicit(), power_law + "1.5"), bears);  // thin while it is at rest
 }
 
 TEST(StabilityWarnings, SeeNoDeeperThanTheKernel) {
   const Folder folder;
   std::ofstream(folder.path / "case.toml")
       << "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\nsmoothing_ratio = 1.25\n"
-         "[solid]\ndensity = 140\n[[solid.region]]\nbox = { min = [0, 0], max = [1, 1] }\n";
-  EXPECT_THAT(stability_warnings(CaseFile(folder.path, {}), {}),
+         "[solid]\ndensity = 140\ndamping.rate = 1\n[[solid.region]]\nbox = { min = [0, 0], max = [1, 1] }\n";
+  EXPECT_THAT(stability_warnings(CaseFile(folder.path, {}), serial_explicit()),
               testing::ElementsAre(
                   testing::HasSubstr("weighs 0.28 of a row")));  // 140 x 2 rows: from half a spacing off
 }
 
 TEST(StabilityWarnings, SayNothingOfWhatTheyDoNotKnow) {
-  Parameters coupling;
+  Parameters coupling = serial_explicit();
   coupling.fluid_steps_per_window = 4;
   const Folder folder;
-  std::ofstream(folder.path / "case.toml") << "[fluid]\nviscosity = 1\n[solid]\nmass = 1\n";
+  std::ofstream(folder.path / "case.toml") << "[fluid]\nviscosity = 1\n[solid]\nmass = 1\ndamping.rate = 1\n";
   EXPECT_THAT(stability_warnings(CaseFile(folder.path, {}), coupling),
               testing::ElementsAre(testing::HasSubstr("cases/pushed_column/window_map.toml")));
 }

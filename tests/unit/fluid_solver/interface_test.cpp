@@ -69,6 +69,96 @@ INSTANTIATE_TEST_SUITE_P(
         Contact{"Symplectic", WallSlip::no_slip, Friction{.coefficient = 0.3}, {}, Integrator::symplectic}),
     [](const auto& one) { return one.param.name; });
 
+class ImpedancePlate : public testing::TestWithParam<Integrator> {};
+INSTANTIATE_TEST_SUITE_P(Steps, ImpedancePlate,
+                         testing::Values(Integrator::midpoint, Integrator::symplectic));
+
+TEST_P(ImpedancePlate, GivesTheImpulseItIsAskedForToRounding) {
+  omp_set_num_threads(1);
+  Setting setting = tank_with_a_plate();
+  setting.parameters.integrator = GetParam();
+  WeaklyCompressible solver = setting.solver();
+  const Interface interface = plate();
+  solver.attach(interface);
+  const double dt = 0.5 * solver.time_step_limit();
+  InterfaceMotion motion = moved(interface, Vec::Zero(), 0);
+  motion.impulse.assign(dim * interface.size(), 0.0);
+  solver.begin_window(motion, dt);
+  solver.advance(dt);
+  solver.take_load();
+  Vec asked = Vec::Zero();
+  for (std::size_t k = 0; k < interface.size(); ++k) {
+    motion.impulse[dim * k] = 0.1 + 0.01 * static_cast<double>(k);
+    motion.impulse[dim * k + 1] = -0.02;
+    asked += vector_of(motion.impulse, k);
+  }
+  const Vec momentum = solver.momentum();
+  const double energy = solver.kinetic_energy();
+  solver.begin_window(motion, dt);
+  const Vec received = solver.momentum() - momentum;
+  const double gained = solver.kinetic_energy() - energy;
+  solver.advance(dt);
+  const InterfaceLoad load = solver.take_load();
+  EXPECT_NEAR(load.work_of_impulse, gained, 1e-12 * std::abs(gained));
+  Vec on_plate = asked;
+  for (std::size_t k = 0; k < interface.size(); ++k) {
+    const Vec force = vector_of(load.force, k);
+    on_plate += dt * force;
+    if (load.impedance[dim * k] == 0) {  // the outer columns: nothing in reach, so the load takes it back
+      EXPECT_LT((dt * force + vector_of(motion.impulse, k)).norm(), 1e-14);
+      asked -= vector_of(motion.impulse, k);
+    }
+  }
+  EXPECT_LT((received + asked).norm(), 1e-12 * asked.norm());
+  EXPECT_LT((on_plate + load.impulse_on_fluid).norm(), 1e-12 * on_plate.norm());
+}
+
+TEST(Impedance, OfAPlaneFaceIsThatOfItsArea) {
+  omp_set_num_threads(1);
+  Setting setting = tank_with_a_plate();
+  WeaklyCompressible solver = setting.solver();
+  const Interface interface = plate();
+  solver.attach(interface);
+  const double dt = 1e-6;
+  InterfaceMotion motion = moved(interface, Vec::Zero(), 0);
+  motion.impulse.assign(dim * interface.size(), 0.0);
+  solver.begin_window(motion, dt);
+  solver.advance(dt);
+  const auto z = solver.take_load().impedance;
+  Vec sum = Vec::Zero();
+  for (std::size_t k = 0; k < interface.size(); ++k)
+    if (interface.position[dim * k + 1] > 0.2 && interface.position[dim * k + 1] < 0.3)
+      sum += vector_of(z, k);
+  const double whole = 0.1 * setting.parameters.density * setting.parameters.sound_speed;  // of 0.1 m
+  EXPECT_NEAR(sum[0] / whole, -1.0, 0.05) << "outward is to the left";
+  EXPECT_NEAR(sum[1] / whole, 0.0, 0.01);
+}
+
+TEST(Interface, HasNoImpedanceUnlessAskedFor) {
+  Setting setting = tank_with_a_plate();
+  WeaklyCompressible solver = setting.solver();
+  const Interface interface = plate();
+  solver.attach(interface);
+  solver.begin_window(moved(interface, Vec::Zero(), 0), 1e-6);
+  solver.advance(1e-6);
+  EXPECT_TRUE(solver.take_load().impedance.empty());
+}
+
+TEST(MovingInterface, BeginsWhereTheSolidIsIfTheMotionHasAnImpulse) {
+  const Interface interface = plate();
+  MovingInterface copy(interface, 1);
+  copy.begin_window(moved(interface, Vec(1, 0), 0.1), 0, 0.1);
+  EXPECT_NEAR(copy.at(0.1)(0).x[0], interface.position[0] + 0.1, 1e-15);
+  InterfaceMotion next = moved(interface, Vec(2, 0), 0.1);  // the solid has got to 0.08 only
+  for (std::size_t k = 0; k < interface.size(); ++k)
+    next.position[dim * k] = interface.position[dim * k] + 0.28;
+  next.impulse.assign(dim * interface.size(), 0.0);
+  copy.begin_window(next, 0.1, 0.1);
+  EXPECT_NEAR(copy.at(0.1)(0).x[0], interface.position[0] + 0.08, 1e-15);
+  EXPECT_NEAR(copy.at(0.1)(0).v[0], 2, 1e-12);
+  EXPECT_NEAR(copy.at(0.2)(0).x[0], interface.position[0] + 0.28, 1e-15);
+}
+
 TEST(GrazedPlate, TakesWhatItGivesToRoundingOfThatLittle) {
   omp_set_num_threads(1);
   Setting setting = tank_with_a_plate();

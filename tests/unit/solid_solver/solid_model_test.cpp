@@ -109,6 +109,48 @@ TEST_P(BothForms, ImpulsesOfLoadsWallsAndClampsSumToTheChangeOfMomentum) {
   EXPECT_EQ(observed(*model, "impulse_from_clamps_y"), model->impulses().clamps[1]);
 }
 
+/// A load without force whose impedance `z` brakes the normal velocity of a free plate against `velocity`.
+InterfaceLoad impedance_load(const Interface& interface, double z, const Vec& velocity) {
+  InterfaceLoad load;
+  load.pressure.assign(interface.size(), 0.0);
+  load.force.assign(dim * interface.size(), 0.0);
+  for (std::size_t n = 0; n < interface.size(); ++n) {
+    load.impedance.insert(load.impedance.end(), {0.0, z});
+    load.velocity.insert(load.velocity.end(), {velocity[0], velocity[1]});
+  }
+  return load;
+}
+
+TEST_P(BothForms, IsBrakedByAnImpedanceAlongItsNormal) {
+  const auto model = model_of(in_form(free_plate(4), GetParam()));
+  const Interface interface = model->interface(1);  // all particles: the plate moves as one
+  const double z = 5e3 * model->mass(0);            // a rate of 5000/s
+  model->set_interface_load(interface.id, impedance_load(interface, z, Vec(3, 2)));
+  run_to(*model, 1e-4);
+  EXPECT_NEAR(model->velocity(7)[1], 2 * (1 - std::exp(-0.5)), 0.01);
+  EXPECT_NEAR(model->velocity(7)[0], 0, 1e-12) << "nothing acts aside";
+  double impulse = 0, momentum = 0;
+  const auto taken = model->excess_impulse();
+  for (std::size_t n = 0; n < interface.size(); ++n) {
+    impulse += taken[dim * n + 1];
+    momentum += model->mass(interface.id[n]) * model->velocity(interface.id[n])[1];
+  }
+  EXPECT_NEAR(impulse / momentum, 1, 1e-12);
+  EXPECT_NEAR(model->impulses().loads[1] / momentum, 1, 1e-12);
+}
+
+TEST(Impedance, OfAnySizeBrakesWithoutSwinging) {
+  const auto model = model_of(free_plate(4));
+  const Interface interface = model->interface(1);
+  const double dt = model->time_step_limit(), z = 1e3 * model->mass(0) / dt;
+  model->set_interface_load(interface.id, impedance_load(interface, z, Vec(0, 2)));
+  for (int n = 0; n < 50; ++n) model->advance(dt);
+  const double way = model->displacement(7)[1];
+  EXPECT_NEAR(way / (2 * 50 * dt), 1, 0.01) << "it goes with the fluid";
+  const auto taken = model->excess_impulse();
+  EXPECT_NEAR(taken[1] / (z * (2 * 50 * dt - way)), 1, 1e-6) << "z (w_c t - u)";
+}
+
 TEST_P(BothForms, FallsFreelyUnderGravity) {
   Scene scene = empty_scene();
   scene.gravity = Vec(0, -10);

@@ -284,7 +284,7 @@ TEST_F(LinkTest, AnInterruptedParticipantIsHeard) {
 TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
   fluid_->say_hello(wire::protocol + 1, "CGS", 3);
   EXPECT_THAT([&] { coupler_.gather({}); },
-              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 5, the coupler's is 4\n"
+              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 6, the coupler's is 5\n"
                                       "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
                                       "raw_fluid: error: dimension is 3, the coupler's is 2"));
 }
