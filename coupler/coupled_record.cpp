@@ -123,6 +123,11 @@ void CoupledRecord::write_series(double time, const Window& window, const Exchan
                                {"fluid_potential_energy", "J/m", done.fluid.health.potential_energy},
                                {"solid_kinetic_energy", "J/m", done.solid.health.kinetic_energy},
                                {"solid_potential_energy", "J/m", done.solid.health.potential_energy}};
+  if (settings_.coupling.scheme == SchemeKind::serial_robin) {
+    const Vec in_flight = sum_of(done.solid.motion.impulse);
+    row.push_back({"impulse_in_flight_x", "N.s/m", in_flight.x()});
+    row.push_back({"impulse_in_flight_y", "N.s/m", in_flight.y()});
+  }
   if (settings_.coupling.windows_repeat()) {
     row.push_back({"iterations", "1", static_cast<double>(since.iterations)});
     row.push_back({"residual", "1", since.residual});

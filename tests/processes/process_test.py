@@ -50,7 +50,7 @@ class GoodEnd(ProcessCase):
 
 class Schemes(ProcessCase):
     """The coupling schemes with the real solvers."""
-    IMPLICIT = "coupling.scheme=serial_implicit"
+    EXPLICIT, IMPLICIT = "coupling.scheme=serial_explicit", "coupling.scheme=serial_implicit"
 
     def exchanged(self, *settings, end_time="0.01"):
         """What crossed the interface of the strip's case, and the coupler's figures."""
@@ -65,7 +65,7 @@ class Schemes(ProcessCase):
 
     def test_a_window_repeated_with_the_same_motion_is_bitwise_the_same(self):
         # A step too small to be seen repeats the first guess, which is what the explicit scheme goes by.
-        once, _ = self.exchanged("coupling.extrapolation_order=1")
+        once, _ = self.exchanged(self.EXPLICIT, "coupling.extrapolation_order=1")
         again, figures = self.exchanged(
             self.IMPLICIT, "coupling.implicit={relaxation='fixed', relaxation_factor=1e-300, "
             "largest_iteration_count=3, unconverged_windows_to_stop=1000000, tolerance=1e-12}")
@@ -77,7 +77,7 @@ class Schemes(ProcessCase):
     def test_all_schemes_move_the_strip_alike(self):
         once, _ = self.exchanged()
         scale = abs(once["position"] - once["reference_position"]).max()
-        for settings in (["coupling.scheme=parallel_explicit"], ["coupling.extrapolation_order=2"], [self.IMPLICIT],
+        for settings in (["coupling.scheme=parallel_explicit"], [self.EXPLICIT, "coupling.extrapolation_order=2"], [self.IMPLICIT],
                          [self.IMPLICIT, "coupling.implicit.relaxation=quasi_newton"]):
             with self.subTest(settings):
                 other, figures = self.exchanged(*settings)
