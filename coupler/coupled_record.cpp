@@ -85,7 +85,7 @@ void CoupledRecord::audit(const Window& window, const Exchange& done) {
 
 void CoupledRecord::audit_work(const Window& window, const Exchange& done) {
   work_.note(done.sent, done.interface_start, done.interface_position, done.applied, done.solid.motion,
-             window.dt, done.solid.health.kinetic_energy);
+             done.solid.health.kinetic_energy);
   if (state_.warned_of_work || !work_.feeds()) return;
   log::warn(
       "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "

@@ -21,13 +21,11 @@ double work(const InterfaceLoad& load, const std::vector<double>& from, const st
 
 void WorkAudit::note(const InterfaceLoad& sent, const std::vector<double>& interface_start,
                      const std::vector<double>& interface_position, const InterfaceLoad& applied,
-                     const InterfaceMotion& solid, double dt, double kinetic_energy) {
+                     const InterfaceMotion& solid, double kinetic_energy) {
   State& s = state_;
   s.given += work(sent, interface_start.empty() ? s.fluid : interface_start, interface_position);
   s.given -= sent.work_of_impulse;
-  s.taken += work(applied, s.solid, solid.position);
-  for (std::size_t k = 0; k < solid.impulse.size(); ++k)
-    s.taken += solid.impulse[k] * (solid.position[k] - s.solid[k]) / dt;
+  s.taken += work(applied, s.solid, solid.position) + solid.work_of_impulse;
   s.largest_given = std::max(s.largest_given, std::abs(s.given));
   s.largest_kinetic_energy = std::max(s.largest_kinetic_energy, kinetic_energy);
   if (std::has_single_bit(++s.windows)) s.made_before = std::exchange(s.made_at_power_of_two, made());

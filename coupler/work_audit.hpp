@@ -20,10 +20,10 @@ class WorkAudit {
   /// Takes a window: the fluid sent `sent` while it brought its copy to `interface_position`, from
   /// `interface_start` or, if that is empty, from where the window before left it; the solid applied
   /// `applied` while its motion became `solid`, where its kinetic energy is `kinetic_energy` [J per metre
-  /// depth]. What it took by the load's impedance counts by its mean velocity, which is no less than it was.
+  /// depth].
   void note(const InterfaceLoad& sent, const std::vector<double>& interface_start,
             const std::vector<double>& interface_position, const InterfaceLoad& applied,
-            const InterfaceMotion& solid, double dt, double kinetic_energy);
+            const InterfaceMotion& solid, double kinetic_energy);
 
   double given() const { return state_.given; }      ///< by the fluid, since the start [J/m]
   double taken() const { return state_.taken; }      ///< by the solid [J/m]

@@ -76,6 +76,7 @@ void take_turns(SolidLink& link, SolidModel& model, RunRecord& record,
     });
     InterfaceMotion motion = model.motion(touched);
     motion.impulse = model.excess_impulse();
+    motion.work_of_impulse = model.work_of_excess_impulse();
     for (std::size_t n = 0; n < touched.size() && !motion.impulse.empty(); ++n)
       impulse_taken += vector_of(motion.impulse, n);
     link.send(motion, impulse_taken, model.health());

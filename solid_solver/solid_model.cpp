@@ -195,6 +195,7 @@ Vec SolidModel::set_interface_load(const std::vector<std::uint32_t>& particles, 
     sum += force;
   }
   state_.impedance.clear();
+  state_.impedance_work = 0;
   for (std::size_t n = 0; dim * n < load.velocity.size(); ++n) {
     const Vec z = vector_of(load.impedance, n);
     const double value = z.norm();
@@ -219,7 +220,7 @@ void SolidModel::brake_by_impedance(double dt, double kept) {
     set(state_.external, k, rest + brake * z.normal);
     const double impulse = dt * mass(i) * brake;
     z.impulse += impulse;
-    state_.past_work += impulse * (z.normal.dot(w) + 0.5 * dt * mobile_[k] * brake);
+    state_.impedance_work += impulse * (z.normal.dot(w) + 0.5 * dt * mobile_[k] * brake);
     state_.impulses.loads += impulse * z.normal;
   }
 }
@@ -248,7 +249,7 @@ void SolidModel::count_impulses(double dt) {
 }
 
 double SolidModel::interface_work() const {
-  double work = state_.past_work;
+  double work = state_.past_work + state_.impedance_work;
   for (std::size_t n = 0; n < state_.loaded.size(); ++n)
     work += state_.load[n].dot(displacement(state_.loaded[n]) - state_.u_at_load[n]);
   return work;

@@ -87,6 +87,7 @@ class SolidModel : public Solver {
   /// What the interface has taken since then beyond that force, by the load's impedance: dim values a
   /// particle [N s per metre depth]; empty if the load has none.
   std::vector<double> excess_impulse() const;
+  double work_of_excess_impulse() const { return state_.impedance_work; }  ///< [J per metre depth]
   Health health() const;
   const Impulses& impulses() const { return state_.impulses; }
   /// From now on `record` gets the particles that come off, once that is final. Needs [solid.detachment].
@@ -121,6 +122,7 @@ class SolidModel : public Solver {
     std::vector<std::uint32_t> loaded;  ///< numbers of the interface's particles
     std::vector<Vec> load, u_at_load;   ///< of the interface [N/m], [m]
     std::vector<Impedance> impedance;   ///< of the interface, where the load has any
+    double impedance_work = 0;          ///< since the load was set [J/m]
     double past_work = 0;               ///< of earlier interface loads [J/m]
     Vec load_sum = Vec::Zero();         ///< of gravity and all loads [N/m]
     Impulses impulses;
@@ -133,9 +135,9 @@ class SolidModel : public Solver {
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
     auto& [time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, impedance,
-           past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy] = state;
+           impedance_work, past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy] = state;
     archive(time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, impedance,
-            past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy);
+            impedance_work, past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy);
   }
 
   /// Adds to the external acceleration what the interface's impedance z makes of it in a step `dt` [s]:

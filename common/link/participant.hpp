@@ -61,6 +61,7 @@ struct InterfaceMotion {
   /// it is to give when the window starts [N s per metre depth]. Empty where the scheme does without: only a
   /// motion with it asks the fluid for an impedance, and has the copy start where `velocity` comes from.
   std::vector<double> impulse = {};
+  double work_of_impulse = 0;  ///< from the solid: what that impulse did to it [J per metre]
 };
 
 /// What the fluid does to the interface, averaged over a window.

@@ -7,8 +7,8 @@ namespace toryu {
 
 template <class Archive>
 void serialize(Archive& archive, InterfaceMotion& motion) {
-  auto& [position, velocity, impulse] = motion;
-  archive(position, velocity, impulse);
+  auto& [position, velocity, impulse, work_of_impulse] = motion;
+  archive(position, velocity, impulse, work_of_impulse);
 }
 
 template <class Archive>

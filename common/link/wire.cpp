@@ -96,11 +96,13 @@ toryu_Motion motion(const toryu_WindowHead& window, const InterfaceMotion& motio
   message.position = sequence(motion.position);
   message.velocity = sequence(motion.velocity);
   message.impulse = sequence(motion.impulse);
+  message.work_of_impulse = motion.work_of_impulse;
   return message;
 }
 
 InterfaceMotion motion(const toryu_Motion& message) {
-  return {values(message.position), values(message.velocity), values(message.impulse)};
+  return {values(message.position), values(message.velocity), values(message.impulse),
+          message.work_of_impulse};
 }
 
 toryu_Load load(const toryu_WindowHead& window, const InterfaceLoad& load) {
@@ -140,6 +142,8 @@ void check(const InterfaceMotion& motion, std::size_t particles, const std::stri
   check_values(motion.position, particles, dim, "position", sender);
   check_values(motion.velocity, particles, dim, "velocity", sender);
   if (!motion.impulse.empty()) check_values(motion.impulse, particles, dim, "impulse", sender);
+  if (!std::isfinite(motion.work_of_impulse))
+    throw PhysicsFailure(fmt::format("{}: work of the impulse is not finite", sender));
 }
 
 void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender) {

@@ -81,7 +81,7 @@ class ThinWall(unittest.TestCase):
 
 class PushedColumn(unittest.TestCase):
     EXPLICIT = {"coupling.scheme": "serial_explicit", "solid.artificial_viscosity": "{alpha=0.1, beta=0.0}"}
-    IMPLICIT = {"coupling.scheme": "serial_implicit"}
+    IMPLICIT = {"coupling.scheme": "serial_implicit", "solid.artificial_viscosity": "{alpha=0.1, beta=0.0}"}
 
     def way_error(self, density, **settings):
         rows, figures, said = run("pushed_column", **{"solid.density": density} | settings)

@@ -21,10 +21,10 @@ std::vector<double> at(double x) {
 
 TEST(WorkAudit, IsForceTimesTheWayOfEachSide) {
   WorkAudit audit(at(1));
-  audit.note(force(10), {}, at(1), force(10), {at(1.5), {}}, 0.5, 0);
+  audit.note(force(10), {}, at(1), force(10), {at(1.5), {}}, 0);
   EXPECT_DOUBLE_EQ(audit.given(), 0);  // the fluid's copy stands still in the first window
   EXPECT_DOUBLE_EQ(audit.taken(), 5);
-  audit.note(force(4, 2), {}, at(1.5), force(4, 2), {at(1.75), {}}, 0.5, 0);
+  audit.note(force(4, 2), {}, at(1.5), force(4, 2), {at(1.75), {}}, 0);
   EXPECT_DOUBLE_EQ(audit.given(), 3);
   EXPECT_DOUBLE_EQ(audit.taken(), 6.5);
   EXPECT_DOUBLE_EQ(audit.made(), 3.5);
@@ -34,8 +34,8 @@ TEST(WorkAudit, CountsWhatAnImpedanceTakesAndWhatItsImpulseDoesToTheFluid) {
   WorkAudit audit(at(1));
   InterfaceLoad load = force(10);
   load.work_of_impulse = -0.75;
-  // the copy from 1.25 to 1.5, the solid from 1 to 1.5 at 2 m/s, with an impulse of 0.25 N s/m
-  audit.note(load, at(1.25), at(1.5), load, {at(1.5), {}, {0.25, 0}}, 0.25, 0);
+  // the copy from 1.25 to 1.5, the solid from 1 to 1.5
+  audit.note(load, at(1.25), at(1.5), load, {at(1.5), {}, {0.25, 0}, 0.5}, 0);
   EXPECT_DOUBLE_EQ(audit.given(), 2.5 + 0.75);
   EXPECT_DOUBLE_EQ(audit.taken(), 5 + 0.5);
 }
@@ -52,7 +52,7 @@ bool feeds(double cycles_per_window, double damping, int windows) {
     copy = x;
     v += load.force[0] - damping * v;
     x += v;
-    audit.note(load, {}, at(copy), load, {at(x), {}}, 1, 0.5 * v * v);
+    audit.note(load, {}, at(copy), load, {at(x), {}}, 0.5 * v * v);
     if (audit.feeds()) return true;
   }
   return false;
