@@ -125,6 +125,8 @@ class FluidModel : public Solver {
   MovingInterface& interface();
   /// What no force gave the fluid: shifting, tensile control, consistent gradients [N.s per metre].
   Vec numerical_impulse() const;
+  void check_particle(std::size_t particle, double time, double least_density, double most_density,
+                      double top_speed) const;
   [[noreturn]] void fail(std::size_t particle, double time, const std::string& quantity, double value,
                          const std::string& limit) const;
 
