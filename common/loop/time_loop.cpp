@@ -12,6 +12,7 @@
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
 #include "common/run/progress.hpp"
+#include "common/run/team.hpp"
 
 namespace toryu {
 
@@ -30,7 +31,8 @@ SubSteps advance_within(Solver& solver, double length, double limit, long most) 
                                      solver.time_step_rule(), length));
   const long needed = std::max(1L, static_cast<long>(std::ceil(length / limit * (1 - 1e-12))));
   const SubSteps steps{std::min(needed, most), needed, length / static_cast<double>(needed)};
-  for (long n = 0; n < steps.taken; ++n) solver.advance(steps.dt);
+  static Team team;  // that of this process
+  for (long n = 0; n < steps.taken; ++n) team.compute([&] { solver.advance(steps.dt); });
   return steps;
 }
 

@@ -34,7 +34,8 @@ void declare(CLI::App& app, Typed& typed) {
       ->allow_extra_args(false)
       ->type_name("SECTION.KEY=VALUE");
   app.add_option("--end-time", typed.end_time, "Short for --set case.end_time=SECONDS")->type_name("SECONDS");
-  app.add_option("--threads", typed.threads, "Threads (default 0: all cores)")->type_name("N");
+  app.add_option("--threads", typed.threads, "Threads at most; as many as pay compute (default 0: all cores)")
+      ->type_name("N");
   app.add_option("--log-level", typed.log_level, "trace, debug, info (default), warn, error or off")
       ->type_name("LEVEL");
   app.add_flag("--check", typed.check, "Check the case, compute nothing");

@@ -11,7 +11,7 @@ struct Options {
   std::filesystem::path case_path;     ///< the case file; empty for `describe` without a case
   std::filesystem::path out;           ///< default: out/<case name>
   std::vector<std::string> overrides;  ///< --set section.key=value, and --end-time as one of them
-  int threads = 0;                     ///< 0: all cores
+  int threads = 0;                     ///< at most; 0: all cores
   std::string log_level = "info";
   bool check = false;       ///< read and check the case, then end
   bool describe = false;    ///< print the parameters, then end
