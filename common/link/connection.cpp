@@ -169,12 +169,13 @@ void Connection::check_interruption() {
 
 bool Connection::wait(const std::function<bool()>& arrived) {
   const auto start = Clock::now();
+  SpinningWait waiting(spin_);
   bool has_arrived = false;
   while (!(has_arrived = arrived())) {
     poll();
     if (over_) break;
     if (Clock::now() - status_sent_ > status_interval) write_status(toryu_WAITING);
-    node_.wait(longest_sleep);
+    node_.wait(longest_sleep, waiting);
   }
   handed_out_ = Clock::now();
   waiting_time_ += Seconds(handed_out_ - start).count();

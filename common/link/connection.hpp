@@ -85,6 +85,7 @@ class Connection {
   std::optional<Clock::time_point> lapsed_;  // since when the coupler's lease is over
   Clock::time_point status_sent_, handed_out_;
   double waiting_time_ = 0;
+  Spin spin_;
 };
 
 }  // namespace toryu

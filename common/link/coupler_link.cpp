@@ -46,6 +46,7 @@ struct Turns {
   dds::Writer<toryu_CheckpointRequest> checkpoint_request;
   dds::Reader<toryu_CheckpointReport> checkpoint_from_fluid, checkpoint_from_solid;
   std::size_t particles = 0;  ///< of the interface
+  Spin of_fluid, of_solid;    ///< while they compute
 };
 
 }  // namespace
@@ -90,11 +91,12 @@ void CouplerLink::Connection::poll() {
 void CouplerLink::Connection::wait(const Participant& awaited, const std::string& what,
                                    const std::function<bool()>& arrived) {
   const auto start = Clock::now();
+  SpinningWait waiting(&awaited == &roster.fluid() ? turns.of_fluid : turns.of_solid);
   while (!arrived()) {
     poll();
     if (Clock::now() - std::max(start, awaited.moved) > Seconds(settings.time_limit))
       throw PeerLost(fmt::format("{} {} within {} s", awaited.name(), what, settings.time_limit));
-    node.wait(longest_sleep);
+    node.wait(longest_sleep, waiting);
   }
 }
 

@@ -142,15 +142,33 @@ dds_entity_t Node::make_reader(const dds_topic_descriptor_t& type, const std::st
 bool Node::wait(std::chrono::milliseconds longest) const {
   const dds_return_t triggered = dds_waitset_wait(waitset_, nullptr, 0, DDS_MSECS(longest.count()));
   require(triggered, "waitset");
-  if (triggered == 0) return false;
-  // Told once: what nobody takes yet (a message come early, the notice that a writer lapsed) must not end the
-  // next wait too, or this process would spin until somebody does.
+  if (triggered > 0) note_news();
+  return triggered > 0;
+}
+
+bool Node::wait(std::chrono::milliseconds longest, SpinningWait& waiting) const {
+  if (!waiting.look([this] { return has_news(); })) return wait(longest);
+  note_news();
+  return true;
+}
+
+bool Node::has_news() const {
+  for (const Endpoint& endpoint : endpoints_) {
+    std::uint32_t status = 0;
+    if (endpoint.reads) require(dds_get_status_changes(endpoint.entity, &status), endpoint.topic);
+    if ((status & DDS_DATA_AVAILABLE_STATUS) != 0) return true;
+  }
+  return false;
+}
+
+/// Told once: what nobody takes yet (a message come early, the notice that a writer lapsed) must not end the
+/// next wait too, or this process would spin until somebody does.
+void Node::note_news() const {
   for (const Endpoint& endpoint : endpoints_) {
     std::uint32_t status = 0;
     if (endpoint.reads)
       require(dds_take_status(endpoint.entity, &status, DDS_DATA_AVAILABLE_STATUS), endpoint.topic);
   }
-  return true;
 }
 
 void Node::check_quality() const {

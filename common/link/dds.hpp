@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "common/link/spin.hpp"
 #include "messages.h"
 
 namespace toryu::dds {
@@ -46,12 +47,16 @@ class Node {
   dds_entity_t make_reader(const dds_topic_descriptor_t& type, const std::string& topic);
   /// Blocks until a reader has news since the last call, or the time is over; false if it is.
   bool wait(std::chrono::milliseconds longest) const;
+  /// The same, but that it looks for them as long as `waiting` may spin before it sleeps.
+  bool wait(std::chrono::milliseconds longest, SpinningWait& waiting) const;
   /// Throws PeerLost if another process offers or asks for a topic on terms that can never match, BadInput if
   /// with messages of another shape.
   void check_quality() const;
 
  private:
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& topic) const;
+  bool has_news() const;
+  void note_news() const;
   struct Endpoint {
     dds_entity_t entity;
     std::string topic;

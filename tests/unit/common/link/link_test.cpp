@@ -186,6 +186,11 @@ TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
   writer.write(status);
   EXPECT_TRUE(node.wait(2s));
   EXPECT_FALSE(node.wait(20ms)) << "a loop around it would spin";
+  writer.write(status);
+  Spin spin;
+  SpinningWait waiting(spin);
+  EXPECT_TRUE(node.wait(2s, waiting));
+  EXPECT_FALSE(node.wait(20ms, waiting)) << "as without spinning";
   EXPECT_TRUE(reader.take([](const toryu_Status&) {})) << "the message is still there";
 }
 
