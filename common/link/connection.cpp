@@ -170,15 +170,18 @@ void Connection::check_interruption() {
 bool Connection::wait(const std::function<bool()>& arrived) {
   const auto start = Clock::now();
   SpinningWait waiting(spin_);
-  bool has_arrived = false;
-  while (!(has_arrived = arrived())) {
+  bool has_arrived = arrived();
+  const bool late = has_arrived;
+  while (!has_arrived) {
     poll();
     if (over_) break;
     if (Clock::now() - status_sent_ > status_interval) write_status(toryu_WAITING);
     node_.wait(longest_sleep, waiting);
+    has_arrived = arrived();
   }
-  handed_out_ = Clock::now();
-  waiting_time_ += Seconds(handed_out_ - start).count();
+  const auto now = Clock::now();
+  handed_out_ = late ? std::clamp(granted_, answered_, now) : now;
+  waiting_time_ += Seconds(now - start).count();
   return has_arrived;
 }
 
@@ -196,7 +199,7 @@ bool Connection::ours(const toryu_WindowHead& window) const {
   return false;
 }
 
-bool Connection::begin_window(const toryu_WindowHead& window) {
+bool Connection::begin_window(const toryu_WindowHead& window, std::chrono::nanoseconds age) {
   if (!ours(window)) return false;
   if (window_.number == 0 && !restart_.empty()) window_.number = window.number - 1;
   const bool again = windows_repeat_ && window.number == window_.number;
@@ -204,6 +207,7 @@ bool Connection::begin_window(const toryu_WindowHead& window) {
                                 : Window{.number = window_.number + 1};
   wire::check(window, expected, "coupler");
   window_ = wire::window(window);
+  granted_ = Clock::now() - age;
   return true;
 }
 
@@ -230,8 +234,9 @@ void Connection::confirm_checkpoint(const std::function<void()>& write) {
   checkpoint_reports_.write({answer(), failure.data()});
 }
 
-double Connection::compute_time() const {
-  return Seconds(Clock::now() - handed_out_).count();
+double Connection::compute_time() {
+  answered_ = Clock::now();
+  return Seconds(answered_ - handed_out_).count();
 }
 
 void Connection::leave(ExitCode code, const std::string& reason) noexcept {

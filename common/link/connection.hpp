@@ -23,15 +23,17 @@ class Connection {
   void count_step();
   void leave(ExitCode code, const std::string& reason) noexcept;
 
-  /// Checks the head of a window and takes note of it; false if it belongs to another run.
-  bool begin_window(const toryu_WindowHead& window);
+  /// Checks the head of a window, granted so long ago, and takes note of it; false if it belongs to another
+  /// run.
+  bool begin_window(const toryu_WindowHead& window, std::chrono::nanoseconds age);
   /// Whether a checkpoint is asked for; `turn` becomes that task.
   bool take_checkpoint(Turn& turn);
   void confirm_checkpoint(const std::function<void()>& write);
   /// The head of the answer to the window at hand.
   toryu_WindowHead answer() const { return wire::window(session_, window_); }
-  /// Wall time since the window at hand was handed out [s].
-  double compute_time() const;
+  /// Wall time since the window at hand was handed out [s]; to be asked for when it is answered. A side that
+  /// is still at work then, as on its files, has it from the grant on: its work is no wait for messages.
+  double compute_time();
   double waiting_time() const { return waiting_time_; }
 
   dds::Node& node() { return node_; }
@@ -83,7 +85,7 @@ class Connection {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point checked_ = start_, coupler_moved_ = start_;
   std::optional<Clock::time_point> lapsed_;  // since when the coupler's lease is over
-  Clock::time_point status_sent_, handed_out_;
+  Clock::time_point status_sent_, granted_, handed_out_, answered_;
   double waiting_time_ = 0;
   Spin spin_;
 };

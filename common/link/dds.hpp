@@ -137,10 +137,14 @@ class Reader {
       const Loan loan(*this);
       if (loan.count == 0) return false;
       if (!loan.info.valid_data) continue;  // news of a writer's end, not a message
+      age_ = std::chrono::nanoseconds(dds_time() - loan.info.source_timestamp);
       use(*static_cast<const Message*>(loan.sample));
       return true;
     }
   }
+
+  /// How long ago the message taken last was written, by the clocks of both machines.
+  std::chrono::nanoseconds age() const { return age_; }
 
   /// Writers of the topic that show signs of life.
   std::uint32_t live_writers() const {
@@ -167,6 +171,7 @@ class Reader {
   };
   std::string topic_;
   dds_entity_t entity_;
+  std::chrono::nanoseconds age_{0};
 };
 
 }  // namespace toryu::dds

@@ -42,7 +42,7 @@ std::optional<FluidLink::Turn> FluidLink::next_turn() {
     bool ours = connection_->take_checkpoint(turn);
     if (ours) return true;
     connection_->motions.take([&](const toryu_Motion& message) {
-      ours = connection_->begin_window(message.window);
+      ours = connection_->begin_window(message.window, connection_->motions.age());
       if (ours) turn = {{wire::window(message.window)}, wire::motion(message)};
     });
     return ours;
@@ -113,7 +113,7 @@ std::optional<SolidLink::Turn> SolidLink::next_turn() {
     bool ours = connection_->take_checkpoint(turn);
     if (ours) return true;
     connection_->loads.take([&](const toryu_Load& message) {
-      ours = connection_->begin_window(message.window);
+      ours = connection_->begin_window(message.window, connection_->loads.age());
       if (ours) turn = {{wire::window(message.window)}, wire::load(message)};
     });
     return ours;

@@ -101,7 +101,7 @@ struct Turn : Window {
 struct Health {
   double kinetic_energy = 0, potential_energy = 0;  ///< [J per metre]
   Vec momentum = Vec::Zero();                       ///< [N s per metre]
-  double compute_time = 0;  ///< wall time from next_turn to send [s]; measured by the link itself
+  double compute_time = 0;  ///< wall time from the grant to send [s]; measured by the link itself
 };
 
 struct LinkSettings {

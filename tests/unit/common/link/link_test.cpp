@@ -148,9 +148,10 @@ class LinkTest : public testing::Test {
       restart_of_solid_ = link.restart();
       link.register_interface(three_particles(), still());
       while (const auto turn = link.next_turn()) {
-        if (turn->task == Task::window)
+        if (turn->task == Task::window) {
           link.send(still(), Vec::Zero(), {});
-        else
+          std::this_thread::sleep_for(work_after_answer_);
+        } else
           link.confirm_checkpoint([&] { checkpoint_of_solid_ = turn->checkpoint; });
       }
     });
@@ -170,6 +171,7 @@ class LinkTest : public testing::Test {
   InterfaceLoad load_{
       std::vector<double>(particles, 1.0), std::vector<double>(dim* particles, 1.0), {}, Vec::Zero()};
   std::filesystem::path restart_of_solid_, checkpoint_of_solid_;
+  std::chrono::milliseconds work_after_answer_{0};  // of the solid
   LinkSettings settings_ = settings_for("coupler");
   CouplerLink coupler_{settings_};
   std::optional<RawFluid> fluid_{std::in_place, settings_.out};
@@ -271,6 +273,20 @@ TEST_F(LinkTest, ARunThatGoesOnBeginsWithItsNextWindow) {
   window_.number = 58;
   auto solid = run_one_window({.checkpoints = true, .restart = "checkpoint/000003"});
   EXPECT_EQ(restart_of_solid_, settings_.out / "checkpoint/000003");
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, WhoIsStillAtWorkWhenAWindowIsGrantedComputesFromTheGrant) {
+  work_after_answer_ = 200ms;
+  auto solid = run_one_window();
+  const auto next = [&] {
+    ++window_.number;
+    return coupler_.ask_solid(window_, load_).health.compute_time;
+  };
+  EXPECT_GT(next(), 0.15);
+  std::this_thread::sleep_for(400ms);
+  EXPECT_LT(next(), 0.15) << "it waited for this one";
   end(ExitCode::done, "");
   solid.get();
 }
