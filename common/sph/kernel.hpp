@@ -45,11 +45,11 @@ class CubicSpline {
   TORYU_INLINE static Lanes positive(Lanes a) { return positive_part(a); }
   template <class T>
   TORYU_INLINE T outer(T r) const {
-    return positive(2.0 - r * inverse_h_);
+    return positive(less_product(T(2.0), r, T(inverse_h_)));
   }
   template <class T>
   TORYU_INLINE T inner(T r) const {
-    return positive(1.0 - r * inverse_h_);
+    return positive(less_product(T(1.0), r, T(inverse_h_)));
   }
 
   double h_, inverse_h_, value_factor_, gradient_factor_;
@@ -91,7 +91,7 @@ class WendlandC2 {
   /// (1 - s/2)_+
   template <class T>
   TORYU_INLINE T inner_part(T r) const {
-    return positive(1.0 - r * (0.5 * inverse_h_));
+    return positive(less_product(T(1.0), r, T(0.5 * inverse_h_)));
   }
 
   double h_, inverse_h_, value_factor_, gradient_factor_;

@@ -111,6 +111,20 @@ TORYU_INLINE double smallest_of(Lanes a) {
   return -largest_of(-a);
 }
 
+/// c - a b, rounded once where the processor can. Left to itself the compiler fuses it in one loop and not in
+/// another, and both sides of a pair must find the same.
+TORYU_INLINE Lanes less_product(Lanes c, Lanes a, Lanes b) {
+#if defined(__AVX512F__)
+  return Lanes(static_cast<Lanes::Vector>(_mm512_fnmadd_pd(
+      static_cast<__m512d>(a.value), static_cast<__m512d>(b.value), static_cast<__m512d>(c.value))));
+#else
+  return c - a * b;
+#endif
+}
+TORYU_INLINE double less_product(double c, double a, double b) {
+  return c - a * b;
+}
+
 /// 1/sqrt(a) to within two units in the last place: the hardware's estimate and two Newton steps, which cost
 /// a fraction of a division and a square root. Where there is no such estimate, as written.
 TORYU_INLINE Lanes inverse_sqrt(Lanes a) {
