@@ -61,7 +61,8 @@ template <class W, class Add>
 TORYU_INLINE void over_neighbours(const W& kernel, std::span<const ShiftedNeighbours> lists,
                                   const VecLanes& x_i, const Positions& x, Add&& add) {
   over_places(lists, x_i, x, [&](std::uint32_t j, const VecLanes& x_ij) TORYU_INLINE_LAMBDA {
-    const Lanes r2 = max(dot(x_ij, x_ij), 1e-300);
+    Lanes r2 = 1e-300;
+    for (int a = 0; a < dim; ++a) r2 += x_ij[a] * x_ij[a];
     const Lanes inverse_r = inverse_sqrt(r2), r = r2 * inverse_r;
     add(j, Neighbour{x_ij, r2, r, kernel.gradient_over_r(r, inverse_r)});
   });

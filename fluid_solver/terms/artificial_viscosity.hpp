@@ -36,14 +36,11 @@ struct ArtificialViscosityTerm {
 
   TORYU_INLINE void viscous(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
                             Rates& rates) const {
-    Lanes v_x = 0.0;
-    for (int a = 0; a < dim; ++a) v_x += (i.v_viscous[a] - source.v_viscous[a][j]) * pair.x_ij[a];
+    const Lanes v_x = dot(pair.v_viscous_ij, pair.x_ij);
     const Lanes rho_sum = i.rho + source.rho[j];
     const Lanes both = inverse(pair.soft_r2 * rho_sum);  // one division for theta and for 1/rho_ij
-    const Lanes theta = h * negative_part(v_x) * both * rho_sum;
-    const Lanes Pi = theta * (beta * theta - alpha * c_0) * (2.0 * both * pair.soft_r2);
-    const Lanes factor = (-source.m[j] * Pi) * pair.G;
-    for (int a = 0; a < dim; ++a) rates.a[a] += factor * pair.x_ij[a];
+    const Lanes theta_h = negative_part(v_x) * (both * rho_sum);
+    rates.push += (theta_h * ((2 * beta * h * h) * theta_h - 2 * alpha * c_0 * h)) * (both * pair.soft_r2);
   }
 };
 

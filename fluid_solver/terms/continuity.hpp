@@ -18,21 +18,19 @@ struct Continuity {
 
   static constexpr double most_thinned = 0.05;  ///< layers of water that part have thinned by less
 
-  TORYU_INLINE void density(const Targets&, const Sources& source, std::size_t j, const Pair& pair,
+  TORYU_INLINE void density(const Targets&, const Sources&, std::size_t, const Pair& pair,
                             Rates& rates) const {
-    rates.compression += compression(source, j, pair);
+    rates.compression += compression(pair);
   }
   /// Instead of that between the fluid and a wall.
-  TORYU_INLINE void density_at_wall(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
+  TORYU_INLINE void density_at_wall(const Targets& i, const Sources&, std::size_t, const Pair& pair,
                                     Rates& rates) const {
-    const Lanes all = compression(source, j, pair);
+    const Lanes all = compression(pair);
     rates.compression += select(i.rho >= least_at_wall, all, positive_part(all));
   }
 
  private:
-  TORYU_INLINE static Lanes compression(const Sources& source, std::size_t j, const Pair& pair) {
-    return (source.V[j] * dot(pair.v_ij, pair.x_ij)) * pair.G;
-  }
+  TORYU_INLINE static Lanes compression(const Pair& pair) { return pair.V_G * dot(pair.v_ij, pair.x_ij); }
 };
 
 }  // namespace toryu::fluid

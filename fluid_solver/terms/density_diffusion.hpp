@@ -44,7 +44,7 @@ struct DensityDiffusionTerm {
     Lanes psi_x = 2.0 * (i.rho - source.rho[j]);  // psi_ij . x_ij
     if constexpr (renormalised)
       for (int a = 0; a < dim; ++a) psi_x -= (i.grad_rho[a] + source.grad_rho[a][j]) * pair.x_ij[a];
-    rates.diffusion += (delta_h_c0 * source.V[j]) * psi_x * pair.G;
+    rates.diffusion += (delta_h_c0 * pair.V_G) * psi_x;
   }
 };
 

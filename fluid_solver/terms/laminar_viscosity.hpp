@@ -34,10 +34,10 @@ inline void describe(ParameterTable& table, LaminarViscosity& viscosity) {
 struct LaminarViscosityTerm {
   double mu;
 
-  TORYU_INLINE void viscous(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
+  TORYU_INLINE void viscous(const Targets& i, const Sources&, std::size_t, const Pair& pair,
                             Rates& rates) const {
-    const Lanes factor = (2.0 * mu * source.m[j]) * pair.G * inverse(i.rho * source.rho[j]);
-    for (int a = 0; a < dim; ++a) rates.a[a] += factor * (i.v_viscous[a] - source.v_viscous[a][j]);
+    const Lanes factor = (2.0 * mu * inverse(i.rho)) * pair.V_G;  // V_j = m_j/rho_j
+    for (int a = 0; a < dim; ++a) rates.a[a] += factor * pair.v_viscous_ij[a];
   }
 };
 

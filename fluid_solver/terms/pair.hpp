@@ -15,23 +15,36 @@ struct Targets {
 
 /// The pairs of the particles i with one particle j.
 struct Pair : Neighbour {
-  VecLanes v_ij;
+  VecLanes v_ij, v_viscous_ij;
+  Lanes V_G;      ///< V_j G
   Lanes soft_r2;  ///< r_ij^2 + 0.01 h^2
 };
+
+/// Whose pairs they are: of walls v_viscous is not v.
+enum class PairsOf { fluid, fluid_and_wall };
 
 /// Sums over j.
 struct Rates {
   VecLanes a = zero_vector();  ///< acceleration [m/s2]
   Lanes compression = 0.0;     ///< sum_j V_j v_ij . gradW_ij [1/s]
   Lanes diffusion = 0.0;       ///< [kg/m3/s]
+  Lanes push = -0.0;           ///< of the pair at hand: P_ij of - sum_j m_j P_ij gradW_ij [m5/(kg s2)]
+
+  /// Adds what the terms have put together of `push`, once for all of them. The next pair begins at -0, to
+  /// which the compiler adds nothing.
+  TORYU_INLINE void close(const Pair& pair, double m_j) {
+    const Lanes factor = (m_j * pair.G) * push;
+    for (int k = 0; k < dim; ++k) a[k] -= factor * pair.x_ij[k];
+    push = -0.0;
+  }
 };
 
-template <class W>
+template <PairsOf pairs = PairsOf::fluid_and_wall, class W>
 TORYU_INLINE Pair make_pair(const W& kernel, const Neighbour& n, const Targets& i, const Sources& source,
-                            std::size_t j) {
-  Pair pair{n, {}, n.r2 + 0.01 * kernel.h() * kernel.h()};
-  for (int a = 0; a < dim; ++a) pair.v_ij[a] = i.v[a] - source.v[a][j];
-  return pair;
+                            std::uint32_t j) {
+  const VecLanes v_ij = difference(i.v, source.v, j);
+  return {n, v_ij, pairs == PairsOf::fluid ? v_ij : difference(i.v_viscous, source.v_viscous, j),
+          source.V[j] * n.G, n.r2 + 0.01 * kernel.h() * kernel.h()};
 }
 
 }  // namespace toryu::fluid

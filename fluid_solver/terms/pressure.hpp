@@ -18,20 +18,14 @@ struct Pressure {
   explicit Pressure(bool suction = true)
       : least_at_wall(suction ? -std::numeric_limits<double>::infinity() : 0.0) {}
 
-  TORYU_INLINE void momentum(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
+  TORYU_INLINE void momentum(const Targets& i, const Sources& source, std::size_t j, const Pair&,
                              Rates& rates) const {
-    push(i.p_rho2 + source.p_rho2[j], source.m[j], pair, rates);
+    rates.push += i.p_rho2 + source.p_rho2[j];
   }
   /// Instead of that between the fluid and a wall, on either side.
-  TORYU_INLINE void at_wall(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
+  TORYU_INLINE void at_wall(const Targets& i, const Sources& source, std::size_t j, const Pair&,
                             Rates& rates) const {
-    push(max(i.p_rho2 + source.p_rho2[j], least_at_wall), source.m[j], pair, rates);
-  }
-
- private:
-  TORYU_INLINE static void push(const Lanes& p_rho2, double m_j, const Pair& pair, Rates& rates) {
-    const Lanes factor = (-m_j * p_rho2) * pair.G;
-    for (int a = 0; a < dim; ++a) rates.a[a] += factor * pair.x_ij[a];
+    rates.push += max(i.p_rho2 + source.p_rho2[j], least_at_wall);
   }
 };
 

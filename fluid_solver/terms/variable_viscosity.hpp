@@ -24,14 +24,12 @@ struct VariableViscosityTerm {
   TORYU_INLINE void viscous(const Targets& i, const Sources& source, std::size_t j, const Pair& pair,
                             Rates& rates) const {
     const Lanes eta_i = i.eta, eta_j = source.eta[j];
-    // one division for 1/(rho_i rho_j) and for the rest of the first part
-    const Lanes rho_rho = i.rho * source.rho[j], below = eta_i + eta_j;
-    const Lanes both = (source.m[j] * pair.G) * inverse(rho_rho * below);
-    const Lanes along_v = 4.0 * (eta_i * eta_j) * both, along_x = both * below;
+    const Lanes along_x = inverse(i.rho) * pair.V_G;  // V_j = m_j/rho_j
+    const Lanes along_v = (4.0 * eta_i * eta_j) * inverse(eta_i + eta_j) * along_x;
     for (int a = 0; a < dim; ++a) {
       Lanes T_x = 0.0;
       for (int b = 0; b < dim; ++b) T_x += (i.eta_grad_v[a][b] + source.eta_grad_v[a][b][j]) * pair.x_ij[b];
-      rates.a[a] += along_v * (i.v_viscous[a] - source.v_viscous[a][j]) + along_x * T_x;
+      rates.a[a] += along_v * pair.v_viscous_ij[a] + along_x * T_x;
     }
   }
 };

@@ -48,12 +48,12 @@ inline Vec lane_sums(const Lanes& m, const VecLanes& v) {
 }
 
 /// Adds the sums over `sources` near a cluster of targets `i`, pair by pair.
-template <class W, class Add>
+template <PairsOf pairs = PairsOf::fluid_and_wall, class W, class Add>
 TORYU_INLINE void over_pairs(const W& kernel, std::span<const ShiftedNeighbours> lists, const Targets& i,
                              const Sources& sources, Add&& add) {
   over_neighbours(kernel, lists, i.x, sources.x,
                   [&](std::uint32_t j, const Neighbour& n)
-                      TORYU_INLINE_LAMBDA { add(j, make_pair(kernel, n, i, sources, j)); });
+                      TORYU_INLINE_LAMBDA { add(j, make_pair<pairs>(kernel, n, i, sources, j)); });
 }
 
 }  // namespace toryu::fluid

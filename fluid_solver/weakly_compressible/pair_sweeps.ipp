@@ -63,17 +63,18 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
   const Lanes p_rho2_i = i.p_rho2;
   if (sweeps.tensile_control) i.p_rho2 = without_tension(p_rho2_i, load(fluid.off_surface_and_walls, first));
   Rates rates;
-  over_pairs(kernel, neighbours.near(cluster), i, own,
-             [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
-               if constexpr (of_density<wanted>) {
-                 (add_density(term, i, own, j, pair, rates), ...);
-                 (add_diffusion(term, i, own, j, pair, rates), ...);
-               }
-               if constexpr (of_velocity<wanted>) {
-                 (add_momentum(term, i, own, j, pair, rates), ...);
-                 (add_viscous(term, i, own, j, pair, rates), ...);
-               }
-             });
+  over_pairs<PairsOf::fluid>(kernel, neighbours.near(cluster), i, own,
+                             [&](std::size_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+                               if constexpr (of_density<wanted>) {
+                                 (add_density(term, i, own, j, pair, rates), ...);
+                                 (add_diffusion(term, i, own, j, pair, rates), ...);
+                               }
+                               if constexpr (of_velocity<wanted>) {
+                                 (add_momentum(term, i, own, j, pair, rates), ...);
+                                 (add_viscous(term, i, own, j, pair, rates), ...);
+                                 rates.close(pair, own.m[j]);
+                               }
+                             });
   i.p_rho2 = p_rho2_i;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     if constexpr (of_velocity<wanted>) boundaries[b].force_on_fluid.by_cluster[cluster].setZero();
@@ -88,6 +89,7 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
       if constexpr (of_velocity<wanted>) {
         (add_at_wall(term, i, wall, j, pair, rates), ...);
         if (sweeps.viscous_walls) (add_viscous(term, i, wall, j, pair, rates), ...);
+        rates.close(pair, wall.m[j]);
       }
     });
     if constexpr (of_velocity<wanted>)
@@ -114,6 +116,7 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
              [&](std::size_t i, const Pair& pair) TORYU_INLINE_LAMBDA {
                (add_at_wall(term, w, own, i, pair, rates), ...);
                if (sweeps.viscous_walls) (add_viscous(term, w, own, i, pair, rates), ...);
+               rates.close(pair, own.m[i]);
              });
   for (int a = 0; a < dim; ++a) store(load(boundary.m, first) * rates.a[a], boundary.force[a], first);
 }

@@ -79,7 +79,9 @@ Rates sum_over(const Point& i, const std::vector<Point>& others, const W& kernel
   const ShiftedNeighbours list{Vec::Zero(), all};
   Rates rates;
   over_neighbours(kernel, std::span(&list, 1), target.x, view.x, [&](std::uint32_t j, const Neighbour& n) {
-    add(target, view, j, make_pair(kernel, n, target, view, j), rates);
+    const Pair pair = make_pair(kernel, n, target, view, j);
+    add(target, view, j, pair, rates);
+    rates.close(pair, view.m[j]);
   });
   return rates;
 }
