@@ -111,7 +111,7 @@ void FluidModel::update_neighbours(double dt) {
   const auto timer = timers_.measure("neighbours");
   if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt)) return;
   move_back_into_domain();
-  state_.neighbours.build(state_.fluid, state_.boundaries);
+  state_.neighbours.build(state_.fluid, state_.boundaries, dt);
 }
 
 void FluidModel::record_surface(const std::filesystem::path& out) {

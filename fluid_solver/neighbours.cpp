@@ -15,22 +15,43 @@ void sort(Particles& f, const StripOrder& strips) {
   f.id.swap(id);
 }
 
+/// How far a particle may go in the next `dt` [s].
+double farthest_step(const Particles& fluid, double dt) {
+  return dt * (largest_norm(fluid.v, fluid.count) + dt * largest_norm(fluid.a, fluid.count));
+}
+double farthest_step(const Boundary& boundary, double dt) {
+  return dt * (largest_norm(boundary.v, boundary.count) +
+               dt * largest_norm(boundary.acceleration, boundary.count));
+}
+
+// As a share of the support: it bears a fluid at rest that is struck within a step.
+constexpr double smallest_skin = 0.02;
+
 }  // namespace
 
 bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const {
   if (state_.builds == 0) return true;
-  const double moved_fluid =
-      largest_distance(fluid.x, state_.fluid, fluid.count) + dt * largest_norm(fluid.v, fluid.count);
+  const double moved_fluid = largest_distance(fluid.x, state_.fluid, fluid.count) + farthest_step(fluid, dt);
   double moved = moved_fluid;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].moves())
       moved = std::max(moved, largest_distance(boundaries[b].x, state_.boundaries[b], boundaries[b].count) +
-                                  dt * largest_norm(boundaries[b].v, boundaries[b].count));
-  return skin_exhausted(moved_fluid, moved, skin_);
+                                  farthest_step(boundaries[b], dt));
+  return skin_exhausted(moved_fluid, moved, state_.skin);
 }
 
-void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries) {
+double Neighbours::best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                             double dt) const {
+  double step = farthest_step(fluid, dt);
+  for (const Boundary& boundary : boundaries)
+    if (boundary.moves()) step = std::max(step, farthest_step(boundary, dt));
+  const double best = std::sqrt(support_ * 2 * step);
+  return std::min(std::max(best, smallest_skin * support_), largest_skin_);
+}
+
+void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, double dt) {
   ++state_.builds;
+  state_.skin = best_skin(fluid, boundaries, dt);
   sort(fluid, strips_);
   state_.fluid = fluid.x;
   state_.boundaries.resize(boundaries.size());
@@ -49,7 +70,7 @@ void Neighbours::rebuild(const Particles& fluid, std::vector<Boundary>& boundari
 
 void Neighbours::build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries) {
   const VecField& x = state_.fluid;
-  const double reach = support_ + skin_;
+  const double reach = support_ + state_.skin;
   strips_.index(x[0], fluid_count);
   of_fluid_.build(x, fluid_count, x, strips_, reach, shifts_);
   for (std::size_t b = 0; b < boundaries.size(); ++b) {

@@ -1,5 +1,9 @@
 /// Who is near whom: keeps the particles in strip order and the cluster lists up to date. The lists reach a
 /// skin beyond the kernel's support and are built anew only when something may have moved by half of it.
+///
+/// A skin of s supports adds about s of the time of a step to each step, and to build the lists takes about
+/// as long as a step, once in s/m steps where two particles may move by m supports a step: s = sqrt(m) costs
+/// least. So the lists of a fluid that hardly moves hold hardly more than the kernel sees.
 #pragma once
 
 #include <vector>
@@ -12,15 +16,15 @@ namespace toryu::fluid {
 
 class Neighbours {
  public:
-  /// `support` and `skin` [m]; `strip_width` [m] of the storage order; `shifts` [m], zero first, by which
-  /// space repeats itself.
-  Neighbours(double support, double skin, double strip_width, std::vector<Vec> shifts)
-      : support_(support), skin_(skin), shifts_(std::move(shifts)), strips_(strip_width) {}
+  /// `support` and `largest_skin` [m]; `strip_width` [m] of the storage order; `shifts` [m], zero first, by
+  /// which space repeats itself.
+  Neighbours(double support, double largest_skin, double strip_width, std::vector<Vec> shifts)
+      : support_(support), largest_skin_(largest_skin), shifts_(std::move(shifts)), strips_(strip_width) {}
 
   /// Whether the next `dt` [s] at the present speeds may exhaust the skin.
   bool exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const;
-  /// Sorts the particles and builds the lists anew.
-  void build(Particles& fluid, std::vector<Boundary>& boundaries);
+  /// Sorts the particles and builds the lists anew, for steps of about `dt` [s].
+  void build(Particles& fluid, std::vector<Boundary>& boundaries, double dt);
 
   /// Finds the lists again that were built where a checkpoint says: in a fluid and boundaries whose particles
   /// are in that order.
@@ -34,16 +38,18 @@ class Neighbours {
   struct State {
     VecField fluid;
     std::vector<VecField> boundaries;
+    double skin = 0;  ///< of these lists [m]
     long builds = 0;
   };
   template <class Archive>
   friend void serialize(Archive& archive, Neighbours& neighbours) {
-    auto& [fluid, boundaries, builds] = neighbours.state_;
-    archive(fluid, boundaries, builds);
+    auto& [fluid, boundaries, skin, builds] = neighbours.state_;
+    archive(fluid, boundaries, skin, builds);
   }
+  double best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const;
   void build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries);
 
-  double support_, skin_;
+  double support_, largest_skin_;
   std::vector<Vec> shifts_;
   StripOrder strips_;
   State state_;

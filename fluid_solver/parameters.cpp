@@ -138,9 +138,10 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
                 .maximum = 10,
                 .above_minimum = true,
                 .help = "share of the stable time step that is taken"});
-  table.number(
-      "neighbour_skin", p.neighbour_skin,
-      {.minimum = 0.01, .maximum = 1, .help = "margin of the neighbour lists over the kernel's support"});
+  table.number("neighbour_skin", p.neighbour_skin,
+               {.minimum = 0.01,
+                .maximum = 1,
+                .help = "largest margin of the neighbour lists over the kernel's support"});
   table.number(
       "start_disorder", p.start_disorder,
       {.minimum = 0,

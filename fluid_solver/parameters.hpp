@@ -76,8 +76,9 @@ struct Parameters : OptionalTerms {
   KernelForm kernel = KernelForm::cubic_spline;
   Integrator integrator = Integrator::midpoint;
   double time_step_share = 1.0;  ///< share of the stable step that is taken
-  double neighbour_skin = 0.12;  ///< margin of the neighbour lists, as a share of the kernel's support
-  double start_disorder = 0;     ///< largest distance from the lattice at the start, share of the spacing
+  double neighbour_skin =
+      0.12;                   ///< largest margin of the neighbour lists, as a share of the kernel's support
+  double start_disorder = 0;  ///< largest distance from the lattice at the start, share of the spacing
   std::vector<Region> regions;
   std::vector<Box> holes;
   std::optional<HydrostaticStart> hydrostatic_start;

@@ -28,7 +28,7 @@ struct Block {
     s.parameters.regions = {{"block", {Vec(0, 0), Vec(0.6, 0.6)}}};
     fluid = s.solver().particles();
     std::vector<Boundary> none;
-    lists.build(fluid, none);
+    lists.build(fluid, none, 0);
     for (std::size_t i = 0; i < fluid.count; ++i) {
       const Vec x = at(fluid.x, i);
       set(fluid.v, i, fields.v(x));

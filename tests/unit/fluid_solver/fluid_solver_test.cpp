@@ -151,7 +151,7 @@ TEST(WeaklyCompressible, GivesTheSameBitsTwiceAndForAnyNumberOfThreads) {
 TEST(WeaklyCompressible, DoesNotSeeTheSkinOfItsNeighbourLists) {
   // Chaos multiplies rounding by and by; a missed neighbour shows at once.
   Setting thin = collapsing_column(), thick = thin;
-  thin.parameters.neighbour_skin = 0.05;
+  thin.parameters.neighbour_skin = 0.02;
   thick.parameters.neighbour_skin = 0.5;
   WeaklyCompressible a = thin.solver(), b = thick.solver();
   run_until(a, 0.15);

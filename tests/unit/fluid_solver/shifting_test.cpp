@@ -33,7 +33,7 @@ Sorted sorted(const WendlandC2& kernel) {
   const WeaklyCompressible solver = block().solver();
   Sorted s{solver.particles(), {kernel.support(), 0.1 * kernel.support(), 0.1, {Vec::Zero()}}};
   std::vector<Boundary> none;
-  s.lists.build(s.fluid, none);
+  s.lists.build(s.fluid, none, 0);
   for (std::size_t i = 0; i < s.fluid.count; ++i) s.fluid.V[i] = d_0 * d_0;
   return s;
 }
@@ -152,7 +152,7 @@ TEST(FreeSurface, IsNoBetterThanAWallForWhatKeepsOffBoth) {
   Boundary wall;
   wall.place({Vec(0, 0.35)}, {d_0 * d_0}, 1000, 0.1);
   std::vector<Boundary> walls{wall};
-  s.lists.build(s.fluid, walls);
+  s.lists.build(s.fluid, walls, 0);
   find_off_surface_and_walls(s.fluid, walls, kernel);
   for (std::size_t i = 0; i < s.fluid.count; ++i)
     EXPECT_EQ(s.fluid.off_surface_and_walls[i],
