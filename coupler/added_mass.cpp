@@ -72,6 +72,8 @@ double least_mass_ratio(SchemeKind scheme, const FluidTraits& fluid, double dt) 
   const double width =
       fluid.spacing > 0 ? std::max(1.0, fluid.reach / (measured_reach * fluid.spacing)) : 1.0;
   switch (scheme) {
+    case SchemeKind::serial_robin:
+      return 0.03 * width;
     case SchemeKind::serial_explicit:
       return std::max(0.37 * width, 0.25 * courant * courant);
     case SchemeKind::parallel_explicit:

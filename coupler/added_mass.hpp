@@ -4,6 +4,7 @@
 ///
 ///     serial     m_s > (C/2)^2 rho_f dx, but at least 0.37 rho_f dx      C = c_f T/dx, T the window's length
 ///     parallel   m_s > (C/2)^2 rho_f dx, but at least 0.9 rho_f dx
+///     Robin      m_s > 0.03 rho_f dx
 ///
 /// The law is that of a mass on a spring of stiffness rho_f c_f^2/dx, integrated explicitly (van Brummelen
 /// 2009: in a compressible fluid the added mass is in proportion to the window). The lower bounds are

@@ -168,6 +168,7 @@ TEST(AddedMass, HasALimitByScheme) {
   EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, water, 1e-4), 0.37);
   EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, water, 1e-3), 1);  // C = 2
   EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, water, 1e-4), 0.9);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_robin, water, 1e-3), 0.03);
   EXPECT_EQ(least_mass_ratio(SchemeKind::serial_implicit, water, 1e-3), 0);
   water.reach = 0.05;  // twice as far as that with which they were measured
   EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, water, 1e-4), 1.8);
