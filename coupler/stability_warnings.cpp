@@ -68,7 +68,7 @@ std::vector<std::string> stability_warnings(const CaseFile& file, const Paramete
         "without a failure; compare with 1, see cases/pushed_column/window_map.toml",
         coupling.fluid_steps_per_window, largest_calm_window));
   if (lags && !file.has("solid.artificial_viscosity") && !file.has("solid.damping"))
-    said.push_back(
+    said.emplace_back(
         "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
         "it; take scheme = 'serial_robin', or give it [solid.artificial_viscosity]");
   const auto number = [&](const char* key) { return file.number(key).value_or(0.0); };

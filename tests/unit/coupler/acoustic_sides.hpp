@@ -37,7 +37,7 @@ struct AcousticSides final : CouplingPort {
     const double before = copy;
     copy = motion.impulse.empty() ? (motion.position[0] - at_end) / window.dt : motion.velocity[0];
     at_end = motion.position[0];
-    answer = {.load = {{0}, {0, 0}, {}}, .time_step_limit = dt};
+    answer = {.load = {{0}, {0, 0}, {}}, .time_step_limit = dt, .health = {}};
     if (!motion.impulse.empty()) {
       const double dv = -motion.impulse[0];
       answer.load.work_of_impulse = dv * (w[0] + 0.5 * dv);
