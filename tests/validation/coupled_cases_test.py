@@ -108,7 +108,7 @@ class PushedColumn(unittest.TestCase):
         self.assertNotIn("the exchange feeds the solid", said)
 
     def test_a_light_layer_is_borne_by_the_robin_scheme_alone_without_iterations(self):
-        for density in (50, 10):
+        for density in (50, 20):
             with self.subTest(density):
                 error, figures, said = self.way_error(density)
                 self.assertLess(abs(error), 0.02)
