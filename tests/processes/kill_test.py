@@ -23,6 +23,7 @@ IMPLICIT = "coupling.scheme=serial_implicit"
 # case, who computes it, end time [s], settings
 SCENES = [
     ("elastic_gate", ALL, 0.015, []),
+    ("elastic_gate", ALL, 0.01, ["coupling.scheme=serial_explicit"]),
     ("elastic_gate", ALL, 0.01, ["coupling.scheme=parallel_explicit", "coupling.extrapolation_order=2"]),
     ("elastic_gate", ALL, 0.004, [IMPLICIT, "coupling.implicit.relaxation=aitken"]),
     ("elastic_gate", ALL, 0.004, [IMPLICIT, "coupling.implicit.relaxation=quasi_newton"]),
