@@ -16,7 +16,7 @@ void scatter(const Boundary& interface, std::size_t cluster, const VecLanes& val
              std::vector<double>& by_id) {
   for (std::size_t k = cluster * lane_count; k < std::min((cluster + 1) * lane_count, interface.count); ++k)
     for (std::size_t a = 0; a < dim; ++a)
-      by_id[dim * interface.id[k] + a] = value[a][k - cluster * lane_count];
+      by_id[std::size_t{dim} * interface.id[k] + a] = value[a][k - cluster * lane_count];
 }
 
 /// Of each particle of the interface the impulse that it takes from the fluid over sum_j m_j W_ij; zero
@@ -40,7 +40,8 @@ VecField shares(const W& kernel, const std::vector<double>& impulse, const Bound
     if (reached[k] > smallest_share * interface.m[k] * kernel.value(0.0))
       set(share, k, -J / reached[k]);
     else
-      for (std::size_t a = 0; a < dim; ++a) not_given[dim * interface.id[k] + a] = J[static_cast<int>(a)];
+      for (std::size_t a = 0; a < dim; ++a)
+        not_given[std::size_t{dim} * interface.id[k] + a] = J[static_cast<int>(a)];
   }
   return share;
 }
