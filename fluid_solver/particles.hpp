@@ -19,8 +19,9 @@ struct Particles {
   Declared<Field> V{"volume", "m2", FieldKind::state};
   Declared<Field> p{"pressure", "Pa", FieldKind::derived},
       p_rho2{"p/rho^2", "m5/(kg.s2)", FieldKind::derived};
-  /// Renormalised <grad rho>, where the density diffusion wants it.
-  Declared<VecField> grad_rho{"density_gradient", "kg/m4", FieldKind::derived, Presence::on_demand};
+  /// Renormalised <grad rho>, where the density diffusion wants it; beside an interface the rate of the
+  /// density is found anew with that of the last evaluation.
+  Declared<VecField> grad_rho{"density_gradient", "kg/m4", FieldKind::state, Presence::on_demand};
   /// 1 where no free surface is in reach, else 0; and 1 where no wall is in reach either.
   Declared<Field> off_surface{"off_surface", "1", FieldKind::derived, Presence::on_demand};
   Declared<Field> off_surface_and_walls{"off_surface_and_walls", "1", FieldKind::derived,

@@ -120,7 +120,7 @@ void WeaklyCompressible::step_midpoint(double dt) {
 
 void WeaklyCompressible::step_symplectic(double dt) {
   const std::size_t clusters = state_.fluid.clusters();
-  if (!state_.density_rate_known)
+  if (!state_.density_rate_known || (state_.contact_changed && parameters_.consistent_gradients))
     evaluate(RatesOf::density);
   else if (state_.contact_changed)
     dynamics_.renew_density_rates(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);

@@ -15,13 +15,14 @@ namespace {
 struct Variant {
   std::string name;
   void (*change)(Setting&);
-  bool with_plate = false;
+  bool with_plate = false, with_impulse = false;
 };
 
 /// A fluid of this variant in its own folder, beside its plate if it has one.
 class Tank {
  public:
-  Tank(const Variant& variant, Integrator integrator) : with_plate_(variant.with_plate) {
+  Tank(const Variant& variant, Integrator integrator)
+      : with_plate_(variant.with_plate), with_impulse_(variant.with_impulse) {
     Setting setting = variant.with_plate ? tank_with_a_plate() : collapsing_column();
     setting.parameters.integrator = integrator;
     setting.parameters.neighbour_skin = 0.02;  // so that lists are built often
@@ -43,7 +44,7 @@ class Tank {
     std::vector<double> numbers;
     for (int n = 0; n < steps; ++n) {
       const double dt = solver_->time_step_limit();
-      if (with_plate_) solver_->begin_window(moved(plate_, Vec(0.2, 0.1), solver_->time()), dt);
+      if (with_plate_) begin_window(dt);
       solver_->advance(dt);
       numbers.push_back(dt);
       if (with_plate_) add(numbers, solver_->take_load());
@@ -66,7 +67,13 @@ class Tank {
   }
 
   static int runs_;
-  bool with_plate_;
+  void begin_window(double dt) {
+    InterfaceMotion motion = moved(plate_, Vec(0.2, 0.1), solver_->time());
+    if (with_impulse_) motion.impulse.assign(motion.velocity.size(), 1e-3);
+    solver_->begin_window(motion, dt);
+  }
+
+  bool with_plate_, with_impulse_;
   Interface plate_ = plate();
   std::filesystem::path out_ = std::filesystem::path(testing::TempDir()) /
                                ("fluid_state_" + std::to_string(getpid()) + "_" + std::to_string(runs_++));
@@ -155,6 +162,9 @@ const Variant variants[] = {
        s.parameters.removal = Removal{1e-9, {}, {}};
      }},
     {"Plate", [](Setting&) {}, true},
+    {"PlateWithImpulse", [](Setting&) {}, true, true},
+    {"ConsistentPlateWithImpulse",
+     [](Setting& s) { s.parameters.consistent_gradients = ConsistentGradients{}; }, true, true},
     {"RubbedPlate",
      [](Setting& s) {
        s.parameters.friction = Friction{0.3, FrictionForm::normalised, 0.5};
