@@ -68,6 +68,10 @@ std::vector<double> impedance(const Boundary& interface, const Particles& fluid,
 GivenImpulse give_impulse(const std::vector<double>& impulse, Boundary& interface, Particles& fluid,
                           const Kernel& kernel) {
   GivenImpulse given;
+  if (interface.list_for_fluid.clusters() == 0) {  // before the first step nobody knows who is near
+    given.not_given = impulse;
+    return given;
+  }
   given.not_given.assign(impulse.size(), 0.0);
   kernel.visit([&](const auto& W) {
     const VecField share = shares(W, impulse, interface, fluid, given.not_given);
