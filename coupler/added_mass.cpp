@@ -86,7 +86,7 @@ double least_mass_ratio(SchemeKind scheme, const FluidTraits& fluid, double dt) 
 std::string too_light(double ratio, double least) {
   return fmt::format(
       "the solid's surface layer weighs {:.3g} of a row of fluid, the scheme bears {:.3g}: beyond the edge "
-      "of stability; take scheme = 'serial_implicit' or shorter windows, see "
+      "of stability; take scheme = 'serial_robin' or 'serial_implicit', or shorter windows, see "
       "cases/pushed_column/added_mass_map.toml",
       ratio, least);
 }

@@ -89,8 +89,8 @@ void CoupledRecord::audit_work(const Window& window, const Exchange& done) {
   if (state_.warned_of_work || !work_.feeds()) return;
   log::warn(
       "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "
-      "gave {:.3g}; its motion is not to be trusted; take scheme = 'serial_implicit', shorter windows or "
-      "more artificial viscosity of the solid, see cases/pushed_column/window_map.toml",
+      "gave {:.3g}; its motion is not to be trusted; take scheme = 'serial_robin' or 'serial_implicit', "
+      "shorter windows or more artificial viscosity of the solid, see cases/pushed_column/window_map.toml",
       window.number, window.time + window.dt, work_.taken(), work_.given());
   state_.warned_of_work = true;
 }

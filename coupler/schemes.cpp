@@ -25,8 +25,8 @@ constexpr double longest_step = 0.05;
 /// The impedance that the solid feels in `serial_robin`, over the fluid's. The fluid answers a change within
 /// a window, and what the impedance lets the solid feel of it there is what the load of the next window does
 /// not feed back. Any factor is consistent, since its impulse returns. Measured (pushed column, 20 to 300
-/// kg/m3, windows of 1, 2, 4 fluid steps, 0.2 s): 0.5 bears windows of 1, 1 windows of 1 and of 2 at 300
-/// kg/m3, 1.4 all but windows of 2 below 300 kg/m3, 2 all; above, the way is not nearer to theory.
+/// kg/m3, windows of 1, 2, 4 fluid steps, 0.15 s): 1 bears windows of 1, and of 2 at 300 kg/m3; 1.4 all but
+/// windows of 2 below 300 kg/m3; 2 all. 0.5 fails with windows of 4 within 0.02 s; 3 is not nearer to theory.
 constexpr double impedance_factor = 2.0;
 
 double root_mean_square(const Values& values) {

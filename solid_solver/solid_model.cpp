@@ -115,6 +115,7 @@ void SolidModel::find_external() {
 }
 
 void SolidModel::sort_particles(const std::vector<std::uint32_t>& order) {
+  find_external();  // without the brake of the last step, which idle lanes would keep
   state_.idle_external = at(state_.external, order.back());
   reorder_fields(state_, order);
   std::vector<std::uint32_t> scratch;
