@@ -132,7 +132,7 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
                {.help = "cubic spline (Monaghan & Lattanzio 1985) or Wendland C2 (1995), support 2h"});
   table.number("smoothing_ratio", p.smoothing_ratio, {.minimum = 1.0, .maximum = 2.0, .help = "h/d_0"});
   table.choice("integrator", p.integrator, {"midpoint", "symplectic"},
-               {.help = "the midpoint rule, or a leapfrog that finds each rate once a step"});
+               {.help = "a leapfrog that finds each rate once a step, or the midpoint rule"});
   table.number("time_step_share", p.time_step_share,
                {.minimum = 0,
                 .maximum = 10,
@@ -158,8 +158,9 @@ void describe_start(ParameterTable& table, Parameters& p) {
 }
 
 void describe_terms(ParameterTable& table, Parameters& p) {
-  for_each_term(
-      p, [&]<class Term>(std::optional<Term>& term) { table.optional(Term::section, term, Term::help); });
+  for_each_term(p, [&]<class Term>(std::optional<Term>& term) {
+    table.optional(Term::section, term, Term::help, absence_of<Term>());
+  });
   table.group("wall_model", p.wall_model, "how walls act on the fluid (Adami, Hu & Adams 2012)");
 }
 

@@ -74,7 +74,7 @@ struct Parameters : OptionalTerms {
   double spacing = 0;            ///< d_0 [m]
   double smoothing_ratio = 1.3;  ///< h/d_0
   KernelForm kernel = KernelForm::cubic_spline;
-  Integrator integrator = Integrator::midpoint;
+  Integrator integrator = Integrator::symplectic;
   double time_step_share = 1.0;  ///< share of the stable step that is taken
   double neighbour_skin =
       0.12;                   ///< largest margin of the neighbour lists, as a share of the kernel's support

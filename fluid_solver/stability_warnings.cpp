@@ -74,6 +74,11 @@ bool starts_on(const Box& wall, const Box& region, int axis, double spacing) {
          region.min[other] < wall.max[other] && region.max[other] > wall.min[other];
 }
 
+bool damps_noise(const Parameters& p) {
+  const bool viscous = p.artificial_viscosity || p.laminar_viscosity || p.power_law || p.carreau;
+  return viscous || (p.density_diffusion && p.density_diffusion->delta > 0);
+}
+
 /// g H of the regions together [m2/s2].
 double weight_of_depth(const Parameters& p, const Vec& gravity) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -165,6 +170,11 @@ std::vector<std::string> stability_warnings(const Parameters& p, const Start& st
         fmt::format("time_step_share {:g} is beyond the edge of stability at {:.2g}; see "
                     "cases/hydrostatic_tank/time_step_map.toml",
                     p.time_step_share, time_step_edge(p)));
+  if (!damps_noise(p))
+    said.push_back(
+        "neither [fluid.density_diffusion] nor a viscosity damps the noise of the pressure: water at rest "
+        "fails "
+        "after some ten of its periods, whatever the step");
   if (p.sound_speed < 10 * start.speed)
     said.push_back(fmt::format(
         "sound_speed {:g} m/s is below ten times the largest speed at the start, {:.3g} m/s: the density "

@@ -40,6 +40,14 @@ struct OptionalTerms {
   std::optional<Removal> removal;
 };
 
+/// What it means that a case does not mention the term.
+template <class Term>
+constexpr Absence absence_of() {
+  // Without it the pressure of water at rest grows noise until the run fails, whatever the integrator and
+  // step.
+  return std::is_same_v<Term, DensityDiffusion> ? Absence::takes_defaults : Absence::leaves_out;
+}
+
 /// Calls visit(term) for the std::optional of each.
 template <class Terms, class Visit>
 void for_each_term(Terms& terms, Visit&& visit) {

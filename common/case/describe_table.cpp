@@ -47,10 +47,11 @@ void DescribeTable::word(const std::string& key, int& index, const std::vector<s
   add(key, rule.required, "'" + words.at(static_cast<std::size_t>(index)) + "'", text_kind(words), rule.help);
 }
 
-bool DescribeTable::section(const std::string& key, bool present, const std::string& help,
+bool DescribeTable::section(const std::string& key, const SectionRule& rule,
                             const std::function<void(ParameterTable&)>& visit) {
-  add_section("[" + path_of(key) + "]  (optional)", key, help, visit);
-  return present;
+  const char* absence = rule.absence == Absence::leaves_out ? "(optional)" : "(taken unless false)";
+  add_section(fmt::format("[{}]  {}", path_of(key), absence), key, rule.help, visit);
+  return rule.present;
 }
 
 void DescribeTable::required_section(const std::string& key, const std::string& help,

@@ -38,6 +38,17 @@ struct TextRule {
       false;  ///< results put it into the names of columns: not empty, no , ; [ ] " or line break
 };
 
+/// What it means that a case does not mention an optional section: the model is left out, or taken with its
+/// defaults and left out by `false` alone.
+enum class Absence { leaves_out, takes_defaults };
+
+/// What is said of an optional section.
+struct SectionRule {
+  bool present = false;  ///< in the value that is described
+  Absence absence = Absence::leaves_out;
+  std::string help = {};
+};
+
 /// Visits the parameters of a section. There are three visitors: read_table.hpp, describe_table.hpp and
 /// write_table.hpp.
 class ParameterTable {
@@ -67,11 +78,14 @@ class ParameterTable {
   /// A sub-table that switches a model on by being there: `[fluid.density_diffusion]`. `false` in its place
   /// is the same as its absence.
   template <class Parameters>
-  void optional(const std::string& key, std::optional<Parameters>& value, const std::string& help) {
+  void optional(const std::string& key, std::optional<Parameters>& value, const std::string& help,
+                Absence absence = Absence::leaves_out) {
     Parameters inner = value.value_or(Parameters{});
-    const bool present =
-        section(key, value.has_value(), help, [&](ParameterTable& t) { describe(t, inner); });
-    if (present) value = std::move(inner);
+    const auto visit = [&](ParameterTable& t) { describe(t, inner); };
+    if (section(key, {value.has_value(), absence, help}, visit))
+      value = std::move(inner);
+    else
+      value.reset();
   }
 
   /// A sub-table that is always there, with its defaults where the case says nothing.
@@ -102,8 +116,9 @@ class ParameterTable {
  protected:
   virtual void word(const std::string& key, int& index, const std::vector<std::string>& words,
                     const TextRule& rule) = 0;
-  /// Visits the sub-table `key` if it is there (read), always (describe) or if `present` (write).
-  virtual bool section(const std::string& key, bool present, const std::string& help,
+  /// Visits the sub-table `key` if it is there (read), always (describe) or if `present` (write). Says
+  /// whether the model is taken.
+  virtual bool section(const std::string& key, const SectionRule& rule,
                        const std::function<void(ParameterTable&)>& visit) = 0;
   virtual void required_section(const std::string& key, const std::string& help,
                                 const std::function<void(ParameterTable&)>& visit) = 0;

@@ -102,10 +102,11 @@ void ReadTable::word(const std::string& key, int& index, const std::vector<std::
     index = static_cast<int>(std::find(words.begin(), words.end(), *read) - words.begin());
 }
 
-bool ReadTable::section(const std::string& key, bool /*present*/, const std::string& help,
+bool ReadTable::section(const std::string& key, const SectionRule& rule,
                         const std::function<void(ParameterTable&)>& visit) {
-  const toml::node* node = find(key, false, "a section", help);
-  if (!node || node->value_exact<bool>() == false) return false;
+  const toml::node* node = find(key, false, "a section", rule.help);
+  if (!node) return rule.absence == Absence::takes_defaults;
+  if (node->value_exact<bool>() == false) return false;
   const toml::table* table = node->as_table();
   if (table)
     read_section(table, key, visit);

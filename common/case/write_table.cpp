@@ -76,10 +76,13 @@ void WriteTable::word(const std::string& key, int& index, const std::vector<std:
   add(key, in_quotes(words.at(static_cast<std::size_t>(index))));
 }
 
-bool WriteTable::section(const std::string& key, bool present, const std::string& /*help*/,
+bool WriteTable::section(const std::string& key, const SectionRule& rule,
                          const std::function<void(ParameterTable&)>& visit) {
-  if (present) add_section("[" + path_of(key) + "]", path_of(key), visit);
-  return present;
+  if (rule.present)
+    add_section("[" + path_of(key) + "]", path_of(key), visit);
+  else if (rule.absence == Absence::takes_defaults)
+    add(key, "false");
+  return rule.present;
 }
 
 void WriteTable::required_section(const std::string& key, const std::string& /*help*/,

@@ -27,7 +27,7 @@ class WriteTable final : public ParameterTable {
  protected:
   void word(const std::string& key, int& index, const std::vector<std::string>& words,
             const TextRule& rule) override;
-  bool section(const std::string& key, bool present, const std::string& help,
+  bool section(const std::string& key, const SectionRule& rule,
                const std::function<void(ParameterTable&)>& visit) override;
   void required_section(const std::string& key, const std::string& help,
                         const std::function<void(ParameterTable&)>& visit) override;

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -51,6 +52,54 @@ TEST(FluidWarnings, AreNotGivenOfTheCasesThatAreShipped) {
     ++checked;
   }
   EXPECT_GT(checked, 15);
+}
+
+/// Water 0.2 m deep on which gravity sets in at once, with what every fluid must say and no more.
+const char* const bare_tank = R"(
+[case]
+title = "Bare tank"
+gravity = [0.0, -9.81]
+end_time = 5.0
+frame_interval = 0
+series_interval = 0.5
+domain = { min = [-0.2, -0.2], max = [0.7, 0.5] }
+[[wall]]
+name = "floor"
+box = { min = [-0.1, -0.1], max = [0.6, 0.0] }
+[[wall]]
+name = "left"
+box = { min = [-0.1, 0.0], max = [0.0, 0.3] }
+[[wall]]
+name = "right"
+box = { min = [0.5, 0.0], max = [0.6, 0.3] }
+[fluid]
+density = 1000.0
+sound_speed = 20.0
+spacing = 0.02
+[[fluid.region]]
+name = "water"
+box = { min = [0.0, 0.0], max = [0.5, 0.2] }
+)";
+
+/// Largest speed in the last row of fluid.csv [m/s].
+double last_largest_speed(const fs::path& out) {
+  std::ifstream series(out / "fluid.csv");
+  std::string line, last;
+  std::getline(series, line);
+  const auto columns_before = line.substr(0, line.find("largest_speed"));
+  while (std::getline(series, line)) last = line;
+  for (auto left = std::count(columns_before.begin(), columns_before.end(), ','); left > 0; --left)
+    last = last.substr(last.find(',') + 1);
+  return std::stod(last);
+}
+
+TEST(FluidWarnings, ABareFluidComesToRestWithoutAWord) {
+  const fs::path folder = fs::temp_directory_path() / ("toryu_bare_tank_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "case.toml") << bare_tank;
+  EXPECT_THAT(warnings(folder, "--out '" + (folder / "out").string() + "'"), IsEmpty());
+  EXPECT_LT(last_largest_speed(folder / "out"), 0.05) << "it fell 1 % of its depth at the start, at 0.1 m/s";
+  fs::remove_all(folder);
 }
 
 TEST(FluidWarnings, NameAJetThatIsNone) {

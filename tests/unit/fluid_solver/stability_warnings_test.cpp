@@ -5,6 +5,7 @@
 namespace toryu::fluid {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -32,7 +33,19 @@ TEST(FluidGuards, KnowWhatDensityDiffusionBears) {
   p.density_diffusion->delta = 0.0125;  // an eighth: half the step
   EXPECT_DOUBLE_EQ(time_step_edge(p), 1.3);
   p.density_diffusion.reset();
-  EXPECT_THAT(stability_warnings(p, {1, 0}), ElementsAre(HasSubstr("at 0.8")));
+  EXPECT_DOUBLE_EQ(time_step_edge(p), 0.8);
+  EXPECT_THAT(stability_warnings(p, {1, 0}), Contains(HasSubstr("at 0.8")));
+}
+
+TEST(FluidGuards, BearABareSectionAndNameOneThatNothingDamps) {
+  Parameters p;
+  p.density_diffusion = DensityDiffusion{};  // as of a case that does not mention it
+  p.sound_speed = 20;
+  EXPECT_THAT(stability_warnings(p, {1, 0}), ElementsAre());
+  p.density_diffusion.reset();
+  EXPECT_THAT(stability_warnings(p, {1, 0}), ElementsAre(HasSubstr("neither [fluid.density_diffusion] nor")));
+  p.artificial_viscosity = ArtificialViscosity{};
+  EXPECT_THAT(stability_warnings(p, {1, 0}), ElementsAre());
 }
 
 TEST(FluidGuards, WantWorkPiecesAsFineAsTheFluid) {

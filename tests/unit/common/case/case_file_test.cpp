@@ -165,6 +165,29 @@ TEST(CaseFile, UsedCaseLeavesOutADefaultThatIsNotFinite) {
   EXPECT_TRUE(std::isinf(unbounded.limit));
 }
 
+/// A section that is taken unless it is false.
+struct Room {
+  std::optional<Drag> drag;
+};
+void describe(ParameterTable& table, Room& room) {
+  table.optional("drag", room.drag, "resistance", Absence::takes_defaults);
+}
+
+TEST(CaseFile, TakesASectionThatIsLeftOutByFalseAlone) {
+  for (const auto& [text, drag, used] :
+       {std::tuple{"[room]\n", true, "\n[room]\n\n[room.drag]\ncoefficient = 1.0\n"},
+        std::tuple{"[room]\ndrag = {}\n", true, "\n[room]\n\n[room.drag]\ncoefficient = 1.0\n"},
+        std::tuple{"[room]\ndrag = false\n", false, "\n[room]\ndrag = false\n"}}) {
+    const CaseText written(text);
+    CaseFile file(written.folder(), {});
+    Room room;
+    file.read("room", room, "");
+    file.throw_if_faulty();
+    EXPECT_EQ(room.drag.has_value(), drag) << text;
+    EXPECT_EQ(file.used(), used);
+  }
+}
+
 TEST(CaseFile, DescribesSectionsWithDefaultsWhateverTheCaseSays) {
   const CaseText text(sound_medium());
   CaseFile file(text.folder(), {});
