@@ -171,7 +171,7 @@ std::vector<std::string> stability_warnings(const Parameters& p, const Start& st
                     "cases/hydrostatic_tank/time_step_map.toml",
                     p.time_step_share, time_step_edge(p)));
   if (!damps_noise(p))
-    said.push_back(
+    said.emplace_back(
         "neither [fluid.density_diffusion] nor a viscosity damps the noise of the pressure: water at rest "
         "fails "
         "after some ten of its periods, whatever the step");
