@@ -1,16 +1,19 @@
 #!/usr/bin/env bash
-# Runs a case or a study from nothing: installs what is missing, builds, starts the processes that the case needs, and
-# writes the results with a report. See ./run.sh --help.
+# Runs a case or a study from nothing: installs what is missing, builds what is out of date, starts the processes that
+# the case needs, and writes the results with a report. See ./run.sh --help.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
+# A descriptor that is closed would be given to the next file that is opened, and take what is meant for a terminal.
+[ -e /dev/fd/0 ] || exec 0</dev/null
+[ -e /dev/fd/1 ] || exec 1>/dev/null
+[ -e /dev/fd/2 ] || exec 2>/dev/null
+
 "$root/tools/install.sh" run
 ! grep -qs -d skip '^ *\[study\]' -- "$@" </dev/null || "$root/tools/install.sh" study
-export PYTHONPATH=$root/tools${PYTHONPATH:+:$PYTHONPATH}
-case ${1---help} in -h | --help) exec /usr/bin/python3 -m toryu.launch --help ;; esac
-if [ -f "$root/build/release/build.ninja" ]; then
-  "$root/tools/build.sh" release fluid_solver solid_solver coupler reference_loop
-else
-  "$root/tools/build.sh" release -DTORYU_TESTS=OFF fluid_solver solid_solver coupler reference_loop
-fi
-exec /usr/bin/python3 -m toryu.launch "$@"
+toryu=(/usr/bin/python3 -I -X utf8 "$root/tools/toryu")
+case ${1---help} in -h | --help) exec "${toryu[@]}" launch --help ;; esac
+options=(-DTORYU_TESTS=OFF)
+[ ! -f "$root/build/release/build.ninja" ] || options=() # what was configured before stays
+"$root/tools/build.sh" release "${options[@]}" fluid_solver solid_solver coupler reference_loop
+exec "${toryu[@]}" launch "$@"

@@ -136,6 +136,11 @@ void CoupledRecord::write_series(double time, const Window& window, const Exchan
   state_.row = {};
 }
 
+void CoupledRecord::complete() {
+  series_.complete();
+  if (interface_) interface_->complete();
+}
+
 void CoupledRecord::write_state(std::ostream& stream) {
   State now = state_;
   now.audit = audit_.state();

@@ -39,6 +39,8 @@ class CoupledRecord {
   void note(const Window& window, const Exchange& done, double elapsed);
   /// Writes what is due at `time` [s], the end of the window noted last.
   void write(double time, const Window& window, const Exchange& done);
+  /// Gives the files their final names: no row follows. Throws MachineFailure if that fails.
+  void complete();
   /// Puts all that later rows and figures depend on into a checkpoint, and goes on from it at `time` [s], in
   /// the place of the start.
   void write_state(std::ostream& stream);

@@ -35,6 +35,10 @@ class CoupledRun {
   /// Runs all windows to the end. Throws Interrupted, after a last checkpoint, if it is asked to stop by a
   /// signal to any of the processes or by the file `stop`.
   void run(const CouplingStart& start, const Checkpoints& checkpoints = {});
+  /// Gives the results their final names. Throws MachineFailure if that fails.
+  void complete() {
+    if (record_) record_->complete();
+  }
   /// Whether a window was computed, or a checkpoint read.
   bool has_begun() const { return state_.window.number > 0; }
   /// Adds what is known of the run so far, to a summary that has the times of this process already.

@@ -17,6 +17,9 @@ class InterfaceRecord {
   /// Appends a row. `load` is what the solid applied.
   void write(double time, const InterfaceMotion& motion, const InterfaceLoad& load);
 
+  /// Gives the file its final name: no row follows.
+  void complete() { file_.complete(); }
+
   using State = HdfSeriesFile::State;
   State state() { return file_.state(); }
   void resume(const State& then) { file_.resume(then); }

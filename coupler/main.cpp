@@ -14,6 +14,7 @@
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
 #include "common/run/run_lock.hpp"
+#include "common/run/standard_streams.hpp"
 #include "common/scene/scene.hpp"
 #include "common/state/checkpoint.hpp"
 #include "coupler/coupled_run.hpp"
@@ -80,6 +81,7 @@ void run_and_sum_up(const CaseFile& file, const Scene& scene, const Settings& se
   try {
     run_windows(file, scene, settings, checkpoints, link, run);
     link.stop(ExitCode::done, "");
+    run.complete();
   } catch (...) {
     const Ending ending = ending_of_exception();
     link.stop(ending.code, ending.reason);
@@ -105,7 +107,7 @@ ExitCode couple(const Options& options) {
     if (!file.has(section))
       file.fault("coupling", fmt::format("a coupled case needs a section [{}]", section));
   if (options.describe) {
-    fmt::print("{}", file.description());
+    print(file.description());
     return ExitCode::done;
   }
   file.throw_if_faulty();

@@ -126,6 +126,10 @@ void FluidModel::record(double time) {
   if (state_.suction_watch) watch_suction(time);
 }
 
+void FluidModel::complete_records() {
+  if (state_.surface_record) state_.surface_record->complete();
+}
+
 /// Who has a free surface in reach is not known in every run, and asked where it matters alone.
 void FluidModel::watch_suction(double time) {
   const auto suction = state_.suction_watch->look(state_.fluid, time);

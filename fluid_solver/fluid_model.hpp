@@ -44,6 +44,7 @@ class FluidModel : public Solver {
   std::vector<Observation> observe() const override;
   /// A row of surface.h5, where `record_surface` was called. Warns of suction that the fluid does not bear.
   void record(double time) override;
+  void complete_records() override;
   std::size_t particle_count() const override { return state_.fluid.count; }
 
   /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.

@@ -12,6 +12,7 @@
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
 #include "common/run/run_lock.hpp"
+#include "common/run/standard_streams.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/stability_warnings.hpp"
@@ -109,7 +110,7 @@ ExitCode solve(const Options& options) {
                "there is nothing to wear: it takes a [[wall]] with 'work_piece = true' or the solid of a "
                "coupled case");
   if (options.describe) {
-    fmt::print("{}", file.description());
+    print(file.description());
     return ExitCode::done;
   }
   file.throw_if_faulty();

@@ -34,6 +34,8 @@ class SurfaceRecord {
   void open(const std::filesystem::path& out);
   /// Appends a row: means since the last one, and the sums so far.
   void write(double time);
+  /// Gives the file its final name: no row follows.
+  void complete() { file_->complete(); }
 
   std::size_t size() const { return area_.size(); }
   /// Removed depth (mean over the surface, largest) [m], area [m2 per metre depth], roughness [m].

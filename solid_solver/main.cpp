@@ -12,6 +12,7 @@
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
 #include "common/run/run_lock.hpp"
+#include "common/run/standard_streams.hpp"
 #include "solid_solver/detached_list.hpp"
 #include "solid_solver/make_model.hpp"
 #include "solid_solver/stability_warnings.hpp"
@@ -115,7 +116,7 @@ ExitCode solve(const Options& options) {
   file.read("solid", parameters, "an elastic body in plane strain");
   file.ignore_sections({"fluid", "coupling"});
   if (options.describe) {
-    fmt::print("{}", file.description());
+    print(file.description());
     return ExitCode::done;
   }
   file.throw_if_faulty();

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds quietly: tools/build.sh PRESET [-DOPTION=VALUE ...] [TARGET ...]. On a terminal one line shows how far it is;
-# the compiler's output is shown if it fails, and stays in build/PRESET/build.log.
+# Builds quietly what is out of date: tools/build.sh PRESET [-DOPTION=VALUE ...] [TARGET ...]. On a terminal one line
+# shows how far it is; the compiler's output is shown if it fails, and stays in build/PRESET/build.log. Ends with 1 if a
+# file cannot be compiled, with 5 if the machine does not let it build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1
@@ -14,8 +15,8 @@ for argument in "$@"; do
 done
 folder=build/$preset
 log=$folder/build.log
-mkdir -p "$folder"
 
+say() { echo "$1" >&2 || true; } # nobody need read it
 show_progress() {
   if [ -t 2 ]; then
     awk -v what="Building $folder" 'match($0, /^\[[0-9]+\/[0-9]+\]/) {
@@ -26,17 +27,58 @@ show_progress() {
   fi
 }
 fail() {
-  cat "$log" >&2
-  echo "build: $1 failed, see above ($log)" >&2
+  cat "$log" >&2 || true
+  say "build: $1 failed, see above ($log)"
+  ! grep -qE 'No space left|Disk quota exceeded|Cannot allocate memory|Killed signal' "$log" || exit 5
   exit 1
 }
 
-# Without options, what was configured before stays: run.sh and test.sh share a folder, and neither undoes the other.
-if [ ! -f "$folder/build.ninja" ] || [ ${#options[@]} -gt 0 ]; then
-  cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || fail "configuring $folder"
+# Options that the folder has been configured with change nothing.
+is_configured() {
+  [ -f "$folder/build.ninja" ] || return 1
+  local option
+  for option in "${options[@]#-D}"; do
+    grep -q "^${option%%=*}:[A-Z]*=${option#*=}\$" "$folder/CMakeCache.txt" || return 1
+  done
+}
+is_built() {
+  is_configured && [ ${#targets[@]} -gt 0 ] &&
+    [[ $(ninja -C "$folder" -n "${targets[@]}" 2>&1) == *"ninja: no work to do."* ]]
+}
+has_programs() {
+  local target
+  [ ${#targets[@]} -gt 0 ] || return 1
+  for target in "${targets[@]}"; do [ -x "$folder/bin/$target" ] || return 1; done
+}
+# The programs read the commit of the sources from a file: it changes more often than they do.
+write_commit() {
+  cmake -DSOURCE="$PWD" -DFOLDER="$PWD/$folder/bin" -P common/run/write_commit.cmake >/dev/null 2>&1 || true
+}
+build() {
+  is_configured || cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || fail "configuring $folder"
+  local command=(cmake --build "$folder" --parallel "$(nproc)") start=$SECONDS
+  [ ${#targets[@]} -eq 0 ] || command+=(--target "${targets[@]}")
+  "${command[@]}" 2>&1 | tee "$log" | show_progress || fail "building $folder"
+  ! grep -qE '^\[.*\] (Building|Linking)' "$log" || say "Built $folder in $((SECONDS - start)) s"
+}
+
+if ! mkdir -p "$folder" 2>/dev/null || [ ! -w "$folder" ]; then
+  is_built && exit 0
+  has_programs || {
+    say "build: error: the machine: $PWD/$folder cannot be written; build as a user who may, or in a copy of the sources"
+    exit 5
+  }
+  say "warning: the sources are newer than the programs in $folder, which cannot be written: these run as they are"
+  exit 0
 fi
-command=(cmake --build "$folder" --parallel "$(nproc)")
-[ ${#targets[@]} -eq 0 ] || command+=(--target "${targets[@]}")
-start=$SECONDS
-"${command[@]}" 2>&1 | tee "$log" | show_progress || fail "building $folder"
-! grep -qE '^\[.*\] (Building|Linking)' "$log" || echo "Built $folder in $((SECONDS - start)) s" >&2
+if ! is_built; then
+  # One at a time. Where the file system has no locks, the second takes its chance.
+  exec 9>"$folder/build.lock"
+  flock --nonblock --conflict-exit-code 75 9 2>/dev/null || [ $? -ne 75 ] || {
+    say "waiting for another build of $folder"
+    flock 9
+  }
+  is_built || build 9>&-
+  exec 9>&-
+fi
+write_commit

@@ -1,6 +1,7 @@
 #include "common/case/case_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
 #include <tuple>
@@ -69,12 +70,15 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 }  // namespace
 
 std::filesystem::path find_case_file(const std::filesystem::path& path) {
-  if (std::filesystem::is_regular_file(path)) return path;
+  std::error_code failure, none;
+  if (std::filesystem::is_regular_file(path, failure)) return path;
   auto file = path / "case.toml";
-  if (std::filesystem::is_regular_file(file)) return file;
-  const bool folder = std::filesystem::is_directory(path);
+  if (std::filesystem::is_regular_file(file, none)) return file;
+  const bool folder = std::filesystem::is_directory(path, none), absent = failure.value() == ENOENT;
   throw BadInput({{.place = path.string(),
-                   .message = folder ? "this folder holds no case.toml" : "no such file or folder"}});
+                   .message = folder               ? "this folder holds no case.toml"
+                              : absent || !failure ? "no such file or folder"
+                                                   : "cannot be read: " + failure.message()}});
 }
 
 std::string case_name(const std::filesystem::path& file) {

@@ -1,5 +1,9 @@
 #include "common/error/ending.hpp"
 
+#include <new>
+
+#include "common/error/machine.hpp"
+
 namespace toryu {
 
 Ending ending_of_exception() noexcept {
@@ -13,6 +17,13 @@ Ending ending_of_exception() noexcept {
     return {ExitCode::peer_lost, failure.what()};
   } catch (const Interrupted& failure) {
     return {ExitCode::interrupted, failure.what()};
+  } catch (const MachineFailure& failure) {
+    return {ExitCode::machine, failure.what()};
+  } catch (const std::bad_alloc&) {
+    return {ExitCode::bad_input,
+            "memory: error: not enough memory for this case; a larger spacing needs less"};
+  } catch (const std::system_error& error) {
+    return {ExitCode::machine, machine_failure(error).what()};
   } catch (const std::exception& failure) {
     return {ExitCode::bug, failure.what()};
   } catch (...) {
@@ -24,6 +35,8 @@ void throw_ending(const Ending& ending) {
   switch (ending.code) {
     case ExitCode::physics_failed:
       throw PhysicsFailure(ending.reason);
+    case ExitCode::machine:
+      throw MachineFailure(ending.reason);
     case ExitCode::interrupted:
       throw Interrupted(ending.reason);
     case ExitCode::bad_input:

@@ -1,5 +1,6 @@
-/// How a program of this project can end, and the exceptions that lead there. `run_program` (program.hpp)
-/// turns each into its exit code and one line of text; nothing else does.
+/// How a program of this project can end, and the exceptions that lead there, but for MachineFailure
+/// (machine.hpp). `run_program` (program.hpp) turns each into its exit code and one line of text; nothing
+/// else does.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@ enum class ExitCode {
   bad_input = 2,
   physics_failed = 3,
   peer_lost = 4,
+  machine = 5,
   interrupted = 130
 };
 

@@ -139,18 +139,27 @@ void Connection::check_coupler() {
     lapsed_ = {};
   else if (!lapsed_)
     lapsed_ = now;
-  if (lapsed_ && now - *lapsed_ > dds::grace && !runs_here(coupler_process_))
+  const ProcessState state = state_of(coupler_process_);
+  const bool lapsed = lapsed_ && now - *lapsed_ > dds::grace && state != ProcessState::runs;
+  if (lapsed || state == ProcessState::gone) {
+    receive();  // its last words say more, and may have come since they were looked for
+    if (over_) return;
     throw PeerLost(
         fmt::format("coupler was killed or stopped: no sign of life in window {}", window_.number));
+  }
   if (now - coupler_moved_ > Seconds(time_limit_))
     throw PeerLost(
         fmt::format("coupler hangs: it has not moved for {} s in window {}", time_limit_, window_.number));
 }
 
-/// Hears what the coupler says of the run, and looks after it and after interruptions.
-void Connection::poll() {
+void Connection::receive() {
   while (!over_ && sessions_.take([this](const toryu_Session& session) { handle_session(session); })) {
   }
+}
+
+/// Hears what the coupler says of the run, and looks after it and after interruptions.
+void Connection::poll() {
+  receive();
   if (over_) return;
   check_interruption();
   check_coupler();

@@ -47,6 +47,7 @@ class Connection {
  private:
   using Clock = std::chrono::steady_clock;
   void poll();
+  void receive();
   void check_interruption();
   bool ours(const toryu_WindowHead& window) const;
   void handle_session(const toryu_Session& session);

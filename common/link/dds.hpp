@@ -29,7 +29,8 @@ struct Rendezvous {
   std::string tag;
 };
 
-/// Follows from the absolute path of the results folder, so that programs started by hand find each other.
+/// Follows from the results folder itself (from its absolute path as long as there is none), so that programs
+/// started by hand find each other.
 Rendezvous rendezvous(const std::filesystem::path& out);
 
 /// Random and never 0: names a process or a run.

@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -13,11 +15,14 @@ namespace toryu {
 namespace {
 
 /// The boot and the space of process numbers, so that a container does not look like its host.
-std::string machine() {
-  std::string boot;
-  std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
-  std::error_code failure;
-  return boot + std::filesystem::read_symlink("/proc/self/ns/pid", failure).string();
+const std::string& machine() {
+  static const std::string name = [] {
+    std::string boot;
+    std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
+    std::error_code failure;
+    return boot + std::filesystem::read_symlink("/proc/self/ns/pid", failure).string();
+  }();
+  return name;
 }
 
 struct Stat {
@@ -25,8 +30,8 @@ struct Stat {
   std::string start;  ///< clock ticks since the boot: tells a process from a later one of the same number
 };
 
-std::optional<Stat> stat_of(const std::string& number) {
-  std::ifstream file("/proc/" + number + "/stat");
+std::optional<Stat> stat_of(pid_t number) {
+  std::ifstream file("/proc/" + std::to_string(number) + "/stat");
   std::string text;
   if (!std::getline(file, text)) return std::nullopt;
   // The second field is the program's name in brackets, which may hold anything; then field 3, the state.
@@ -41,17 +46,20 @@ std::optional<Stat> stat_of(const std::string& number) {
 }  // namespace
 
 std::string own_process() {
-  const std::string number = std::to_string(getpid());
-  const auto stat = stat_of(number);
-  return stat ? machine() + " " + number + " " + stat->start : "";
+  const auto stat = stat_of(getpid());
+  return stat ? machine() + " " + std::to_string(getpid()) + " " + stat->start : "";
 }
 
-bool runs_here(const std::string& process) {
+ProcessState state_of(const std::string& process) {
   std::istringstream parts(process);
-  std::string where, number, start;
-  if (!(parts >> where >> number >> start) || where != machine()) return false;
+  std::string where, start;
+  pid_t number = 0;
+  if (!(parts >> where >> number >> start) || where != machine()) return ProcessState::unknown;
   const auto stat = stat_of(number);
-  return stat && stat->start == start && std::string("TtZX").find(stat->state) == std::string::npos;
+  // A process of another user may be hidden, but not from a signal.
+  if (!stat) return kill(number, 0) != 0 && errno == ESRCH ? ProcessState::gone : ProcessState::unknown;
+  if (stat->start != start || stat->state == "Z" || stat->state == "X") return ProcessState::gone;
+  return stat->state == "T" || stat->state == "t" ? ProcessState::stopped : ProcessState::runs;
 }
 
 }  // namespace toryu

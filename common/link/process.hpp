@@ -9,8 +9,10 @@ namespace toryu {
 /// Names this process for others: its machine, its number there, and when it started.
 std::string own_process();
 
-/// Whether the process so named is on this machine and runs: neither gone nor stopped (SIGSTOP). False too if
-/// that cannot be known from here.
-bool runs_here(const std::string& process);
+/// `stopped` is by SIGSTOP or a debugger; `unknown` where it cannot be seen from here, as on another machine.
+enum class ProcessState { unknown, runs, stopped, gone };
+
+/// Of the process so named.
+ProcessState state_of(const std::string& process);
 
 }  // namespace toryu

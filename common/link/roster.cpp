@@ -9,7 +9,9 @@
 namespace toryu {
 
 bool Participant::dead() const {
-  return lapsed && Clock::now() - *lapsed > dds::grace && !runs_here(process);
+  const ProcessState state = state_of(process);
+  if (state == ProcessState::gone) return true;
+  return lapsed && Clock::now() - *lapsed > dds::grace && state != ProcessState::runs;
 }
 
 std::string Participant::name() const {
@@ -105,10 +107,12 @@ void Roster::check_leases(std::uint32_t fluid_writers, std::uint32_t solid_write
   check(fluid_, fluid_writers);
   check(solid_, solid_writers);
   if (session_.over()) return;
-  for (const Participant* participant : {&fluid_, &solid_})
-    if (participant->dead())
-      throw PeerLost(fmt::format("{} was killed or stopped: no sign of life in window {}",
-                                 participant->name(), participant->window));
+  for (const Participant* participant : {&fluid_, &solid_}) {
+    if (!participant->joined() || !participant->dead()) continue;
+    receive();  // its last words say more, and may have come since they were looked for
+    throw PeerLost(fmt::format("{} was killed or stopped: no sign of life in window {}", participant->name(),
+                               participant->window));
+  }
 }
 
 void Roster::forgive_silence() {

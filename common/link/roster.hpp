@@ -22,7 +22,7 @@ struct Participant {
   bool interrupted = false, left = false;
 
   bool joined() const { return id != 0; }
-  /// Whether its lease has lapsed, and stays so, and its process does not run.
+  /// Whether its process is gone; or its lease has lapsed, and stays so, and its process is not seen to run.
   bool dead() const;
   /// Its program's name, or its part while nobody plays it.
   std::string name() const;

@@ -69,6 +69,11 @@ void RunRecord::count_steps(long steps, double dt) {
   state_.largest_time_step = std::max(state_.largest_time_step, dt);
 }
 
+void RunRecord::complete() {
+  series_.complete();
+  solver_.complete_records();
+}
+
 void RunRecord::finish(ExitCode code, const std::string& end_reason) {
   if (to_be_resumed_) return;
   summary_.exit_code = code;

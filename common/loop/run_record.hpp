@@ -41,7 +41,7 @@ class RunRecord {
   double wall_time() const;  ///< since the start of the run, the time before a restart included [s]
 
   /// Writes this participant's part of a checkpoint, `participant`.state in `folder`, for the state that was
-  /// written last. Throws std::runtime_error if that fails.
+  /// written last. Throws MachineFailure if that fails.
   void write_checkpoint(const std::filesystem::path& folder);
   /// Goes on from that part: solver, series, frames and counts. To be called before anything is written.
   /// Throws BadInput if the part is of another program or damaged, or if results are missing.
@@ -52,6 +52,8 @@ class RunRecord {
 
   /// How to ask for the time spent waiting for partners since the start of the program [s]; without it, none.
   void measure_waiting(std::function<double()> waited) { waited_ = std::move(waited); }
+  /// Gives the files that grew during the run their final names. Throws MachineFailure if that fails.
+  void complete();
   /// Writes the summary. Where a run was to go on and could not, that of the run before stays.
   void finish(ExitCode code, const std::string& end_reason);
 

@@ -43,7 +43,7 @@ SubSteps advance_by(Solver& solver, double length, long most) {
 }
 
 int thread_count(const Options& options, std::size_t particles, int particles_per_thread) {
-  if (options.threads > 0) return options.threads;
+  if (options.threads > 0) return useful_threads(options.threads);
   return std::clamp(static_cast<int>(particles) / particles_per_thread, 1, omp_get_num_procs());
 }
 
@@ -97,6 +97,7 @@ void run_recorded(RunRecord& record, const std::function<void()>& body, const st
   record.measure_waiting(waiting_time);
   try {
     body();
+    record.complete();
   } catch (...) {
     if (leave) leave();
     const Ending ending = ending_of_exception();

@@ -5,21 +5,19 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
-#include <stdexcept>
+
+#include "common/error/machine.hpp"
 
 namespace toryu {
 
 void write_atomically(const std::filesystem::path& path, std::string_view text) {
-  std::filesystem::path temporary = path;
-  temporary += ".part";
+  const std::filesystem::path temporary = part_of(path);
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
   file.close();
-  if (!file)
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", temporary.string(), std::strerror(errno)));
-  std::filesystem::rename(temporary, path);
+  if (!file) fail_to_write(temporary, errno);
+  give_name(path);
 }
 
 void synchronise(const std::filesystem::path& path) {
@@ -27,8 +25,21 @@ void synchronise(const std::filesystem::path& path) {
   const bool done = descriptor >= 0 && fsync(descriptor) == 0;
   const int reason = errno;
   if (descriptor >= 0) close(descriptor);
-  if (!done)
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), std::strerror(reason)));
+  if (!done) fail_to_write(path, reason);
+}
+
+std::filesystem::path part_of(const std::filesystem::path& path) {
+  return path.string() + ".part";
+}
+
+void give_name(const std::filesystem::path& path) {
+  std::error_code failure;
+  std::filesystem::rename(part_of(path), path, failure);
+  if (failure) throw MachineFailure(fmt::format("cannot complete '{}'", path.string()), failure.value());
+}
+
+void fail_to_write(const std::filesystem::path& path, int error) {
+  throw MachineFailure(fmt::format("cannot write '{}'", path.string()), error);
 }
 
 }  // namespace toryu

@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
+
+#include "common/error/machine.hpp"
+#include "common/output/atomic_file.hpp"
 
 namespace toryu {
 
@@ -30,19 +35,32 @@ hid_t file_type(Stored stored) {
 /// The library would print each error, which are thrown here, and at the exit of the program write what it
 /// could not write before, which crashes on a full disk.
 [[maybe_unused]] const bool prepared = [] {
+  // A file has one writer, and none is read before it is whole; not every file system has locks.
+  setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   return true;
 }();
 
-void must(bool holds, const std::string& what) {
-  if (!holds) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
+/// Finds "errno = 28" in what the library says of a failed call of the system.
+herr_t find_errno(unsigned, const H5E_error2_t* error, void* found) {
+  const char* place = error->desc ? std::strstr(error->desc, "errno = ") : nullptr;
+  if (place) *static_cast<int*>(found) = std::atoi(place + std::strlen("errno = "));
+  return 0;
 }
 
 }  // namespace
 
+void hdf5_must(bool holds, const std::string& what) {
+  if (holds) return;
+  int error = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &error);
+  if (error != 0) throw MachineFailure("cannot " + what, error);
+  throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
+}
+
 HdfHandle::HdfHandle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
-  must(id >= 0, what);
+  hdf5_must(id >= 0, what);
 }
 HdfHandle::HdfHandle(HdfHandle&& other) noexcept
     : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
@@ -50,10 +68,9 @@ HdfHandle::~HdfHandle() {
   if (id_ >= 0) close_(id_);
 }
 
-HdfFile::HdfFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
-  temporary_ += ".part";
+HdfFile::HdfFile(std::filesystem::path path) : path_(std::move(path)), temporary_(part_of(path_)) {
   file_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  must(file_ >= 0, fmt::format("write '{}'", temporary_.string()));
+  hdf5_must(file_ >= 0, fmt::format("write '{}'", temporary_.string()));
 }
 
 HdfFile::~HdfFile() {
@@ -85,7 +102,8 @@ void HdfFile::write(const std::string& name, const void* values, hid_t type, std
   const HdfHandle set(
       H5Dcreate2(file_, name.c_str(), file_type(stored), space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose,
       "make dataset " + name);
-  must(rows == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, "write dataset " + name);
+  hdf5_must(rows == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0,
+            "write dataset " + name);
 }
 
 void HdfFile::dataset(const std::string& name, std::span<const double> values, int columns, Stored stored) {
@@ -101,7 +119,7 @@ void HdfFile::write_attribute(const std::string& object, const std::string& name
   const HdfHandle owner(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose, what);
   const HdfHandle attribute(H5Acreate2(owner, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT),
                             H5Aclose, what);
-  must(H5Awrite(attribute, type, value) >= 0, what);
+  hdf5_must(H5Awrite(attribute, type, value) >= 0, what);
 }
 
 void HdfFile::attribute(const std::string& object, const std::string& name, const std::string& text) {
@@ -125,9 +143,11 @@ void HdfFile::attribute(const std::string& object, const std::string& name, doub
 }
 
 void HdfFile::finish() {
-  must(H5Fclose(std::exchange(file_, H5I_INVALID_HID)) >= 0,
-       fmt::format("complete '{}'", temporary_.string()));
-  std::filesystem::rename(temporary_, path_);
+  // A full disk shows when the file is flushed; closing does not always tell of it.
+  hdf5_must(H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0, fmt::format("write '{}'", temporary_.string()));
+  hdf5_must(H5Fclose(std::exchange(file_, H5I_INVALID_HID)) >= 0,
+            fmt::format("complete '{}'", temporary_.string()));
+  give_name(path_);
 }
 
 }  // namespace toryu

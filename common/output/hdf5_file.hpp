@@ -12,8 +12,12 @@
 
 namespace toryu {
 
-/// An identifier of the HDF5 library, closed at the end of its scope. Throws std::runtime_error, naming
-/// `what`, if the library returned none.
+/// Throws if a call of the library has just failed: MachineFailure with the reason if the system refused
+/// something, else std::runtime_error. `what` could not be done: "write 'a.h5'".
+void hdf5_must(bool holds, const std::string& what);
+
+/// An identifier of the HDF5 library, closed at the end of its scope. Throws as `hdf5_must` if the library
+/// returned none.
 class HdfHandle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -51,7 +55,7 @@ class HdfFile {
   void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
   void attribute(const std::string& object, const std::string& name, double value);
 
-  /// Closes the file and gives it its name. Throws std::runtime_error if that fails (a full disk).
+  /// Closes the file and gives it its name. Throws MachineFailure if that fails (a full disk).
   void finish();
 
  private:

@@ -9,8 +9,10 @@
 #include <functional>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "common/error/failure.hpp"
+#include "common/error/machine.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/log.hpp"
 
@@ -86,26 +88,31 @@ std::size_t HdfSeriesFile::row_size() const {
 }
 
 HdfSeriesFile::~HdfSeriesFile() {
-  if (!spool_) return;  // nothing was written, and what an earlier run left stays
-  const bool whole = std::fclose(spool_) == 0;
-  std::error_code failure;
   try {
-    std::ifstream rows(rows_path(), std::ios::binary);
-    write_all(rows);
-    std::filesystem::rename(path_.string() + ".part", path_);
-    std::filesystem::remove(rows_path(), failure);
-  } catch (const std::exception& reason) {
-    log::error("{} could not be completed: {}; its rows are in {}", path_.string(), reason.what(),
-               rows_path().filename().string());
-    return;
+    complete();
+  } catch (const std::exception& reason) {  // of a run that failed for another reason
+    log::error("{}; its rows are in {}", reason.what(), rows_path().filename().string());
   }
-  if (!whole) log::error("{} lacks its last rows: {}", path_.string(), std::strerror(errno));
+}
+
+void HdfSeriesFile::complete() {
+  if (!spool_) return;  // nothing was written, and what an earlier run left stays
+  const bool whole = std::fclose(std::exchange(spool_, nullptr)) == 0;
+  const int reason = errno;
+  std::ifstream rows(rows_path(), std::ios::binary);
+  if (!rows) throw MachineFailure(fmt::format("cannot complete '{}'", path_.string()), errno);
+  write_all(rows);
+  give_name(path_);
+  std::error_code ignored;
+  std::filesystem::remove(rows_path(), ignored);
+  if (!whole) fail_to_write(rows_path(), reason);
 }
 
 /// The file from what is known of it and its rows, as many as are whole.
 void HdfSeriesFile::write_all(std::ifstream& rows) const {
-  const HdfHandle file(H5Fcreate((path_.string() + ".part").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Fclose, fmt::format("write '{}.part'", path_.string()));
+  const std::string writing = fmt::format("write '{}'", part_of(path_).string());
+  const HdfHandle file(H5Fcreate(part_of(path_).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                       writing);
   for (const auto& c : constants_)
     write_constant(file, c.name, c.numbers.empty() ? H5T_NATIVE_UINT32 : H5T_NATIVE_DOUBLE, c.shape,
                    c.numbers.empty() ? static_cast<const void*>(c.integers.data()) : c.numbers.data(), c.unit,
@@ -128,12 +135,12 @@ void HdfSeriesFile::write_all(std::ifstream& rows) const {
           transfer(datasets[k], series_[k].shape, n, [&](hid_t memory, hid_t space) {
             return H5Dwrite(datasets[k], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values);
           });
-      if (!written) throw std::runtime_error("cannot write " + series_[k].name);
+      hdf5_must(written, writing);
     }
   }
   datasets.clear();
   // A full disk often shows only when the file is flushed; closing tells nothing of it.
-  if (H5Fflush(file, H5F_SCOPE_LOCAL) < 0) throw std::runtime_error("cannot write it to the disk");
+  hdf5_must(H5Fflush(file, H5F_SCOPE_LOCAL) >= 0, writing);
 }
 
 void HdfSeriesFile::constant(const std::string& name, const std::string& unit, const Shape& shape,
@@ -156,10 +163,7 @@ void HdfSeriesFile::series(const std::string& name, const std::string& unit, con
 }
 
 void HdfSeriesFile::append(std::initializer_list<const double*> rows) {
-  const auto fail = [&] {
-    throw std::runtime_error(
-        fmt::format("cannot write '{}': {}", rows_path().string(), std::strerror(errno)));
-  };
+  const auto fail = [&] { fail_to_write(rows_path(), errno); };
   if (!spool_ && !(spool_ = std::fopen(rows_path().c_str(), "wb"))) fail();
   auto row = rows.begin();
   for (const auto& series : series_)

@@ -1,8 +1,8 @@
 /// An HDF5 file of a run: datasets known at the start, and series that gain a row at a time. A program that
 /// is killed may leave an HDF5 file that cannot be read, so rows go to `PATH.rows.part` one after the other
-/// first. The file is made of them at the end of its life, however the run ended, as `PATH.part`, and gets
-/// its name when it is complete; then the rows are removed. A later program can go on from any row. Without
-/// a row there is no file, and one that is there stays.
+/// first. The file is made of them by `complete`, or at the end of its life however the run ended, as
+/// `PATH.part`, and gets its name when it is complete; then the rows are removed. A later program can go on
+/// from any row. Without a row there is no file, and one that is there stays.
 #pragma once
 
 #include <cstdio>
@@ -34,11 +34,13 @@ class HdfSeriesFile {
   void attribute(const std::string& name, const std::string& key, const std::string& text);
   /// A series of rows of one shape ({} for a number).
   void series(const std::string& name, const std::string& unit, const Shape& row_shape);
-  /// Adds a row to each series, in the order in which they were made. Throws std::runtime_error, naming the
+  /// Adds a row to each series, in the order in which they were made. Throws MachineFailure, naming the
   /// file, if it cannot be written.
   void append(std::initializer_list<const double*> rows);
+  /// Makes the file of its rows: none follows. Throws MachineFailure if that fails; the rows stay then.
+  void complete();
 
-  /// How far the series are; all of it is on the disk then. Throws std::runtime_error if that fails.
+  /// How far the series are; all of it is on the disk then. Throws MachineFailure if that fails.
   State state();
   /// Goes on from `then`: rows beyond are cut off. Throws BadInput if they are missing.
   void resume(const State& then);

@@ -54,10 +54,12 @@ class SeriesWriter {
   };
 
   SeriesWriter(const std::filesystem::path& out, const std::string& name);
-  ~SeriesWriter();  ///< gives the file its final name
+  ~SeriesWriter();  ///< completes the file if nothing hinders
   void write(double time, const std::vector<Observation>& row);
+  /// Gives the file its final name: no row follows. Throws MachineFailure if that fails.
+  void complete();
 
-  /// How far the series is; all of it is on the disk then. Throws std::runtime_error if that fails.
+  /// How far the series is; all of it is on the disk then. Throws MachineFailure if that fails.
   State state();
   /// Goes on from `then`: what the file holds beyond is cut off. Rows may have other columns from now on: new
   /// ones are `nan` in the rows before, and what is no longer observed is `nan` in the rows to come. The file

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/error/machine.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
 
@@ -43,9 +44,7 @@ struct SeriesWriter::File {
     must_be_good();
   }
   void must_be_good() const {
-    if (!stream)
-      throw std::runtime_error(
-          fmt::format("cannot write '{}': {}", temporary.string(), std::strerror(errno)));
+    if (!stream) fail_to_write(temporary, errno);
   }
   void adapt(const std::vector<std::string>& wanted);
 };
@@ -81,14 +80,22 @@ SeriesWriter::SeriesWriter(const std::filesystem::path& out, const std::string& 
     : file_(std::make_unique<File>()) {
   std::filesystem::create_directories(out);
   file_->path = out / (name + ".csv");
-  file_->temporary = out / (name + ".csv.part");
+  file_->temporary = part_of(file_->path);
 }
 
 SeriesWriter::~SeriesWriter() {
-  if (file_->columns.empty()) return;
+  try {
+    complete();
+  } catch (
+      const MachineFailure&) {  // of a run that failed, which says why; the .part that stays behind tells
+  }
+}
+
+void SeriesWriter::complete() {
+  if (!file_->stream.is_open()) return;
   file_->stream.close();
-  std::error_code ignored;  // a destructor must not throw; the .part that stays behind tells
-  if (file_->stream) std::filesystem::rename(file_->temporary, file_->path, ignored);
+  file_->must_be_good();
+  give_name(file_->path);
 }
 
 void SeriesWriter::write(double time, const std::vector<Observation>& row) {

@@ -21,12 +21,12 @@ void catch_interruptions() {
   struct sigaction action = {};
   action.sa_handler = request;
   action.sa_flags = SA_RESTART;  // a half-done write goes on
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  struct sigaction before = {};
-  sigaction(SIGHUP, nullptr, &before);
-  if (before.sa_handler != SIG_IGN)
-    sigaction(SIGHUP, &action, nullptr);  // nohup asks to outlive the terminal
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    // who started this program ignored it on purpose, as nohup does SIGHUP to outlive the terminal
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
 }
 
 bool interruption_requested() {

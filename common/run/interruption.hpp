@@ -3,7 +3,8 @@
 
 namespace toryu {
 
-/// From now on SIGINT, SIGTERM and, unless it is ignored as under nohup, SIGHUP only ask to stop.
+/// From now on SIGINT, SIGTERM and SIGHUP only ask to stop; one that is ignored, as SIGHUP under nohup, stays
+/// so.
 void catch_interruptions();
 /// True once one of them came.
 bool interruption_requested();

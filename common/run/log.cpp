@@ -7,10 +7,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <mutex>
 #include <system_error>
 
 #include "common/error/failure.hpp"
+#include "common/error/machine.hpp"
+#include "common/run/standard_streams.hpp"
 
 namespace toryu {
 
@@ -30,13 +33,16 @@ class SharedFileSink final : public spdlog::sinks::base_sink<std::mutex> {
   void sink_it_(const spdlog::details::log_msg& message) override {
     spdlog::memory_buf_t line;
     formatter_->format(message, line);
-    if (write(descriptor_, line.data(), line.size()) < 0)
-      throw spdlog::spdlog_ex("cannot write the log", errno);
+    if (write(descriptor_, line.data(), line.size()) >= 0 || told_) return;
+    told_ = true;
+    tell(fmt::format("{}: warning: log.txt lacks lines: {}\n", fmt::to_string(message.logger_name),
+                     std::strerror(errno)));
   }
   void flush_() override {}
 
  private:
   int descriptor_;
+  bool told_ = false;  ///< that lines are lost
 };
 
 std::shared_ptr<spdlog::sinks::sink> log_file;
@@ -55,6 +61,7 @@ void open_log(const std::string& role, const std::filesystem::path& out, const s
       std::filesystem::create_directories(out);
       log_file = std::make_shared<SharedFileSink>(out / "log.txt");
     } catch (const std::system_error& error) {
+      if (!is_fault_of_path(error.code().value())) throw;
       throw BadInput({{.place = "--out " + out.string(),
                        .message = "no results can be written there: " + error.code().message()}});
     }

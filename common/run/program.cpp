@@ -1,15 +1,19 @@
 #include "common/run/program.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
-#include <new>
+#include <cstdlib>
 
 #include "common/case/case_file.hpp"
+#include "common/error/ending.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
 #include "common/run/provenance.hpp"
+#include "common/run/standard_streams.hpp"
+#include "common/run/team.hpp"
 
 namespace toryu {
 
@@ -23,32 +27,45 @@ void log_start(const Options& options) {
             fmt::join(options.overrides, " --set "));
 }
 
+const char* words_for(ExitCode code) {
+  switch (code) {
+    case ExitCode::physics_failed:
+      return "physics failed: ";
+    case ExitCode::peer_lost:
+      return "peer lost: ";
+    case ExitCode::machine:
+      return "the machine: ";
+    case ExitCode::bug:
+      return "unexpected: ";
+    default:
+      return "";
+  }
+}
+
 /// Runs the body; what it throws ends in one line and an exit code.
 ExitCode guarded(const std::function<ExitCode()>& body) {
   try {
     return body();
-  } catch (const BadInput& error) {
-    // Standard error shows the bare lines, as a compiler does, so that editors find the places.
-    fmt::print(stderr, "{}\n", error.what());
-    log_error_to_file(error.what());
-    return ExitCode::bad_input;
-  } catch (const PhysicsFailure& error) {
-    log::error("physics failed: {}", error.what());
-    return ExitCode::physics_failed;
-  } catch (const PeerLost& error) {
-    log::error("peer lost: {}", error.what());
-    return ExitCode::peer_lost;
-  } catch (const Interrupted& error) {
-    log::error("{}", error.what());
-    return ExitCode::interrupted;
-  } catch (const std::bad_alloc&) {
-    log::error("not enough memory for this case; a larger spacing needs less");
-    return ExitCode::bad_input;
-  } catch (const std::exception& error) {
-    log::error("unexpected: {}", error.what());
-    return ExitCode::bug;
+  } catch (...) {
+    const auto [code, reason] = ending_of_exception();
+    if (code == ExitCode::bad_input) {
+      // Standard error shows the bare lines, as a compiler does, so that editors find the places.
+      tell(reason + '\n');
+      log_error_to_file(reason);
+    } else {
+      log::error("{}{}", words_for(code), reason);
+    }
+    return code;
   }
 }
+
+/// libgomp ends the program by itself where it gets no thread, and says why on standard error.
+void tell_of_exit_of_library() {
+  log::error(
+      "the machine: OpenMP gets no threads: give --threads fewer, or raise 'ulimit -u' and 'ulimit -v'");
+  std::_Exit(static_cast<int>(ExitCode::machine));
+}
+bool within_program = false;
 
 }  // namespace
 
@@ -58,32 +75,41 @@ int run_program(const std::string& role, int argc, char** argv,
   const auto given = [&](const char* option) {
     return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
   };
+  secure_standard_streams();
   open_log(role, "", "info");
+  omp_set_num_threads(useful_threads(omp_get_max_threads()));
+  within_program = true;
+  std::atexit([] {
+    if (within_program) tell_of_exit_of_library();
+  });
   const ExitCode code = guarded([&] {
     if (given("--help")) {
-      fmt::print("{}", help_text(role));
+      print(help_text(role));
       return ExitCode::done;
     }
     if (given("--version")) {
       const Provenance made = provenance(1);
-      fmt::print("{} of toryu {} (commit {}, {})\n", role, made.version, made.commit, made.compiler);
+      print(fmt::format("{} of toryu {} (commit {}, {})\n", role, made.version, made.commit, made.compiler));
       return ExitCode::done;
     }
     if (given("--can-checkpoint")) {
-      fmt::print("{}\n", can_checkpoint == CanCheckpoint::yes ? "yes" : "no");
+      print(can_checkpoint == CanCheckpoint::yes ? "yes\n" : "no\n");
       return ExitCode::done;
     }
     const Options options = parse_options(role, arguments);
     if (options.print_case) {
-      fmt::print("{}\n", CaseFile(options.case_path, options.overrides).merged());
+      print(CaseFile(options.case_path, options.overrides).merged() + '\n');
       return ExitCode::done;
     }
     const bool computes = !options.check && !options.describe;
     open_log(role, computes ? options.out : "", options.log_level);
-    if (computes) log_start(options);
-    catch_interruptions();
+    if (computes) {
+      log_start(options);
+      catch_interruptions();
+    }
     return body(options);
   });
+  within_program = false;
   return static_cast<int>(code);
 }
 

@@ -12,8 +12,9 @@ namespace toryu {
 /// Whether a program can write its part of a checkpoint and go on from it.
 enum class CanCheckpoint { no, yes };
 
-/// Parses the command line, sets up the log (in `out`, unless the case is only checked or described), runs
-/// `body` and turns what it throws into an exit code and one line on standard error and in the log.
+/// Makes the standard streams safe, parses the command line, sets up the log (in `out`, unless the case is
+/// only checked or described), runs `body` and turns what it throws into an exit code and one line on
+/// standard error and in the log.
 /// `--version`, `--help`, `--can-checkpoint`, `--print-case` and wrong options end here. `role` is the
 /// program's name: "fluid_solver".
 int run_program(const std::string& role, int argc, char** argv,

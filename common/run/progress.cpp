@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "common/run/standard_streams.hpp"
 
 namespace toryu {
 
@@ -39,7 +40,7 @@ Progress::Progress(double end_time, std::string unit)
       last_(start_) {}
 
 Progress::~Progress() {
-  if (terminal_ && printed_) std::fputc('\n', stderr);
+  if (terminal_ && printed_) tell("\n");
 }
 
 void Progress::update(double time, long count) {
@@ -55,10 +56,9 @@ void Progress::print(double time, long count) {
   const std::string line = progress_line(time, end_time_, count, unit_, elapsed.count());
   // On a terminal: back to the start of the line, write, clear what is left of the line before.
   if (terminal_)
-    fmt::print(stderr, "\r{}\033[K", line);
+    tell(fmt::format("\r{}\033[K", line));
   else
-    fmt::print(stderr, "{}\n", line);
-  std::fflush(stderr);
+    tell(line + '\n');
   printed_ = true;
 }
 

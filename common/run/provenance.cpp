@@ -1,8 +1,7 @@
 #include "common/run/provenance.hpp"
 
+#include <filesystem>
 #include <fstream>
-
-#include "toryu_commit.hpp"
 
 namespace toryu {
 
@@ -17,14 +16,23 @@ std::string cpu_model() {
   return "unknown";
 }
 
+/// What the build left beside the program.
+std::string commit_of_sources() {
+  std::error_code none;
+  std::ifstream file(std::filesystem::read_symlink("/proc/self/exe", none).replace_filename("commit.txt"));
+  std::string commit;
+  return std::getline(file, commit) ? commit : "unknown";
+}
+
 }  // namespace
 
 Provenance provenance(int threads) {
+  static const std::string commit = commit_of_sources(), cpu = cpu_model();
   return {.version = TORYU_VERSION,
-          .commit = TORYU_COMMIT,
+          .commit = commit,
           .compiler = TORYU_COMPILER,
           .flags = TORYU_FLAGS,
-          .cpu = cpu_model(),
+          .cpu = cpu,
           .threads = threads};
 }
 

@@ -5,7 +5,7 @@
 
 namespace toryu {
 
-/// Version, commit, compiler, flags, processor.
+/// Version, commit of the sources, compiler, flags, processor.
 struct Provenance {
   std::string version, commit, compiler, flags, cpu;
   int threads = 1;

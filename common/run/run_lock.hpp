@@ -6,7 +6,7 @@
 namespace toryu {
 
 /// Holds `run.lock` in the folder while it lives; the system frees it if the process dies. Throws
-/// BadInput if another run holds it.
+/// BadInput if another run holds it. On a file system without locks it only warns.
 class RunLock {
  public:
   explicit RunLock(const std::filesystem::path& out);

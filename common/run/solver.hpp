@@ -71,6 +71,8 @@ class Solver {
   virtual std::vector<Observation> observe() const = 0;
   /// Adds rows to files of the solver's own, as often as the series.
   virtual void record(double /*time*/) {}
+  /// Gives those files their final names: no row follows. Throws MachineFailure if that fails.
+  virtual void complete_records() {}
   virtual std::vector<ActiveTerm> active_terms() const = 0;
   /// Numbers worth keeping of the run as a whole, for its summary.
   virtual std::vector<std::pair<std::string, double>> figures() const { return {}; }

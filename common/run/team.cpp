@@ -19,7 +19,13 @@ constexpr double sign_of_change = 1.3;
 // A trial that does not pay costs less than half a block.
 constexpr double shortest_patience = 0.1, longest_patience = 2.0;  // [s]
 
+constexpr int enough_to_compare = 16;
+
 }  // namespace
+
+int useful_threads(int asked) {
+  return std::min(asked, std::max(enough_to_compare, omp_get_num_procs()));
+}
 
 void ThreadChoice::note(double seconds) {
   if (most_ == 1) return;

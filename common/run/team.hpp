@@ -9,6 +9,10 @@
 
 namespace toryu {
 
+/// `asked` as far as it can be of use: some more threads than cores are let be, to compare results over their
+/// numbers; very many would be more than the system gives.
+int useful_threads(int asked);
+
 /// Which number of threads pays, by what the steps take.
 class ThreadChoice {
  public:

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "common/error/failure.hpp"
+#include "common/error/machine.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/provenance.hpp"
 #include "common/sph/lanes.hpp"
@@ -46,12 +47,31 @@ std::string target() {
   );
 }
 
+std::string checksum(const std::string& bytes) {
+  uLong sum = crc32(0, nullptr, 0);
+  constexpr std::size_t most = 1u << 30;
+  for (std::size_t start = 0; start < bytes.size(); start += most)
+    sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + start),
+                static_cast<uInt>(std::min(most, bytes.size() - start)));
+  return fmt::format("{:08x}", sum);
+}
+
+/// Tells this program from any that was built of other sources, whatever their commit.
+const std::string& build() {
+  static const std::string sum = [] {
+    std::ostringstream bytes(std::ios::binary);
+    bytes << std::ifstream("/proc/self/exe", std::ios::binary).rdbuf();
+    return checksum(bytes.str());
+  }();
+  return sum;
+}
+
 /// All that must be alike for the same bits to come out.
 Properties properties_of(const std::string& role) {
   const Provenance made = provenance(1);
   return {{"program", role},
           {"version", made.version},
-          {"commit", made.commit},
+          {"build", build()},
           {"compiler", made.compiler},
           {"instruction set", target()},
           {"precision", fmt::format("{} bytes a number", sizeof(double))}};
@@ -63,19 +83,6 @@ std::string header_of(const std::string& role) {
   std::string text = std::string(first_line) + '\n';
   for (const auto& [name, value] : properties_of(role)) text += fmt::format("{}: {}\n", name, value);
   return text + '\n';
-}
-
-std::string checksum(const std::string& bytes) {
-  uLong sum = crc32(0, nullptr, 0);
-  constexpr std::size_t most = 1u << 30;
-  for (std::size_t start = 0; start < bytes.size(); start += most)
-    sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + start),
-                static_cast<uInt>(std::min(most, bytes.size() - start)));
-  return fmt::format("{:08x}", sum);
-}
-
-[[noreturn]] void fail_to_write(const fs::path& path) {
-  throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
 }
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& message) {
@@ -174,8 +181,7 @@ fs::path open_checkpoint(const fs::path& out) {
   fs::path folder = out / folder_name / fmt::format("{:06}", number);
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (failure)
-    throw std::runtime_error(fmt::format("cannot make '{}': {}", folder.string(), failure.message()));
+  if (failure) throw MachineFailure(fmt::format("cannot make '{}'", folder.string()), failure.value());
   return folder;
 }
 
@@ -201,7 +207,7 @@ void complete_checkpoint(const fs::path& folder, double time, const std::string&
     std::ofstream file(temporary, std::ios::trunc);
     file << text;
     file.close();
-    if (!file) fail_to_write(temporary);
+    if (!file) fail_to_write(temporary, errno);
   }
   synchronise(temporary);
   fs::rename(temporary, manifest);
@@ -229,7 +235,7 @@ void write_part(const fs::path& folder, const std::string& name, const std::stri
   file << header_of(role) << fmt::format("{} {}\n", payload.size(), checksum(payload));
   file.write(payload.data(), static_cast<std::streamsize>(payload.size()));
   file.close();
-  if (!file) fail_to_write(temporary);
+  if (!file) fail_to_write(temporary, errno);
   synchronise(temporary);
   fs::rename(temporary, path);
 }

@@ -8,7 +8,7 @@
 /// whereupon all but the newest two are removed. A part that cannot be written costs the checkpoint, not the
 /// run.
 ///
-/// A part begins with what made it: program, version, commit, instruction set, precision. It is read by the
+/// A part begins with what made it: program, version, build, instruction set, precision. It is read by the
 /// same program on a machine of the same kind, since only there the same bits come out; any number of threads
 /// will do.
 #pragma once
@@ -43,17 +43,17 @@ std::optional<Checkpoint> newest_checkpoint(const std::filesystem::path& out);
 /// The same, or BadInput that says what there is instead.
 Checkpoint checkpoint_to_restart(const std::filesystem::path& out);
 
-/// Makes the folder of the next checkpoint in `out`. Throws std::runtime_error if that fails.
+/// Makes the folder of the next checkpoint in `out`. Throws MachineFailure if that fails.
 std::filesystem::path open_checkpoint(const std::filesystem::path& out);
 /// Writes the case and the manifest, which makes the checkpoint whole, and removes all but the newest two.
-/// `case_text` is the used case (CaseFile::used). Throws std::runtime_error, naming the file, if that fails.
+/// `case_text` is the used case (CaseFile::used). Throws MachineFailure, naming the file, if that fails.
 void complete_checkpoint(const std::filesystem::path& folder, double time, const std::string& case_text,
                          const std::vector<std::string>& parts);
 /// Removes what is there of a checkpoint that will not become whole.
 void abandon_checkpoint(const std::filesystem::path& folder) noexcept;
 
 /// Writes the part `name` ("fluid") of the program `role` ("fluid_solver") into `folder`: what `write` puts
-/// into the stream. The file gets its name when it is on the disk. Throws std::runtime_error, naming the file
+/// into the stream. The file gets its name when it is on the disk. Throws MachineFailure, naming the file
 /// and the reason, if that fails.
 void write_part(const std::filesystem::path& folder, const std::string& name, const std::string& role,
                 const std::function<void(std::ostream&)>& write);

@@ -14,7 +14,8 @@ class FolderTaken(Exception):
 @contextlib.contextmanager
 def lock_folder(folder, name, patience=0.0):
     """Holds `folder`, which is made if need be, by a lock on its file `name`; waits `patience` [s] for another to let
-    go. The system frees the lock if the process dies."""
+    go. The system frees the lock if the process dies. Yields why it does not hold it, "" if it does: not every file
+    system has locks."""
     folder.mkdir(parents=True, exist_ok=True)
     with open(folder / name, "w") as lock:
         end = time.monotonic() + patience
@@ -25,5 +26,8 @@ def lock_folder(folder, name, patience=0.0):
             except BlockingIOError:
                 if time.monotonic() >= end:
                     raise FolderTaken(folder) from None
+            except OSError as error:
+                yield error.strerror
+                return
             time.sleep(POLL)
-        yield
+        yield ""

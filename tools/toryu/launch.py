@@ -1,11 +1,12 @@
 """Runs a case with a built toryu: checks the input, starts the processes that the case needs, watches them, and
 closes with the report and a summary; a study it hands on to toryu.study.
 
-    python3 -m toryu.launch CASE [options]
+    python3 -I -X utf8 tools/toryu launch CASE [options]
 """
 
 import argparse
 import contextlib
+import errno
 import os
 import pathlib
 import re
@@ -14,11 +15,13 @@ import shutil
 import subprocess
 import sys
 
-from toryu import PROGRAMS, results, summary_text
+from toryu import PROGRAMS, program, results, summary_text
 from toryu.folder_lock import FolderTaken, lock_folder
-from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED, Run, says_yes
+from toryu.processes import BAD_INPUT, BUG, DONE, MEANING, PHYSICS_FAILED, Run, says_yes
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
+OUT_OF_SUPPLIES = {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.EIO}  # no fault of --out
+MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
 ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
 # beside other programs a spinning thread keeps the one it waits for from its core (dam break: 3 to 5 times slower).
@@ -32,7 +35,7 @@ def parse(arguments):
         "with a table [study] is a study; its options: ./run.sh STUDY.toml --help.",
         epilog="Ctrl-C asks the programs to write a last checkpoint and to end; a second one ends them at once. All other "
                "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
-               "4 a process was lost, 130 interrupted.")
+               "4 a process was lost, 5 a fault of the machine (disk, network, threads), 130 interrupted.")
     parser.add_argument("case", metavar="CASE", nargs="?")
     parser.add_argument("--out", metavar="DIR", help="results folder; default out/<case name>. Results of a former run "
                         "that are there are kept in DIR.1, DIR.2, ...")
@@ -55,7 +58,7 @@ def parse(arguments):
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
                         help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
-    if options.case is None and options.restart and results.case_file(options.restart).is_file():
+    if options.case is None and options.restart and os.path.isfile(results.case_file(options.restart)):
         options.case, options.restart = options.restart, ""  # "--restart CASE": the case stands where a folder may
     if options.case is None:
         parser.error("the following arguments are required: CASE")
@@ -130,7 +133,8 @@ def check(commands, show_warnings):
     that follows gives the warnings itself."""
     errors, others = set(), []
     for name, command in commands.items():
-        done = subprocess.run([*command, "--check"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        done = subprocess.run([*command, "--check"], capture_output=True, encoding="utf-8", errors="backslashreplace",
+                              stdin=subprocess.DEVNULL)
         if done.returncode == DONE:
             if show_warnings and done.stderr:
                 print(done.stderr, end="", file=sys.stderr)
@@ -165,13 +169,14 @@ def describe(commands):
     """The keys of all sections; a section that several programs read is shown once."""
     seen = set()
     for command in commands.values():
-        done = subprocess.run([*command, "--describe"], stdout=subprocess.PIPE, text=True)
+        done = subprocess.run([*command, "--describe"], stdout=subprocess.PIPE, encoding="utf-8")
         if done.returncode != DONE:
             return done.returncode
         for paragraph in done.stdout.split("\n\n"):
             if paragraph.strip() and paragraph not in seen:
                 seen.add(paragraph)
                 print(paragraph.strip("\n"), end="\n\n")
+    program.must_be_printed()
     return DONE
 
 
@@ -184,6 +189,8 @@ def hold(out, name):
         raise SystemExit(complain(f"{out}: error: another run writes its results here; wait for it or give --out "
                                   "another folder"))
     except OSError as error:
+        if error.errno in OUT_OF_SUPPLIES:
+            raise
         raise SystemExit(complain(f"--out {out}: error: no results can be written there: {error.strerror}"))
     return held
 
@@ -210,19 +217,19 @@ def go_on_with(arguments, options):
 
 
 def report(options, content, code, words):
-    """Makes report.html and prints the summary; returns whether the report could be made, if there is to be one."""
-    made = not options.no_report and subprocess.run(
-        [sys.executable, "-m", "toryu.report", options.out, "--case", options.case, f"--bin={options.bin}",
-         f"--exit-code={code}", f"--words={words}"], stdout=subprocess.DEVNULL).returncode == 0
+    """Makes report.html and prints the summary; returns the exit code of the report."""
+    failed = DONE if options.no_report else subprocess.run(
+        program.python("report", options.out, "--case", options.case, f"--bin={options.bin}", f"--exit-code={code}",
+                       f"--words={words[-MOST_WORDS:]}"), stdout=subprocess.DEVNULL).returncode
     print(summary_text.of_run(options.case, content, options.out))
-    if made:
+    if not failed and not options.no_report:
         print(f"report  {options.out / 'report.html'}")
-    return made or options.no_report
+    return failed
 
 
 def main(arguments):
     if any(map(is_study, arguments)):
-        os.execv(sys.executable, [sys.executable, "-m", "toryu.study", *arguments])
+        os.execv(sys.executable, program.python("study", *arguments))
     options = parse(arguments)
     content = content_of(options)
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
@@ -250,12 +257,12 @@ def main(arguments):
             print(words, file=sys.stderr)
         # A restart that is refused leaves the report of the run before.
         refused = code == BAD_INPUT and options.restart is not None
-        reported = refused or report(options, content, code, words)
+        unreported = DONE if refused else report(options, content, code, words)
         # a restart repeats a failure of physics
         if code not in (DONE, BAD_INPUT, PHYSICS_FAILED) and newest_checkpoint(options.out):
             print(f"go on with: {go_on_with(arguments, options)}")
-    return code or (DONE if reported else BUG)
+    return code or (unreported if unreported in MEANING else BUG)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    program.run(main)

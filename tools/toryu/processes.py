@@ -11,19 +11,20 @@ import sys
 import time
 from dataclasses import dataclass, field
 
-GRACE = 4.0  # [s] in which the others end by themselves after one has failed: they notice by the link
+GRACE = 2.0  # [s] in which the others end by themselves after one has failed: they notice by the link
 PATIENCE = 60.0  # [s] to end in order when asked to: the last checkpoint, frame and series are written
 QUIET = 3.0  # [s] after a request to end in which nothing is said of those that have not ended yet
 LAST_PATIENCE = 3.0  # [s] between the request and the kill for those that outlived their grace
 
-# Exit codes, as in common/run/failure.hpp.
-DONE, BUG, BAD_INPUT, PHYSICS_FAILED, PEER_LOST, INTERRUPTED = 0, 1, 2, 3, 4, 130
+# Exit codes, as in common/error/failure.hpp.
+DONE, BUG, BAD_INPUT, PHYSICS_FAILED, PEER_LOST, MACHINE, INTERRUPTED = 0, 1, 2, 3, 4, 5, 130
 MEANING = {
     DONE: "done",
     BUG: "a bug",
     BAD_INPUT: "bad input",
     PHYSICS_FAILED: "physics failed",
     PEER_LOST: "a peer was lost",
+    MACHINE: "a fault of the machine",
     INTERRUPTED: "interrupted",
 }
 FAULTS = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}  # a process's own doing
@@ -33,9 +34,21 @@ libc = ctypes.CDLL(None, use_errno=True)
 
 
 def requests_to_end():
-    """The signals that ask a run to end; under nohup it outlives its terminal."""
-    ignored = signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
-    return (signal.SIGINT, signal.SIGTERM) if ignored else (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    """The signals that ask a run to end, but for those that are ignored: under nohup it outlives its terminal."""
+    return [number for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+            if signal.getsignal(number) != signal.SIG_IGN]
+
+
+def pauses():
+    """The signal that stops a run until it is continued, unless it is ignored."""
+    return [] if signal.getsignal(signal.SIGTSTP) == signal.SIG_IGN else [signal.SIGTSTP]
+
+
+def own_pause():
+    """Stops this process, as Ctrl-Z would; returns for how long [s] it was."""
+    start = time.monotonic()
+    os.kill(os.getpid(), signal.SIGSTOP)
+    return time.monotonic() - start
 
 
 def start(command, stream, environment=None):
@@ -43,6 +56,8 @@ def start(command, stream, environment=None):
     parent = os.getpid()
 
     def end_with_the_parent():
+        for number in (signal.SIGINT, signal.SIGTERM):  # in a script's background they are ignored, and would stay so
+            signal.signal(number, signal.SIG_DFL)
         libc.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
         if os.getppid() != parent:
             os._exit(INTERRUPTED)
@@ -90,6 +105,10 @@ class Process:
             return self.status if self.status in MEANING else BUG
         return BUG if -self.status in FAULTS else PEER_LOST
 
+    def reasons(self):
+        """What it gives as reasons: its errors without its name and the kind of failure."""
+        return [found[1] for line in self.held_lines if (found := re.search(r"\berror: (?:[a-z ]+: )?(.+)$", line))]
+
     def fate(self):
         if self.status >= 0:
             return f"ended with exit code {self.status} ({MEANING.get(self.status, 'unknown')})"
@@ -101,13 +120,33 @@ def tell(line):
     print(f"\r\x1b[K{line}" if sys.stderr.isatty() else line, file=sys.stderr, flush=True)
 
 
+def send(processes, number):
+    """Sends a signal to the groups of those processes."""
+    for process in processes:
+        with contextlib.suppress(ProcessLookupError):  # it ended just now
+            os.killpg(process.popen.pid, number)
+
+
 def weight(process):
     """Orders failures: what can only be a cause comes before what may be a consequence."""
     if process.asked_to_end:
         return 9
     if process.status < 0:
-        return 3
-    return {BAD_INPUT: 0, PHYSICS_FAILED: 1, BUG: 2, INTERRUPTED: 4, PEER_LOST: 5}.get(process.status, 2)
+        return 4
+    return {BAD_INPUT: 0, PHYSICS_FAILED: 1, MACHINE: 2, INTERRUPTED: 5, PEER_LOST: 6}.get(process.status, 3)
+
+
+def cause_of(failed):
+    """The process whose failure brought the others', of those that failed, in this order. How several end alike: one of
+    them failed and told the others, who say the same after its name."""
+    least = min(map(weight, failed))
+    alike = [process for process in failed if weight(process) == least]
+
+    def passed_on(process):
+        return any(line.endswith(f": {reason}") for line in process.held_lines
+                   for other in alike if other is not process for reason in other.reasons())
+
+    return next((process for process in alike if not passed_on(process)), alike[0])
 
 
 class Run:
@@ -149,7 +188,8 @@ class Run:
     def _wait(self):
         limits = [limit for limit in (self.deadline, self.notice) if limit is not None]
         for key, _ in self.selector.select(max(0.0, min(limits) - time.monotonic()) if limits else None):
-            key.data()
+            if key.fileobj in self.selector.get_map():  # what came before may have ended it
+                key.data()
         if self.notice is not None and time.monotonic() >= self.notice:
             self._tell_who_is_waited_for()
         if self.deadline is not None and time.monotonic() >= self.deadline:
@@ -206,10 +246,7 @@ class Run:
     def _signal(self, processes, number):
         for process in processes:
             process.asked_to_end = True
-            try:
-                os.killpg(process.popen.pid, number)
-            except ProcessLookupError:
-                pass  # it ended just now
+        send(processes, number)
 
     def _kill_all(self):
         started = [p for p in self.processes if p.popen and not p.ended]
@@ -222,8 +259,9 @@ class Run:
         for end in (reader, writer):
             os.set_blocking(end, False)
         old_wakeup = signal.set_wakeup_fd(writer)
-        handlers = {n: signal.signal(n, lambda *_: None) for n in requests_to_end()}
-        self.selector.register(reader, selectors.EVENT_READ, lambda: self._interrupted(reader))
+        numbers = [*requests_to_end(), *pauses()]
+        handlers = {n: signal.signal(n, lambda *_: None) for n in numbers}
+        self.selector.register(reader, selectors.EVENT_READ, lambda: self._signalled(reader))
         return reader, writer, old_wakeup, handlers
 
     def _restore_signals(self, wakeup):
@@ -235,8 +273,22 @@ class Run:
         os.close(reader)
         os.close(writer)
 
-    def _interrupted(self, reader):
-        numbers = os.read(reader, 64)
+    def _signalled(self, reader):
+        numbers = set(os.read(reader, 64))
+        if signal.SIGTSTP in numbers:
+            self._pause()
+        if numbers & set(requests_to_end()):
+            self._interrupted(numbers)
+
+    def _pause(self):
+        """Ctrl-Z stops all, and all go on together."""
+        rest = [p for p in self.processes if not p.ended]
+        send(rest, signal.SIGSTOP)
+        away = own_pause()
+        send(rest, signal.SIGCONT)
+        self.deadline, self.notice = (limit and limit + away for limit in (self.deadline, self.notice))
+
+    def _interrupted(self, numbers):
         self.interruptions += 1
         rest = [p for p in self.processes if not p.ended]
         if self.interruptions == 1:
@@ -251,6 +303,6 @@ class Run:
             return INTERRUPTED, "interrupted"
         if not self.failed:
             return DONE, ""
-        cause = min(self.failed, key=weight)  # min keeps the first of equals
+        cause = cause_of(self.failed)
         return cause.exit_code(), "\n".join(cause.held_lines + [f"{cause.name} {cause.fate()}"])
 

@@ -4,6 +4,7 @@ import bisect
 import csv
 import functools
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -18,7 +19,7 @@ PARTICIPANTS = ("fluid", "solid", "coupler")
 def case_file(case):
     """The case.toml of CASE, a folder or the file itself."""
     path = pathlib.Path(case)
-    return path / "case.toml" if path.is_dir() else path
+    return path / "case.toml" if os.path.isdir(path) else path  # of a path that cannot be one, too
 
 
 class BadCase(Exception):

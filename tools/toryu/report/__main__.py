@@ -1,6 +1,6 @@
 """Makes `report.html` in a results folder: one page that needs no network and no other file.
 
-    python3 -m toryu.report OUT --case CASE
+    python3 -I -X utf8 tools/toryu report OUT --case CASE
 """
 
 import argparse
@@ -12,7 +12,7 @@ import re
 import string
 import sys
 
-from toryu import PROGRAMS, results, surface
+from toryu import PROGRAMS, program, results, surface
 from toryu.report import along, data, frames, scene, tables
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -59,14 +59,14 @@ def page(case_path, out, coupler, exit_code, words):
         log=html.escape(tables.log_tail(out)))
 
 
-def main():
+def main(arguments):
     parser = argparse.ArgumentParser(prog="report", description="Makes report.html of the results in OUT.")
     parser.add_argument("out", metavar="OUT", type=pathlib.Path)
     parser.add_argument("--case", metavar="CASE", required=True, help="the case that was run, for its references")
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path, help=argparse.SUPPRESS)
     parser.add_argument("--exit-code", type=int, help="of the run; default: as the participants left it")
     parser.add_argument("--words", default="", help="why the run ended")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
     text = page(options.case, options.out, options.bin / "coupler", options.exit_code, options.words)
     part = options.out / "report.html.part"
     part.write_text(text, encoding="utf-8")
@@ -75,4 +75,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    program.run(main)

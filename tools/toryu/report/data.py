@@ -5,12 +5,12 @@ import re
 import tomllib
 
 from toryu import results
-from toryu.processes import BAD_INPUT, BUG, DONE, INTERRUPTED, PEER_LOST, PHYSICS_FAILED
+from toryu.processes import BAD_INPUT, BUG, DONE, INTERRUPTED, MACHINE, PEER_LOST, PHYSICS_FAILED
 
 MEANING = {DONE: "Done", BUG: "Ended by a bug", BAD_INPUT: "Bad input", PHYSICS_FAILED: "Physics failed",
-           PEER_LOST: "A process was lost", INTERRUPTED: "Interrupted"}
+           PEER_LOST: "A process was lost", MACHINE: "A fault of the machine", INTERRUPTED: "Interrupted"}
 # Of the participants' exit codes, the run's is the first of these.
-CAUSE_FIRST = (BAD_INPUT, PHYSICS_FAILED, BUG, INTERRUPTED, PEER_LOST, DONE)
+CAUSE_FIRST = (BAD_INPUT, PHYSICS_FAILED, MACHINE, BUG, INTERRUPTED, PEER_LOST, DONE)
 MOST_POINTS = 1500  # of a line in a chart: more than it has pixels
 
 

@@ -1,6 +1,6 @@
 """Runs a study: all its runs, then table, charts and page.
 
-    python3 -m toryu.study STUDY.toml [options]
+    python3 -I -X utf8 tools/toryu study STUDY.toml [options]
 """
 
 import argparse
@@ -10,7 +10,7 @@ import pathlib
 import sys
 import time
 
-from toryu import PROGRAMS
+from toryu import PROGRAMS, program
 from toryu.processes import BAD_INPUT, BUG, DONE
 from toryu.study import (bisection, charts, checks, map_file, page, removal, runner, study_file, table, terms, timing,
                          verdicts)
@@ -27,7 +27,7 @@ def parse(arguments):
         prog="run.sh", allow_abbrev=False, description="Runs a study: a case over the axes that its file names. Runs "
         "that are done are kept, so the same command goes on where it was stopped.",
         epilog="Exit codes: 0 done (runs whose physics failed are results), 1 done but a run of a map hung, 2 bad input, "
-               "130 interrupted, else that of the run that ended the study.")
+               "5 a fault of the machine, 130 interrupted, else that of the run that ended the study.")
     parser.add_argument("study", metavar="STUDY.toml", type=pathlib.Path)
     parser.add_argument("--out", metavar="DIR", type=pathlib.Path, help="results folder; default out/<case>_<study>")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[],
@@ -77,6 +77,7 @@ def run(options):
         list_runs(known, done)
         if study.bisects:
             print(f"at most {bisection.most_runs(study, make)} runs: where the next ones lie depends on these")
+        program.must_be_printed()
         return DONE
     checks.settings(study, runs, [s for s in known if s.key not in done], options.set)
     if options.check:
@@ -165,4 +166,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    program.run(main)

@@ -20,6 +20,7 @@ LINES = [PALETTE[f"c{i}"] for i in range(7)]
 MARKERS = "osD^vPX"
 WIDTH, HEIGHT = 6.2, 3.6  # [inch] of a single panel; several share twice the width, that of the page
 
+matplotlib.rcdefaults()  # not what the user has set for other charts
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 9.5,
     "axes.titlesize": 10, "axes.titlelocation": "left", "axes.edgecolor": PALETTE["soft"],

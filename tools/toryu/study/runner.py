@@ -11,9 +11,9 @@ import sys
 import time
 from dataclasses import asdict, dataclass, field
 
-from toryu import results
+from toryu import program, results
 from toryu.folder_lock import FolderTaken, lock_folder
-from toryu.processes import (BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED,
+from toryu.processes import (BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, own_pause, pauses,
                              requests_to_end, start)
 from toryu.results_folder import newest_checkpoint
 from toryu.study import timing
@@ -69,7 +69,9 @@ def hold(out):
     """Holds the study's folder: the same study is not run twice at once."""
     held = contextlib.ExitStack()
     try:
-        held.enter_context(lock_folder(out, "study.lock"))
+        if why := held.enter_context(lock_folder(out, "study.lock")):
+            print(f"warning: the file system of {out} has no locks ({why}): nothing keeps the same study from being run "
+                  "there twice at once", file=sys.stderr)
         (out / "runs").mkdir(exist_ok=True)
     except FolderTaken:
         raise Ended(BAD_INPUT, f"{out}: error: this study is being run already; wait for it or give --out another folder")
@@ -145,6 +147,7 @@ class Runner:
         waiting = [s for s in settings if s.key not in records]
         self.progress.begin(len(settings), [r.elapsed for r in records.values()], self.jobs)
         old = {n: signal.signal(n, self._interrupted) for n in requests_to_end()}
+        old |= {n: signal.signal(n, self._pause) for n in pauses()}
         try:
             while waiting or self.running:
                 if self.interruptions and not self.running:
@@ -167,7 +170,7 @@ class Runner:
         return [records[s.key] for s in settings]
 
     def command(self, setting, *options):
-        return [sys.executable, "-m", "toryu.launch", str(self.study.case), f"--bin={self.bin}", *setting.options(), *options]
+        return program.python("launch", self.study.case, f"--bin={self.bin}", *setting.options(), *options)
 
     def _start(self, setting, may_go_on=True):
         """A run that was left half done goes on from its newest checkpoint; one whose time counts is run whole."""
@@ -218,10 +221,21 @@ class Runner:
         self.interruptions += 1
         self._ask()
 
+    def _pause(self, *_):
+        """Ctrl-Z stops all runs, and all go on together."""
+        self._send(signal.SIGTSTP)
+        away = own_pause()
+        self._send(signal.SIGCONT)
+        for run in self.running.values():
+            run.began += away
+
     def _ask(self):
+        self._send(signal.SIGINT)
+
+    def _send(self, number):
         for process in self.running:
             with contextlib.suppress(ProcessLookupError):
-                os.kill(process.pid, signal.SIGINT)
+                os.kill(process.pid, number)
 
     def _end_all(self):
         """Ends what still runs when the study stops early."""

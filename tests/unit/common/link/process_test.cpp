@@ -31,30 +31,33 @@ struct Child {
   }
 };
 
+using enum ProcessState;
+
 TEST(Process, RunsUntilItIsStoppedOrGone) {
   const Child child;
   int status = 0;
-  EXPECT_TRUE(runs_here(child.name));
+  EXPECT_EQ(state_of(child.name), runs);
   kill(child.id, SIGSTOP);
   waitpid(child.id, &status, WUNTRACED);
-  EXPECT_FALSE(runs_here(child.name));
+  EXPECT_EQ(state_of(child.name), stopped);
   kill(child.id, SIGCONT);
   waitpid(child.id, &status, WCONTINUED);
-  EXPECT_TRUE(runs_here(child.name));
+  EXPECT_EQ(state_of(child.name), runs);
   kill(child.id, SIGKILL);
   siginfo_t info;
   waitid(P_PID, static_cast<id_t>(child.id), &info, WEXITED | WNOWAIT);
-  EXPECT_FALSE(runs_here(child.name)) << "gone, but not yet fetched by its parent";
+  EXPECT_EQ(state_of(child.name), gone) << "gone, but not yet fetched by its parent";
   waitpid(child.id, &status, 0);
-  EXPECT_FALSE(runs_here(child.name));
+  EXPECT_EQ(state_of(child.name), gone);
 }
 
 TEST(Process, OfAnotherMachineOrTimeIsNotThisOne) {
   const std::string mine = own_process();
-  EXPECT_TRUE(runs_here(mine));
-  EXPECT_FALSE(runs_here("x" + mine));
-  EXPECT_FALSE(runs_here(mine + "1")) << "another process had this number before";
-  EXPECT_FALSE(runs_here(""));
+  EXPECT_EQ(state_of(mine), runs);
+  EXPECT_EQ(state_of("x" + mine), unknown);
+  EXPECT_EQ(state_of(mine + "1"), gone) << "another process had this number before";
+  EXPECT_EQ(state_of(""), unknown);
+  EXPECT_EQ(state_of("a b c"), unknown);
 }
 
 }  // namespace
