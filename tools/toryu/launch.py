@@ -17,7 +17,7 @@ import sys
 
 from toryu import PROGRAMS, program, results, summary_text
 from toryu.folder_lock import FolderTaken, lock_folder
-from toryu.processes import BAD_INPUT, BUG, DONE, MEANING, PHYSICS_FAILED, Run, says_yes
+from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED, Run, says_yes
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
 OUT_OF_SUPPLIES = {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.EIO}  # no fault of --out
@@ -131,7 +131,7 @@ def complain(text):
 def check(commands, show_warnings):
     """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file. A run
     that follows gives the warnings itself."""
-    errors, others = set(), []
+    errors, others, codes = set(), [], set()
     for name, command in commands.items():
         done = subprocess.run([*command, "--check"], capture_output=True, encoding="utf-8", errors="backslashreplace",
                               stdin=subprocess.DEVNULL)
@@ -139,6 +139,7 @@ def check(commands, show_warnings):
             if show_warnings and done.stderr:
                 print(done.stderr, end="", file=sys.stderr)
             continue
+        codes.add(done.returncode)
         lines = (done.stdout + done.stderr).splitlines()
         if done.returncode == BAD_INPUT:
             errors.update(line for line in lines if line.strip())
@@ -152,7 +153,7 @@ def check(commands, show_warnings):
         return (int(found[1]), int(found[2]), line) if found else (0, 0, line)
 
     print(*sorted(errors, key=place), *others, sep="\n", file=sys.stderr)
-    return BAD_INPUT if errors else BUG
+    return BAD_INPUT if errors else MACHINE if MACHINE in codes else BUG
 
 
 def warn_without_checkpoints(options, guests):
@@ -221,7 +222,8 @@ def report(options, content, code, words):
     failed = DONE if options.no_report else subprocess.run(
         program.python("report", options.out, "--case", options.case, f"--bin={options.bin}", f"--exit-code={code}",
                        f"--words={words[-MOST_WORDS:]}"), stdout=subprocess.DEVNULL).returncode
-    print(summary_text.of_run(options.case, content, options.out))
+    if text := summary_text.of_run(options.case, content, options.out):
+        print(text)
     if not failed and not options.no_report:
         print(f"report  {options.out / 'report.html'}")
     return failed

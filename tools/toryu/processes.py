@@ -107,7 +107,7 @@ class Process:
 
     def reasons(self):
         """What it gives as reasons: its errors without its name and the kind of failure."""
-        return [found[1] for line in self.held_lines if (found := re.search(r"\berror: (?:[a-z ]+: )?(.+)$", line))]
+        return list(map(without_kind, self.held_lines))
 
     def fate(self):
         if self.status >= 0:
@@ -136,17 +136,23 @@ def weight(process):
     return {BAD_INPUT: 0, PHYSICS_FAILED: 1, MACHINE: 2, INTERRUPTED: 5, PEER_LOST: 6}.get(process.status, 3)
 
 
-def cause_of(failed):
-    """The process whose failure brought the others', of those that failed, in this order. How several end alike: one of
-    them failed and told the others, who say the same after its name."""
+def cause_of(failed, processes, lead):
+    """The process whose failure brought the others', of those that failed, in this order. Where several end alike, one of
+    them failed and told the others, who give its reason after its name; what the lead says goes to the terminal, but it
+    is the one if they give no name."""
     least = min(map(weight, failed))
     alike = [process for process in failed if weight(process) == least]
 
-    def passed_on(process):
-        return any(line.endswith(f": {reason}") for line in process.held_lines
-                   for other in alike if other is not process for reason in other.reasons())
+    def is_passed_on(process):
+        return any(line.endswith(f": {reason}") for reason in process.reasons()
+                   for other in processes if other is not process for line in map(without_kind, other.held_lines))
 
-    return next((process for process in alike if not passed_on(process)), alike[0])
+    return next((*filter(is_passed_on, alike), *(process for process in alike if process.name == lead), *alike))
+
+
+def without_kind(line):
+    """fluid_solver: error: physics failed: density -1 -> density -1"""
+    return re.sub(r"^.*?\berror: (?:(?:physics failed|peer lost|the machine|unexpected): )?", "", line)
 
 
 class Run:
@@ -303,6 +309,6 @@ class Run:
             return INTERRUPTED, "interrupted"
         if not self.failed:
             return DONE, ""
-        cause = cause_of(self.failed)
+        cause = cause_of(self.failed, self.processes, self.lead)
         return cause.exit_code(), "\n".join(cause.held_lines + [f"{cause.name} {cause.fate()}"])
 
