@@ -101,9 +101,14 @@ void HdfSeriesFile::complete() {
   const int reason = errno;
   std::ifstream rows(rows_path(), std::ios::binary);
   if (!rows) throw MachineFailure(fmt::format("cannot complete '{}'", path_.string()), errno);
-  write_all(rows);
-  give_name(path_);
   std::error_code ignored;
+  try {
+    write_all(rows);
+    give_name(path_);
+  } catch (...) {
+    std::filesystem::remove(part_of(path_), ignored);  // of no use, and where the disk is full in the way
+    throw;
+  }
   std::filesystem::remove(rows_path(), ignored);
   if (!whole) fail_to_write(rows_path(), reason);
 }

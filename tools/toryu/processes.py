@@ -147,7 +147,7 @@ def cause_of(failed, processes, lead):
         return any(line.endswith(f": {reason}") for reason in process.reasons()
                    for other in processes if other is not process for line in map(without_kind, other.held_lines))
 
-    return next((*filter(is_passed_on, alike), *(process for process in alike if process.name == lead), *alike))
+    return [*filter(is_passed_on, alike), *(process for process in alike if process.name == lead), *alike][0]
 
 
 def without_kind(line):

@@ -89,6 +89,16 @@ def must_be_printed():
         raise OSError(error.errno, error.strerror, "standard output")
 
 
+def write_whole(path, text):
+    """Writes a text file that is either there in full or not at all. An OSError names it."""
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, path)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(part)) from error
+
+
 def interrupt(*_):
     raise KeyboardInterrupt
 

@@ -6,7 +6,6 @@
 import argparse
 import html
 import json
-import os
 import pathlib
 import re
 import string
@@ -68,9 +67,7 @@ def main(arguments):
     parser.add_argument("--words", default="", help="why the run ended")
     options = parser.parse_args(arguments)
     text = page(options.case, options.out, options.bin / "coupler", options.exit_code, options.words)
-    part = options.out / "report.html.part"
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, options.out / "report.html")
+    program.write_whole(options.out / "report.html", text)
     print(options.out / "report.html")
 
 

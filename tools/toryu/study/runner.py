@@ -60,9 +60,7 @@ def write_record(record):
     setting = record.setting
     content = {"values": setting.values, "set": setting.overrides} | {
         name: getattr(record, name) for name in KEPT}
-    part = record.folder / (RECORD + ".part")
-    part.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    os.replace(part, record.folder / RECORD)
+    program.write_whole(record.folder / RECORD, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
 
 
 def hold(out):
