@@ -49,6 +49,17 @@ class Page(unittest.TestCase):
         self.assertIn("<h1>A made-up gate &amp; its water</h1>", page)
         self.assertIn("Monaghan 1992, eq. 4.1", page)
 
+    def test_a_failure_opens_at_its_end_with_what_was_warned_of(self):
+        self.make(frames=2)
+        with open(self.out / "log.txt", "a") as log:
+            log.write("2026-01-01 10:00:01.000 fluid_solver warning: <fast> water\n" * 2 +
+                      "2026-01-01 10:00:02.000 fluid_solver error: physics failed: density\n")
+        for code, failed in ((0, False), (3, True), (4, True), (130, False)):
+            page = self.page(f"--exit-code={code}", "--words=density -1")
+            self.assertEqual(self.content(page)["failed"], failed)
+            shown = re.search('<div class="words stopped" id="warnings">(.*?)</div>', page)[1]
+            self.assertEqual(shown, "<p>fluid_solver warning: &lt;fast&gt; water</p>")
+
     def test_frames_decode_to_the_particles(self):
         self.make(frames=3)
         fluid, solid = self.content(self.page())["bodies"]

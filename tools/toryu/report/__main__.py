@@ -12,6 +12,7 @@ import string
 import sys
 
 from toryu import PROGRAMS, program, results, surface
+from toryu.processes import DONE, INTERRUPTED
 from toryu.report import along, data, frames, scene, tables
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -44,14 +45,14 @@ def page(case_path, out, coupler, exit_code, words):
         "view": view, "near": scene.near_view(view, walls, bodies, contours), "walls": walls, "bodies": bodies,
         "motions": scene.motion_charts(walls, end), "end": end,
         "along": along.collect(file, contours, times, frames.start_of(out, "solid")) if file else {},
-        "compared": compared, "others": others,
+        "compared": compared, "others": others, "failed": state["code"] not in (DONE, INTERRUPTED),
     }
     return string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html.escape(title), name=html.escape(results.case_name(case_path)),
         style=(HERE / "style.css").read_text(encoding="utf-8"),
         script="\n".join((HERE / f).read_text(encoding="utf-8") for f in SCRIPTS),
         data=re.sub("</", r"<\\/", json.dumps(content, separators=(",", ":"), allow_nan=False)),
-        state=tables.state(state), figures=tables.figures(out, summaries, comparisons, state),
+        state=tables.state(state) + tables.warnings(out), figures=tables.figures(out, summaries, comparisons, state),
         frames_note=f"every {step}th frame is shown" if step > 1 else "",
         times=tables.times(summaries), terms=tables.terms(summaries), particles=tables.particles(summaries),
         numbers=tables.numbers(summaries), provenance=tables.provenance(summaries), case=html.escape(case_text),

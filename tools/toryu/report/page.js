@@ -19,7 +19,7 @@ class Player {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
     for (const stage of stages) this.listenTo(stage);
     this.listenToKeys();
-    this.show(0);
+    this.show(content.failed ? times.length - 1 : 0);  // a failure is seen at its end
   }
 
   fit() {

@@ -56,6 +56,16 @@ def state(run):
     return f'{badge}<div class="words {kind}"><p>Exit code {run["code"]}.</p>{words}</div>'
 
 
+def warnings(out, most=20):
+    """What the programs warned of, each once: where a run failed, often what foretold it."""
+    path = out / "log.txt"
+    text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+    found = list(dict.fromkeys(re.findall(r"^\S+ \S+ (\w+ warning: .*)$", text, re.MULTILINE)))
+    more = [f"and {len(found) - most} more, see log.txt"] if len(found) > most else []
+    lines = "".join(f"<p>{html.escape(line)}</p>" for line in found[:most] + more)
+    return f'<div class="words stopped" id="warnings">{lines}</div>' if found else ""
+
+
 def tile(label, value, note=""):
     return (f'<div class="tile"><div class="label">{html.escape(label)}</div>'
             f'<div class="value">{html.escape(value)}</div><div class="note">{html.escape(note)}</div></div>')

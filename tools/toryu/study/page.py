@@ -9,7 +9,7 @@ import platform
 import re
 import string
 
-from toryu import results
+from toryu import program, results
 from toryu.processes import DONE
 from toryu.report import data, tables
 from toryu.study import runner, timing
@@ -33,9 +33,7 @@ def write(path, study, table, records, drawn, answers, versions):
         axes=axes(study), fixed=fixed(study, records),
         provenance=provenance(records, versions), study=html.escape(study.text),
         case=html.escape(study.case.read_text(encoding="utf-8")))
-    part = path.with_name(path.name + ".part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)
+    program.write_whole(path, text)
 
 
 def state(records):
