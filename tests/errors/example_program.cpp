@@ -1,11 +1,15 @@
 // A program with one section of its own. `medium.label` says how it ends, so that tests see each ending.
 
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
 
+#include "common/error/machine.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
+#include "common/run/standard_streams.hpp"
 #include "tests/errors/example_section.hpp"
 
 using namespace toryu;
@@ -17,7 +21,7 @@ int main(int argc, char** argv) {
     Medium medium;
     file.read("medium", medium, "what fills the room");
     if (options.describe) {
-      fmt::print("{}", file.description());
+      print(file.description());
       return ExitCode::done;
     }
     file.throw_if_faulty();
@@ -26,6 +30,9 @@ int main(int argc, char** argv) {
     if (medium.label == "physics") throw PhysicsFailure("medium", 7, 0.5, "speed", "12 m/s", "10 m/s");
     if (medium.label == "peer") throw PeerLost("solid_solver has not answered for 2 s");
     if (medium.label == "bug") throw std::out_of_range("index 3 of 2");
+    if (medium.label == "disk") throw MachineFailure("cannot write 'a.csv'", ENOSPC);
+    if (medium.label == "folder") std::filesystem::create_directory(options.out / "absent/a");
+    if (medium.label == "library") std::exit(1);  // as libgomp does where it gets no threads
     if (medium.label == "interrupted") {
       std::raise(SIGTERM);
       throw_if_interrupted();

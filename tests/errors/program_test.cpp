@@ -33,11 +33,18 @@ class ExampleProgram : public testing::Test {
     int code;
     std::string output, error;
   };
+  /// `arguments` may redirect streams.
   Ending run(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" EXAMPLE_PROGRAM "' " + arguments + " >output.txt 2>error.txt";
-    const int status = std::system(command.c_str());
+    const int status = shell("{ '" EXAMPLE_PROGRAM "' " + arguments + "; } >output.txt 2>error.txt");
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of("output.txt"), text_of("error.txt")};
+  }
+  /// The exit code where all that is said goes into a pipe that nobody reads.
+  std::string code_unread(const std::string& arguments) const {
+    shell("{ sleep 0.1; '" EXAMPLE_PROGRAM "' " + arguments + " 2>&1; echo $? >code.txt; } | true");
+    return text_of("code.txt");
+  }
+  int shell(const std::string& command) const {
+    return std::system(("cd '" + folder_.string() + "' && " + command).c_str());
   }
   std::string text_of(const std::string& file) const {
     std::ostringstream text;
@@ -186,6 +193,14 @@ TEST_F(ExampleProgram, EndsEachFailureWithItsCodeAndOneLine) {
   const std::vector<Failure> failures = {
       {"physics", 3, "physics failed: medium particle 7 at t = 0.5 s: speed = 12 m/s, limit 10 m/s"},
       {"peer", 4, "peer lost: solid_solver has not answered for 2 s"},
+      {"disk", 5,
+       "the machine: cannot write 'a.csv': No space left on device; make room on the disk (df -h and df -i "
+       "show it), or give --out a folder on another"},
+      {"folder", 5,
+       "the machine: 'folder/absent/a' cannot be used: No such file or directory; the folder was removed or "
+       "moved in mid-run; leave it where it is until the run has ended"},
+      {"library", 5,
+       "the machine: OpenMP gets no threads: give --threads fewer, or raise 'ulimit -u' and 'ulimit -v'"},
       {"interrupted", 130, "interrupted"},
       {"bug", 1, "unexpected: index 3 of 2"}};
   for (const auto& failure : failures) {
@@ -195,6 +210,33 @@ TEST_F(ExampleProgram, EndsEachFailureWithItsCodeAndOneLine) {
     EXPECT_THAT(text_of(failure.label + "/log.txt"),
                 HasSubstr("example_program error: " + failure.error + "\n"));
   }
+}
+
+TEST_F(ExampleProgram, DoesNotDependOnWhoReads) {
+  const std::string warns = "room --out read --set medium.label=warning ";
+  for (const char* streams : {"0<&- >&- 2>&-", ">/dev/full 2>/dev/full"}) {
+    EXPECT_EQ(run(warns + streams).code, 0) << streams;
+    EXPECT_THAT(text_of("read/log.txt"), HasSubstr("example_program warning: the medium is thin\n"));
+    std::filesystem::remove(folder_ / "read/log.txt");
+  }
+  EXPECT_EQ(code_unread(warns), "0\n");
+  EXPECT_EQ(code_unread("absent"), "2\n");
+}
+
+TEST_F(ExampleProgram, SaysThatWhatWasAskedForCannotBeWritten) {
+  for (const char* asked : {"--describe", "--help", "--version", "room --print-case"}) {
+    const Ending ending = run(std::string(asked) + " >/dev/full");
+    EXPECT_EQ(ending.code, 5) << asked;
+    EXPECT_THAT(ending.error, HasSubstr("cannot write to standard output: No space left on device; "));
+    EXPECT_EQ(code_unread(asked), "0\n") << "who went away has read enough";
+  }
+}
+
+TEST_F(ExampleProgram, RefusesAPathThatCannotBeOne) {
+  const std::string longest(300, 'a');
+  EXPECT_EQ(run(longest).error, longest + ": error: cannot be read: File name too long\n");
+  EXPECT_EQ(run(longest).code, 2);
+  EXPECT_EQ(run("room --out " + longest).code, 2);
 }
 
 TEST_F(ExampleProgram, WarnsOnStandardError) {

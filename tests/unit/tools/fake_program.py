@@ -1,7 +1,8 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -IXutf8
 """Stands for fluid_solver, solid_solver and coupler in the launcher's tests. What it does is written in the file
 `NAME.plan` beside it, a word a line: each line is a method of Plan with its arguments."""
 
+import contextlib
 import os
 import pathlib
 import signal
@@ -10,12 +11,14 @@ import time
 
 me = pathlib.Path(sys.argv[0])
 case, arguments = sys.argv[1], sys.argv[2:]
-plan = me.with_suffix(".plan").read_text().splitlines()
+plan = me.with_suffix(".plan").read_text(encoding="utf-8", errors="surrogateescape").splitlines()
+sys.stderr.reconfigure(encoding="utf-8", errors="surrogateescape")
 
 
 class Plan:
     def say(self, text):
-        print(text, file=sys.stderr, flush=True)
+        with contextlib.suppress(OSError):  # nobody need read it
+            os.write(2, f"{text}\n".encode(errors="surrogateescape"))
 
     def wait(self, seconds):
         time.sleep(float(seconds))
@@ -57,6 +60,15 @@ class Plan:
     def kill(self, number):
         os.kill(os.getpid(), int(number))
 
+    def link_to(self, target, name):
+        (out / name).symlink_to(target)
+
+    def check_takes(self, seconds):
+        """How long `--check` takes; it says that it has begun by a file."""
+
+    def describes(self, *lines):
+        """What `--describe` prints; lines are parted by |."""
+
     def check_fails(self, code, *lines):
         """How `--check` ends; lines are parted by |."""
 
@@ -85,13 +97,25 @@ if case == "--can-checkpoint":
         sys.exit(int(code))
     sys.exit(2)
 if "--print-case" in arguments:
-    sections = (pathlib.Path(case) / "case.toml").read_text()
+    try:
+        sections = (pathlib.Path(case) / "case.toml").read_text()
+    except OSError as error:
+        print(f"{case}: error: cannot be read: {error.strerror}", file=sys.stderr)
+        sys.exit(2)
     for away in (a.removeprefix("--set=").removesuffix("=false") for a in arguments if a.endswith("=false")):
         sections = sections.replace(f"[{away}]\n", "")
     if not any(line.startswith("print_fails") for line in plan):
         print(sections)
     end_as_planned("print_fails")
+if "--describe" in arguments:
+    for line in plan:
+        if line.startswith("describes "):
+            print(line.removeprefix("describes ").replace("|", "\n"))
+    sys.exit(0)
 if "--check" in arguments:
+    for seconds in (line.split(" ")[1] for line in plan if line.startswith("check_takes ")):
+        (me.parents[1] / "checking").touch()
+        time.sleep(float(seconds))
     end_as_planned("check_fails")
 
 out = pathlib.Path(next(a.removeprefix("--out=") for a in arguments if a.startswith("--out=")))

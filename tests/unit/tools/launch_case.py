@@ -32,7 +32,7 @@ class Launch(unittest.TestCase):
     def plan(self, coupler="", fluid="", solid=""):
         for name, plan in zip(NAMES, (coupler, fluid, solid)):
             self.fake(self.bin / name)
-            (self.bin / f"{name}.plan").write_text(plan.replace("; ", "\n"))
+            (self.bin / f"{name}.plan").write_text(plan.replace("; ", "\n"), encoding="utf-8", errors="surrogateescape")
 
     def fake(self, path):
         shutil.copy(HERE / "fake_program.py", path)

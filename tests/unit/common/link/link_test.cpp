@@ -343,6 +343,20 @@ TEST(Lease, OfAProcessThatRunsMayLapse) {
               ThrowsMessage<PeerLost>("solid participant did not join within 4 s"));
 }
 
+TEST(Death, IsNoticedThoughTheLeaseHolds) {
+  LinkSettings settings;
+  settings.role = "coupler";
+  settings.out = std::filesystem::temp_directory_path() / fmt::format("toryu_death_{}", getpid());
+  settings.case_hash = 42;
+  settings.time_limit = time_limit;
+  CouplerLink coupler(settings);
+  RawFluid fluid(settings.out);
+  fluid.process = own_process() + "0";  // had this number before, and is gone
+  fluid.say_hello();
+  EXPECT_THAT([&] { coupler.gather({}); },
+              ThrowsMessage<PeerLost>(HasSubstr("raw_fluid was killed or stopped")));
+}
+
 TEST_F(LinkTest, AMissingCouplerIsNamed) {
   SolidLink link(impatient_elsewhere("solid"));
   EXPECT_THAT([&] { link.join(); }, ThrowsMessage<PeerLost>("coupler did not come within 0.3 s"));

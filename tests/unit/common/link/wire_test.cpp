@@ -77,8 +77,8 @@ TEST(WireCheck, RefusesAWindowWithoutLength) {
 }
 
 TEST(Ending, ComesOutAsItWentIn) {
-  for (const ExitCode code :
-       {ExitCode::bad_input, ExitCode::physics_failed, ExitCode::peer_lost, ExitCode::interrupted}) {
+  for (const ExitCode code : {ExitCode::bad_input, ExitCode::physics_failed, ExitCode::peer_lost,
+                              ExitCode::machine, ExitCode::interrupted}) {
     try {
       throw_ending({code, "why"});
     } catch (...) {
@@ -102,6 +102,22 @@ TEST(Rendezvous, FollowsFromTheFolder) {
     EXPECT_GE(place.domain, 1u);
     EXPECT_LE(place.domain, 100u);
   }
+}
+
+TEST(Rendezvous, FollowsFromWhereTheFolderLiesNotFromItsPath) {
+  const auto folder = std::filesystem::temp_directory_path() / ("toryu_place_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const auto first = dds::rendezvous(folder).tag;
+  std::filesystem::create_symlink(folder, folder.string() + "_link");
+  EXPECT_EQ(dds::rendezvous(folder.string() + "_link").tag, first);
+  std::filesystem::remove(folder.string() + "_link");
+  // another folder of the same path, as in another container
+  std::filesystem::rename(folder, folder.string() + "_before");
+  std::filesystem::create_directories(folder);
+  EXPECT_NE(dds::rendezvous(folder).tag, first);
+  EXPECT_EQ(dds::rendezvous(folder.string() + "_before").tag, first);
+  std::filesystem::remove(folder);
+  std::filesystem::remove(folder.string() + "_before");
 }
 
 }  // namespace

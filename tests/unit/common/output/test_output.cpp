@@ -6,6 +6,9 @@
 #include <sstream>
 
 #include "common/error/failure.hpp"
+#include "common/error/machine.hpp"
+#include "common/output/atomic_file.hpp"
+#include "common/output/hdf5_file.hpp"
 #include "common/output/hdf5_series.hpp"
 #include "common/run/provenance.hpp"
 #include "tests/unit/common/output/sample_results.hpp"
@@ -203,6 +206,67 @@ TEST_F(Output, TheSummaryEscapesTextAndKeepsFloatsFloats) {
   EXPECT_THAT(summary, HasSubstr("\"wall tank_floor\" = 320\n"));
   EXPECT_THAT(summary, HasSubstr("smallest_time_step = inf"));
   EXPECT_THAT(files(), ElementsAre("fluid_summary.toml"));
+}
+
+/// A file on a full disk: what is written to /dev/full finds no room.
+class FullDisk : public Output {
+ protected:
+  void fill(const std::string& name) const {
+    fs::create_directories((out / name).parent_path());
+    fs::create_symlink("/dev/full", out / name);
+  }
+  template <class Write>
+  void expect_no_room(const std::string& name, const Write& write) const {
+    fill(name);
+    EXPECT_THAT(write,
+                testing::ThrowsMessage<MachineFailure>(testing::AllOf(
+                    HasSubstr((out / name).string()), HasSubstr("No space left on device; make room"))));
+    EXPECT_FALSE(fs::exists(out / fs::path(name).replace_extension())) << "it is not whole";
+  }
+};
+
+TEST_F(FullDisk, IsTheCauseWhereAFileCannotBeWritten) {
+  expect_no_room("used_case.toml.part", [&] { write_atomically(out / "used_case.toml", "a = 1\n"); });
+  expect_no_room("fluid.csv.part", [&] {
+    SeriesWriter series(out, "fluid");
+    series.write(0, {{"a", "m", 1.0}});
+    series.complete();
+  });
+  expect_no_room("a.h5.part", [&] {
+    HdfFile file(out / "a.h5");
+    file.group("/a");
+    file.finish();
+  });
+  expect_no_room("rows.h5.rows.part", [&] {
+    HdfSeriesFile file(out / "rows.h5");
+    file.series("time", "s", {});
+    const double time = 0;
+    file.append({&time});
+  });
+}
+
+TEST_F(FullDisk, CostsNoRowsWhereTheFileOfThemFindsNoRoom) {
+  fill("a.h5.part");
+  HdfSeriesFile file(out / "a.h5");
+  file.series("time", "s", {});
+  const double time = 0.5;
+  file.append({&time});
+  EXPECT_THROW(file.complete(), MachineFailure);
+  EXPECT_EQ(fs::file_size(out / "a.h5.rows.part"), sizeof time);
+  EXPECT_FALSE(fs::exists(fs::symlink_status(out / "a.h5.part"))) << "it is of no use";
+}
+
+TEST_F(Output, AFolderThatWasRemovedIsTheCauseAndNoSilentLoss) {
+  SeriesWriter series(out, "fluid");
+  series.write(0, {{"a", "m", 1.0}});
+  HdfSeriesFile file(out / "a.h5");
+  file.series("time", "s", {});
+  const double time = 0;
+  file.append({&time});
+  fs::remove_all(out);
+  EXPECT_THAT([&] { series.complete(); }, testing::ThrowsMessage<MachineFailure>(
+                                              HasSubstr("the folder was removed or moved in mid-run")));
+  EXPECT_THROW(file.complete(), MachineFailure);
 }
 
 }  // namespace

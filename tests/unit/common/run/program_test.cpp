@@ -1,13 +1,20 @@
 // The parts of a program's frame; whole programs are tested in tests/errors.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 
 #include "common/error/failure.hpp"
+#include "common/error/machine.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/options.hpp"
 #include "common/run/provenance.hpp"
+#include "common/run/run_lock.hpp"
+#include "common/run/standard_streams.hpp"
 
 namespace toryu {
 namespace {
@@ -24,6 +31,46 @@ TEST(Interruption, IsRequestedByEitherSignalAndKillsNothing) {
   }
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+}
+
+TEST(Interruption, LeavesASignalThatIsIgnored) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(signal, SIG_IGN);
+    catch_interruptions();
+    std::raise(signal);
+    EXPECT_FALSE(interruption_requested()) << signal;
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_DFL);
+  }
+}
+
+TEST(StandardStreams, AreGivenToNoFileWhereTheyAreClosed) {
+  const pid_t child = fork();
+  if (child == 0) {
+    for (const int descriptor : {0, 1, 2}) close(descriptor);
+    secure_standard_streams();
+    _exit(open("/dev/null", O_RDONLY) > 2 ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
+TEST(RunLock, IsHeldByOne) {
+  const auto out = std::filesystem::temp_directory_path() / ("toryu_lock_" + std::to_string(getpid()));
+  std::filesystem::create_directories(out);
+  {
+    const RunLock lock(out);
+    EXPECT_THROW(RunLock{out}, BadInput);
+  }
+  EXPECT_NO_THROW(RunLock{out});
+  std::filesystem::remove_all(out);
+  EXPECT_THROW(RunLock{out}, BadInput) << "there is no such folder";
+}
+
+TEST(MachineFailure, NamesTheCauseAndARemedy) {
+  EXPECT_STREQ(MachineFailure("cannot write 'a'", EROFS).what(),
+               "cannot write 'a': Read-only file system; give --out a folder that you may write to");
+  EXPECT_STREQ(MachineFailure("cannot do it", EDOM).what(), "cannot do it: Numerical argument out of domain");
 }
 
 TEST(Provenance, SaysWhatMadeTheNumbers) {

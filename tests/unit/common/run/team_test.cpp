@@ -5,6 +5,12 @@
 namespace toryu {
 namespace {
 
+TEST(UsefulThreads, AreNoMoreThanTheMachineBears) {
+  EXPECT_EQ(useful_threads(1), 1);
+  EXPECT_EQ(useful_threads(16), 16) << "to compare results over numbers of threads";
+  EXPECT_EQ(useful_threads(1000000), std::max(16, omp_get_num_procs()));
+}
+
 /// Lets steps pass that take `of(threads)` [s], for so long [s]; returns the time that they took at each
 /// number of threads.
 template <class Of>
