@@ -2,15 +2,19 @@
 
     process_test.py BUILD/bin [unittest options]
 """
+import os
 import pathlib
+import shutil
 import signal
+import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
 import h5py
 
-from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, PEER_LOST, PHYSICS_FAILED
+from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, MACHINE, PEER_LOST, PHYSICS_FAILED
 from toryu_testing import trio
 from toryu_testing.process_case import LIMIT, NAMES, ProcessCase
 
@@ -198,6 +202,46 @@ class Interruption(ProcessCase):
         run.signal("coupler", signal.SIGINT)
         for name in ("coupler", "fluid"):
             self.assert_ending(run, name, INTERRUPTED)
+
+
+class Machine(ProcessCase):
+    """Faults of the machine."""
+
+    def test_no_loopback_address(self):
+        alone = ["unshare", "--net", "--map-root-user"]  # in a network of its own, which nobody has set up
+        if subprocess.run([*alone, "true"], capture_output=True).returncode != 0:
+            self.skipTest("no network of its own can be had here")
+        for name in ("coupler", "fake_fluid"):
+            done = subprocess.run([*alone, self.bin / name, trio.CASE, "--out", self.folder()], capture_output=True, text=True)
+            self.assertEqual(done.returncode, MACHINE, done.stderr)
+            self.assertRegex(done.stderr, f"^{name}: error: the machine: .*127.0.0.1, which does not work here: .*; 'ip address "
+                                          "add .*\n$")
+
+    def folder(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        return folder.name
+
+    def test_more_threads_than_there_can_be(self):
+        for options, environment in ((["--threads", "1000000"], {}), ([], {"OMP_NUM_THREADS": "1000000"})):
+            done = subprocess.run([self.bin / "fluid_solver", trio.CASE, "--set", "solid=false", "--set", "coupling=false",
+                                   "--end-time", "1e-4", "--out", self.folder(), *options], capture_output=True, text=True,
+                                  env=os.environ | environment)
+            self.assertEqual(done.returncode, DONE, done.stderr)
+
+    def test_no_threads(self):
+        done = subprocess.run([self.bin / "fluid_solver", trio.CASE, "--set", "solid=false", "--set", "coupling=false",
+                               "--threads", "2", "--out", self.folder()], capture_output=True, text=True,
+                              env=os.environ | {"OMP_STACKSIZE": "100000G"})
+        self.assertEqual(done.returncode, MACHINE, done.stderr)
+        self.assertIn("fluid_solver: error: the machine: OpenMP gets no threads", done.stderr)
+
+    def test_a_folder_that_is_removed(self):
+        run = self.run_of_three(end_time="1").start_all().wait_until_running()
+        for path in run.out.iterdir():
+            if path.suffix != ".err":  # what its programs say
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        self.assert_ending(run, "coupler", MACHINE, "cannot complete", "coupler.csv", "removed or moved in mid-run")
 
 
 class Refusal(ProcessCase):

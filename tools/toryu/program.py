@@ -93,7 +93,7 @@ def write_whole(path, text):
     """Writes a text file that is either there in full or not at all. An OSError names it."""
     part = path.with_name(path.name + ".part")
     try:
-        part.write_text(text, encoding="utf-8")
+        part.write_text(text, encoding="utf-8", errors="backslashreplace")  # a path may be no text
         os.replace(part, path)
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(part)) from error

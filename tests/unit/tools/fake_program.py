@@ -120,7 +120,7 @@ if "--check" in arguments:
 
 out = pathlib.Path(next(a.removeprefix("--out=") for a in arguments if a.startswith("--out=")))
 (out / f"{me.name}.pid").write_text(str(os.getpid()))
-(out / f"{me.name}.arguments").write_text("\n".join([case, *arguments]))
+(out / f"{me.name}.arguments").write_text("\n".join([case, *arguments]), errors="surrogateescape")
 for line in plan:
     word, *rest = line.split(" ", 1)
     rest = rest[0].split(" ") if rest and word not in ("say",) else rest

@@ -140,6 +140,14 @@ class HalfDone(Study):
         self.assertEqual({row["exit_code"] for row in self.table()}, {"0"})
 
 
+def state_of(folder):
+    """One letter, see proc(5), of the process in that folder of /proc; Z if it has gone."""
+    try:
+        return (folder / "stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return "Z"
+
+
 class Stopped(Study):
     SLOW = '[[axis]]\nname = "x"\nvalues = [1, 2, 3, 4, 5, 6]\nkeys = ["fluid.x"]\n'
 
@@ -182,6 +190,28 @@ class Stopped(Study):
         self.assertEqual(code, -signal.SIGKILL)
         self.assert_that_it_goes_on(kept, started)
         self.assertEqual(self.processes_of_this_test(), [])
+
+    def test_ctrl_z_stops_all_its_processes_and_all_go_on(self):
+        self.write(self.SLOW)
+        process = self.start()
+        self.wait_for(lambda: len(self.starts()) > 1)
+        process.send_signal(signal.SIGTSTP)
+        self.wait_for(lambda: {state_of(path.parent) for path in self.processes_of_this_test()} <= {"T", "Z"})
+        kept = self.records()
+        time.sleep(1)  # twice what a run takes
+        self.assertEqual(self.records(), kept)
+        process.send_signal(signal.SIGCONT)
+        self.assertEqual(process.wait(60), 0, process.stderr.read())
+        process.stderr.close()
+
+    def test_who_reads_does_not_matter_to_it(self):
+        for streams in ("2>&-", "0<&- >&- 2>&-", "2>/dev/full", ">/dev/full", "2>&1 | head -1; exit ${PIPESTATUS[0]}"):
+            with self.subTest(streams):
+                self.write(self.SLOW)
+                ended = subprocess.run(["bash", "-c", f'"$@" {streams}', "bash", *self.command()], capture_output=True)
+                self.assertEqual(ended.returncode, 0, ended.stderr)
+                self.assertEqual(len(self.table()), 6)
+                shutil.rmtree(self.out)
 
     def processes_of_this_test(self):
         found = []

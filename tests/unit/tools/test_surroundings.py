@@ -68,6 +68,12 @@ class Settings(Surroundings):
         self.assertIn("größe 砥", done.stderr.decode())
         self.assertIn("größe 砥", (self.out / "report.html").read_text(encoding="utf-8"))
 
+    def test_a_folder_whose_name_is_no_text_has_a_report(self):
+        self.case = self.case.rename(self.folder / "caf\udce9")
+        done = subprocess.run(self.command(), capture_output=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("caf", (self.out / "report.html").read_text(encoding="utf-8"))
+
     @unittest.skipUnless(NO_LOCKS, "needs the library")
     def test_a_file_system_without_locks_bears_runs(self):
         done = subprocess.run(self.command(), capture_output=True, text=True, env=os.environ | {"LD_PRELOAD": NO_LOCKS})

@@ -14,8 +14,9 @@ def duration(seconds):
 class Progress:
     """Rewritten in place on a terminal; otherwise a line for each run that ends."""
 
-    def __init__(self, stream=sys.stderr):
-        self.stream, self.terminal = stream, stream.isatty()
+    def __init__(self, stream=None):
+        self.stream = stream or sys.stderr
+        self.terminal = self.stream.isatty()
         self.last = 0.0
 
     def begin(self, total, known, jobs):

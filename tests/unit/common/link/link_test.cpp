@@ -1,7 +1,9 @@
 /// The coupler's end of the link against a fluid that is written on the bare messages, so that it can say
 /// what the participant interface would not: the wrong session, a stale window, other units.
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -11,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "common/error/machine.hpp"
 #include "common/link/coupler_link.hpp"
 #include "common/link/dds.hpp"
 #include "common/link/process.hpp"
@@ -194,6 +197,27 @@ TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
   EXPECT_TRUE(node.wait(2s, waiting));
   EXPECT_FALSE(node.wait(20ms, waiting)) << "as without spinning";
   EXPECT_TRUE(reader.take([](const toryu_Status&) {})) << "the message is still there";
+}
+
+TEST(Node, NamesThePortsThatAreTaken) {
+  const auto place =
+      dds::rendezvous(std::filesystem::temp_directory_path() / fmt::format("toryu_ports_{}", getpid()));
+  std::vector<int> held;
+  for (unsigned port = 7400 + 250 * place.domain; port < 7650 + 250 * place.domain; ++port) {
+    sockaddr_in self{};
+    self.sin_family = AF_INET;
+    self.sin_port = htons(static_cast<std::uint16_t>(port));
+    self.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    held.push_back(socket(AF_INET, SOCK_DGRAM, 0));
+    (void)!bind(held.back(), reinterpret_cast<sockaddr*>(&self),
+                sizeof self);  // or another holds it: as good
+  }
+  EXPECT_THAT([&] { dds::Node{place}; },
+              ThrowsMessage<MachineFailure>(
+                  testing::AllOf(HasSubstr("free participant index"),
+                                 HasSubstr(fmt::format("of {} to {} on 127.0.0.1", 7400 + 250 * place.domain,
+                                                       7649 + 250 * place.domain)))));
+  for (const int each : held) close(each);
 }
 
 TEST_F(LinkTest, HandshakeCarriesTheInterface) {
