@@ -35,7 +35,8 @@ class Plan:
 
     def end_when_asked(self, code):
         for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: sys.exit(int(code)))
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, lambda *_: sys.exit(int(code)))
 
     def checkpoint_when_asked(self, seconds):
         """Takes so long for a last checkpoint, then ends."""

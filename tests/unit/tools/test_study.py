@@ -200,6 +200,7 @@ class Stopped(Study):
         kept = self.records()
         time.sleep(1)  # twice what a run takes
         self.assertEqual(self.records(), kept)
+        self.assertGreater(len(self.processes_of_this_test()), 1)  # its runs are still there
         process.send_signal(signal.SIGCONT)
         self.assertEqual(process.wait(60), 0, process.stderr.read())
         process.stderr.close()
