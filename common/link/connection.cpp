@@ -28,8 +28,8 @@ Connection::Connection(const LinkSettings& settings, toryu_Role role)
       node_(dds::rendezvous(settings.out)),
       hello_(node_, wire::hello),
       status_(node_, wire::status),
-      sessions_(node_, wire::session),
-      checkpoint_requests_(node_, wire::checkpoint_request),
+      sessions_(node_, wire::session, coupler_),
+      checkpoint_requests_(node_, wire::checkpoint_request, coupler_),
       checkpoint_reports_(node_,
                           role == toryu_FLUID ? wire::checkpoint_from_fluid : wire::checkpoint_from_solid),
       time_limit_(settings.time_limit) {}
@@ -42,7 +42,6 @@ Connection::~Connection() {
 void Connection::write_hello() {
   std::string units = wire::units;
   toryu_Hello message{};
-  message.sender = id_;
   message.session_id = session_;
   message.role = role_;
   message.program = settings_.role.data();
@@ -66,7 +65,6 @@ void Connection::write_hello() {
 void Connection::write_status(toryu_Activity activity, ExitCode code, const std::string& reason) {
   std::string text = reason;
   toryu_Status message{};
-  message.sender = id_;
   message.session_id = session_;
   message.window = window_.number;
   message.steps = steps_;
@@ -105,13 +103,14 @@ void Connection::handle_session(const toryu_Session& session) {
     if (code != ExitCode::done) throw_ending({code, session.reason});
     return;
   }
-  if (taken_in != 0 && taken_in != id_) {
+  if (taken_in != 0 && taken_in != node_.id()) {
     left_ = true;
     throw BadInput(
         {{.place = settings_.role, .message = "another process has this part in the run already"}});
   }
-  if (taken_in == id_ && session_ == 0) {
+  if (taken_in == node_.id() && session_ == 0) {
     session_ = session.session_id;
+    coupler_ = session.sender;
     time_limit_ = session.time_limit;
     write_hello();
   }
@@ -240,7 +239,7 @@ void Connection::confirm_checkpoint(const std::function<void()>& write) {
   } catch (const std::exception& reason) {
     failure = reason.what();
   }
-  checkpoint_reports_.write({answer(), failure.data()});
+  checkpoint_reports_.write(wire::report_of_checkpoint(answer(), failure));
 }
 
 double Connection::compute_time() {

@@ -37,6 +37,7 @@ class Connection {
   double waiting_time() const { return waiting_time_; }
 
   dds::Node& node() { return node_; }
+  const std::uint64_t& coupler() const { return coupler_; }
   std::uint64_t session() const { return session_; }
   double reach() const { return traits_.reach; }
   bool windows_repeat() const { return windows_repeat_; }
@@ -57,9 +58,9 @@ class Connection {
 
   LinkSettings settings_;
   toryu_Role role_;
-  const std::uint64_t id_ = dds::random_id();
   std::string process_;
   dds::Node node_;
+  std::uint64_t coupler_ = dds::anybody;  // who took this side in, and alone is listened to then
   dds::Writer<toryu_Hello> hello_;
   dds::Writer<toryu_Status> status_;
   dds::Reader<toryu_Session> sessions_;

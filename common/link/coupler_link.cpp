@@ -9,6 +9,7 @@
 #include "common/error/failure.hpp"
 #include "common/link/dds.hpp"
 #include "common/link/roster.hpp"
+#include "common/link/run_secret.hpp"
 #include "common/link/session.hpp"
 #include "common/link/wire.hpp"
 #include "common/run/interruption.hpp"
@@ -26,16 +27,16 @@ constexpr auto shutdown_timeout = 3s;  // longest wait for both to hear of the e
 
 /// What is handed to and fro in turns.
 struct Turns {
-  explicit Turns(dds::Node& node)
-      : interface_from_solid(node, wire::interface_from_solid),
+  Turns(dds::Node& node, const Roster& roster)
+      : interface_from_solid(node, wire::interface_from_solid, roster.solid().id),
         interface_to_fluid(node, wire::interface_to_fluid),
         motion_to_fluid(node, wire::motion_to_fluid),
-        load_from_fluid(node, wire::load_from_fluid),
+        load_from_fluid(node, wire::load_from_fluid, roster.fluid().id),
         load_to_solid(node, wire::load_to_solid),
-        motion_from_solid(node, wire::motion_from_solid),
+        motion_from_solid(node, wire::motion_from_solid, roster.solid().id),
         checkpoint_request(node, wire::checkpoint_request),
-        checkpoint_from_fluid(node, wire::checkpoint_from_fluid),
-        checkpoint_from_solid(node, wire::checkpoint_from_solid) {}
+        checkpoint_from_fluid(node, wire::checkpoint_from_fluid, roster.fluid().id),
+        checkpoint_from_solid(node, wire::checkpoint_from_solid, roster.solid().id) {}
 
   dds::Reader<toryu_Interface> interface_from_solid;
   dds::Writer<toryu_Interface> interface_to_fluid;
@@ -58,7 +59,7 @@ struct CouplerLink::Connection {
         node(dds::rendezvous(settings.out)),
         session(node, settings.time_limit),
         roster(node, session, settings),
-        turns(node) {}
+        turns(node, roster) {}
 
   LinkSettings settings;
   dds::Node node;
@@ -126,6 +127,7 @@ CouplerLink::CouplerLink(const LinkSettings& settings) : connection_(std::make_u
 
 CouplerLink::~CouplerLink() {
   stop(ExitCode::bug, "coupler ended before the run was over");
+  forget_run_secret(connection_->settings.out);
 }
 
 CouplerLink::Partners CouplerLink::gather(const Requirements& requirements) {
@@ -204,8 +206,7 @@ SolidAnswer CouplerLink::await_solid(const Window& window) {
 
 std::vector<std::string> CouplerLink::write_checkpoint(const Window& window, const std::string& folder) {
   Connection& c = *connection_;
-  std::string name = folder;
-  c.turns.checkpoint_request.write({wire::window(c.session.id(), window), name.data()});
+  c.turns.checkpoint_request.write(wire::request_of_checkpoint(wire::window(c.session.id(), window), folder));
   std::vector<std::string> failures;
   const auto await = [&](auto& reader, const Participant& sender) {
     c.await(reader, sender, window, "write its checkpoint", [&](const toryu_CheckpointReport& report) {

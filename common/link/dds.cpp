@@ -4,7 +4,6 @@
 #include <dds/ddsrt/log.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,6 +15,7 @@
 
 #include "common/error/failure.hpp"
 #include "common/error/machine.hpp"
+#include "common/link/run_secret.hpp"
 #include "common/run/log.hpp"
 
 namespace toryu::dds {
@@ -42,12 +42,6 @@ constexpr const char* configuration = R"(<CycloneDDS><Domain>
   </Discovery>
   <Internal><WriterLingerDuration>0s</WriterLingerDuration></Internal>
 </Domain></CycloneDDS>)";
-
-std::uint64_t fnv1a(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const unsigned char c : text) hash = (hash ^ c) * 1099511628211ULL;
-  return hash;
-}
 
 std::string last_words;  ///< Cyclone's last error, which says more than its return code
 
@@ -84,7 +78,7 @@ void require_set_up(dds_return_t code, const Rendezvous& place) {
   throw MachineFailure(fmt::format(
       "the programs of a coupled run cannot meet: {}; they need a pair of UDP ports each, of {} to {} on "
       "127.0.0.1: "
-      "end what holds those ('ss -uanp' shows it), or give --out another folder, which takes other ports",
+      "end what holds those ('ss -uanp' shows it), or start again, which takes others",
       last_words.empty() ? dds_strretcode(code) : last_words, 7400 + 250 * place.domain,
       7400 + 250 * place.domain + 249));
 }
@@ -133,15 +127,15 @@ void require(dds_return_t code, const std::string& topic) {
   throw std::runtime_error(fmt::format("Cyclone DDS, {}: {}", topic, dds_strretcode(code)));
 }
 
+void throw_damaged(const std::string& topic) {
+  throw PeerLost(fmt::format("a message of '{}' was damaged on its way: its check sum is wrong", topic));
+}
+
 Rendezvous rendezvous(const std::filesystem::path& out) {
-  // Two containers on one network may have two folders of one path; what tells them apart is where they lie.
-  struct stat folder {};
-  const std::string place = stat(out.c_str(), &folder) == 0
-                                ? fmt::format("{}:{}", folder.st_dev, folder.st_ino)
-                                : std::filesystem::weakly_canonical(std::filesystem::absolute(out)).string();
-  const std::uint64_t hash = fnv1a(place);
+  const RunSecret secret = run_secret(out);
   // The ports of domain d start at 7400 + 250 d; from 101 on they would reach into the ephemeral ones.
-  return {static_cast<std::uint32_t>(1 + hash % 100), fmt::format("toryu-{:016x}", hash)};
+  return {static_cast<std::uint32_t>(1 + secret.name % 100), fmt::format("toryu-{:016x}", secret.name),
+          secret.key};
 }
 
 std::uint64_t random_id() {
@@ -149,7 +143,7 @@ std::uint64_t random_id() {
   return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;
 }
 
-Node::Node(const Rendezvous& place) : domain_(join_domain(place)) {
+Node::Node(const Rendezvous& place) : key_(place.key), domain_(join_domain(place)) {
   participant_ = dds_create_participant(place.domain, nullptr, nullptr);
   require_set_up(participant_, place);
   waitset_ = dds_create_waitset(participant_);
@@ -158,6 +152,13 @@ Node::Node(const Rendezvous& place) : domain_(join_domain(place)) {
 
 Node::~Node() {
   dds_delete(participant_);
+  if (refused_ > 1) log::warn("refused {} messages that are not of this run", refused_);
+}
+
+void Node::note_refused(const std::string& topic) {
+  if (++refused_ == 1)
+    log::warn("refused a message of '{}' that is not of this run; further ones are counted in silence",
+              topic);
 }
 
 dds_entity_t Node::make_topic(const dds_topic_descriptor_t& type, const std::string& topic) const {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "common/link/seal.hpp"
 #include "common/link/spin.hpp"
-#include "messages.h"
 
 namespace toryu::dds {
 
@@ -23,18 +23,23 @@ inline constexpr int lease_ms = 500;
 /// a busy machine is late at times [ms].
 inline constexpr std::chrono::milliseconds grace{2500};
 
-/// Processes meet if they agree on both: the domain sets the ports, the tag keeps runs apart that share them.
+/// Processes meet if they agree on all: the domain sets the ports, the tag keeps runs apart that share them,
+/// the key seals their messages.
 struct Rendezvous {
   std::uint32_t domain;
   std::string tag;
+  std::uint64_t key;
 };
 
-/// Follows from the results folder itself (from its absolute path as long as there is none), so that programs
-/// started by hand find each other.
+/// Follows from the secret in the results folder, so that programs started by hand find each other and nobody
+/// else does: neither who has a folder of the same path elsewhere, nor who kept messages of an earlier run.
 Rendezvous rendezvous(const std::filesystem::path& out);
 
 /// Random and never 0: names a process or a run.
 std::uint64_t random_id();
+
+/// Whose messages a reader takes that does not listen to one process alone.
+inline constexpr std::uint64_t anybody = 0;
 
 /// This process's seat in a run: the DDS participant and all that hangs on it, deleted together.
 class Node {
@@ -50,6 +55,11 @@ class Node {
   bool wait(std::chrono::milliseconds longest) const;
   /// The same, but that it looks for them as long as `waiting` may spin before it sleeps.
   bool wait(std::chrono::milliseconds longest, SpinningWait& waiting) const;
+  /// The sender of what is written here, and the key of all that is written and read.
+  std::uint64_t id() const { return id_; }
+  std::uint64_t key() const { return key_; }
+  /// Takes note of a message that was refused, and tells of the first.
+  void note_refused(const std::string& topic);
   /// Throws PeerLost if another process offers or asks for a topic on terms that can never match, BadInput if
   /// with messages of another shape.
   void check_quality() const;
@@ -63,6 +73,8 @@ class Node {
     std::string topic;
     bool reads;
   };
+  const std::uint64_t id_ = random_id(), key_;
+  std::uint64_t refused_ = 0;
   std::shared_ptr<const dds_entity_t> domain_;
   dds_entity_t participant_ = 0;
   dds_entity_t waitset_ = 0;
@@ -108,19 +120,28 @@ inline const dds_topic_descriptor_t& descriptor<toryu_CheckpointReport>() {
 /// Throws PeerLost for a time-out and std::runtime_error for any other fault of a call on `topic`.
 void require(dds_return_t code, const std::string& topic);
 
+/// Throws PeerLost: a message of a process of this run does not say what was sent.
+[[noreturn]] void throw_damaged(const std::string& topic);
+
 template <class Message>
 class Writer {
  public:
   Writer(Node& node, std::string topic)
-      : topic_(std::move(topic)), entity_(node.make_writer(descriptor<Message>(), topic_)) {}
-  /// Copies the message; may block up to a second if the reader's process is stopped.
-  void write(const Message& message) { require(dds_write(entity_, &message), topic_); }
+      : node_(node), topic_(std::move(topic)), entity_(node.make_writer(descriptor<Message>(), topic_)) {}
+  /// Copies the message, with its sender and seal; may block up to a second if the reader's process is
+  /// stopped.
+  void write(Message message) {
+    message.sender = node_.id();
+    message.seal = seal_of(message, node_.key());
+    require(dds_write(entity_, &message), topic_);
+  }
   /// Waits until every reader has all that was written, at most `longest`.
   void flush(std::chrono::milliseconds longest) noexcept {
     dds_wait_for_acks(entity_, DDS_MSECS(longest.count()));
   }
 
  private:
+  const Node& node_;
   std::string topic_;
   dds_entity_t entity_;
 };
@@ -128,18 +149,26 @@ class Writer {
 template <class Message>
 class Reader {
  public:
-  Reader(Node& node, std::string topic)
-      : topic_(std::move(topic)), entity_(node.make_reader(descriptor<Message>(), topic_)) {}
+  /// Takes messages of the sender that `from` names, of anybody while it is 0.
+  Reader(Node& node, std::string topic, const std::uint64_t& from = anybody)
+      : node_(node),
+        from_(from),
+        topic_(std::move(topic)),
+        entity_(node.make_reader(descriptor<Message>(), topic_)) {}
 
-  /// Hands one new message to `use`; false if there was none. The message lives during the call only.
+  /// Hands one new message to `use`; false if there was none. The message lives during the call only. What
+  /// comes from another sender, or from nobody known without the seal of the run, is passed over and counted.
+  /// Throws PeerLost if a message of the sender was damaged.
   template <class Use>
   bool take(Use&& use) {
     for (;;) {
       const Loan loan(*this);
       if (loan.count == 0) return false;
       if (!loan.info.valid_data) continue;  // news of a writer's end, not a message
+      const auto& message = *static_cast<const Message*>(loan.sample);
+      if (!admits(message)) continue;
       age_ = std::chrono::nanoseconds(dds_time() - loan.info.source_timestamp);
-      use(*static_cast<const Message*>(loan.sample));
+      use(message);
       return true;
     }
   }
@@ -155,6 +184,14 @@ class Reader {
   }
 
  private:
+  bool admits(const Message& message) {
+    const bool sealed = message.seal == seal_of(message, node_.key());
+    if (sealed && (from_ == anybody || message.sender == from_)) return true;
+    if (!sealed && from_ != anybody && message.sender == from_) throw_damaged(topic_);
+    node_.note_refused(topic_);
+    return false;
+  }
+
   struct Loan {
     explicit Loan(const Reader& from) : reader(from) {
       count = dds_take(reader.entity_, &sample, &info, 1, 1);
@@ -170,6 +207,8 @@ class Reader {
     dds_sample_info_t info{};
     dds_return_t count = 0;
   };
+  Node& node_;
+  const std::uint64_t& from_;
   std::string topic_;
   dds_entity_t entity_;
   std::chrono::nanoseconds age_{0};

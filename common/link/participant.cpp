@@ -8,8 +8,8 @@ namespace toryu {
 struct FluidLink::Connection : toryu::Connection {
   explicit Connection(const LinkSettings& settings)
       : toryu::Connection(settings, toryu_FLUID),
-        interfaces(node(), wire::interface_to_fluid),
-        motions(node(), wire::motion_to_fluid),
+        interfaces(node(), wire::interface_to_fluid, coupler()),
+        motions(node(), wire::motion_to_fluid, coupler()),
         loads(node(), wire::load_from_fluid) {}
   dds::Reader<toryu_Interface> interfaces;
   dds::Reader<toryu_Motion> motions;
@@ -87,7 +87,7 @@ struct SolidLink::Connection : toryu::Connection {
   explicit Connection(const LinkSettings& settings)
       : toryu::Connection(settings, toryu_SOLID),
         interfaces(node(), wire::interface_from_solid),
-        loads(node(), wire::load_to_solid),
+        loads(node(), wire::load_to_solid, coupler()),
         motions(node(), wire::motion_from_solid) {}
   dds::Writer<toryu_Interface> interfaces;
   dds::Reader<toryu_Load> loads;

@@ -75,6 +75,20 @@ toryu_Interface interface_message(std::uint64_t session_id, const Interface& int
   return message;
 }
 
+toryu_CheckpointRequest request_of_checkpoint(const toryu_WindowHead& window, const std::string& folder) {
+  toryu_CheckpointRequest message{};
+  message.window = window;
+  message.folder = const_cast<char*>(folder.c_str());
+  return message;
+}
+
+toryu_CheckpointReport report_of_checkpoint(const toryu_WindowHead& window, const std::string& failure) {
+  toryu_CheckpointReport message{};
+  message.window = window;
+  message.failure = const_cast<char*>(failure.c_str());
+  return message;
+}
+
 Interface interface_of(const toryu_Interface& message) {
   Interface interface;
   interface.id.assign(message.id._buffer, message.id._buffer + message.id._length);

@@ -11,7 +11,7 @@
 namespace toryu::wire {
 
 /// Raised whenever a message changes its meaning; processes of different protocols refuse each other.
-inline constexpr std::uint32_t protocol = 5;
+inline constexpr std::uint32_t protocol = 6;
 inline constexpr const char* units = "SI";
 
 // A topic has one writer's role; what passes through the coupler has a topic on each of its sides.
@@ -35,6 +35,8 @@ toryu_Interface interface_message(std::uint64_t session_id, const Interface& int
                                   const InterfaceMotion& start);
 toryu_Motion motion(const toryu_WindowHead& window, const InterfaceMotion& motion);
 toryu_Load load(const toryu_WindowHead& window, const InterfaceLoad& load);
+toryu_CheckpointRequest request_of_checkpoint(const toryu_WindowHead& window, const std::string& folder);
+toryu_CheckpointReport report_of_checkpoint(const toryu_WindowHead& window, const std::string& failure);
 
 // From the wire.
 Window window(const toryu_WindowHead& message);

@@ -12,17 +12,6 @@
 #include "common/run/program.hpp"
 #include "messages_2.h"
 
-namespace toryu::dds {
-template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_2_Hello>() {
-  return toryu_2_Hello_desc;
-}
-template <>
-inline const dds_topic_descriptor_t& descriptor<toryu_2_Session>() {
-  return toryu_2_Session_desc;
-}
-}  // namespace toryu::dds
-
 namespace {
 
 using namespace toryu;
@@ -38,7 +27,7 @@ std::string program = "outdated_peer", nothing, units = wire::units;
 }
 
 void play_fluid(dds::Node& node) {
-  dds::Writer<toryu_2_Hello> writer(node, wire::hello);
+  const auto writer = node.make_writer(toryu_2_Hello_desc, wire::hello);
   toryu_2_Hello hello{};
   hello.sender = dds::random_id();
   hello.role = toryu_2_FLUID;
@@ -48,16 +37,16 @@ void play_fluid(dds::Node& node) {
   hello.units = units.data();
   hello.dimension = dim;
   hello.used_case = nothing.data();
-  writer.write(hello);
+  dds::require(dds_write(writer, &hello), wire::hello);
   wait();
 }
 
 void play_coupler(dds::Node& node) {
-  dds::Writer<toryu_2_Session> writer(node, wire::session);
+  const auto writer = node.make_writer(toryu_2_Session_desc, wire::session);
   toryu_2_Session session{};
   session.session_id = dds::random_id();
   session.reason = nothing.data();
-  writer.write(session);
+  dds::require(dds_write(writer, &session), wire::session);
   wait();
 }
 

@@ -252,6 +252,7 @@ def main(arguments):
     # what the user has set, stays
     environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ
     with hold(options.out, "launch.lock"):
+        (options.out / "run.secret").unlink(missing_ok=True)  # of a run that was killed
         if options.restart is None:
             set_former_aside(options)
         code, words = Run(commands, lead=next(iter(commands)), environment=environment)()

@@ -17,6 +17,7 @@
 #include "common/link/coupler_link.hpp"
 #include "common/link/dds.hpp"
 #include "common/link/process.hpp"
+#include "common/link/run_secret.hpp"
 #include "common/link/wire.hpp"
 
 namespace toryu {
@@ -51,7 +52,6 @@ class RawFluid {
                  std::uint32_t dimension = dim) {
     std::string program = "raw_fluid", nothing;
     toryu_Hello hello{};
-    hello.sender = id_;
     hello.role = toryu_FLUID;
     hello.program = program.data();
     hello.version = nothing.data();
@@ -69,7 +69,6 @@ class RawFluid {
   void say(toryu_Activity activity, bool interrupted = false) {
     std::string nothing;
     toryu_Status status{};
-    status.sender = id_;
     status.interrupted = interrupted;
     status.activity = activity;
     status.reason = nothing.data();
@@ -89,19 +88,30 @@ class RawFluid {
     const auto take = [&](const toryu_CheckpointRequest& request) { head = request.window; };
     while (!checkpoint_requests_.take(take)) node_.wait(50ms);
     head.number += skew;
-    checkpoint_reports_.write({head, failure.data()});
+    checkpoint_reports_.write(wire::report_of_checkpoint(head, failure));
   }
 
-  void answer(const toryu_WindowHead& head) {
+  void answer(const toryu_WindowHead& head, double pressure = 1) {
     const InterfaceLoad load{
-        std::vector<double>(particles, 1.0), std::vector<double>(dim * particles, 1.0), {}, Vec::Zero()};
+        std::vector<double>(particles, pressure), std::vector<double>(dim * particles, 1.0), {}, Vec::Zero()};
     toryu_Load message = wire::load(head, load);
     message.time_step_limit = 1;
     loads_.write(message);
   }
 
+  /// Answers with a load of which a bit was flipped on its way.
+  void answer_damaged(const toryu_WindowHead& head) {
+    const InterfaceLoad load{
+        std::vector<double>(particles, 1.0), std::vector<double>(dim * particles, 1.0), {}, Vec::Zero()};
+    toryu_Load message = wire::load(head, load);
+    message.time_step_limit = 1;
+    message.sender = node_.id();
+    message.seal = dds::seal_of(message, node_.key()) ^ 1;
+    const auto writer = node_.make_writer(toryu_Load_desc, wire::load_from_fluid);
+    dds::require(dds_write(writer, &message), wire::load_from_fluid);
+  }
+
  private:
-  std::uint64_t id_ = dds::random_id();
   dds::Node node_;
   dds::Writer<toryu_Hello> hello_{node_, wire::hello};
   dds::Writer<toryu_Status> statuses_{node_, wire::status};
@@ -114,7 +124,10 @@ class RawFluid {
 class LinkTest : public testing::Test {
  protected:
   LinkTest() { settings_.role = "coupler"; }
-  ~LinkTest() override { end(ExitCode::interrupted, "end of the test"); }
+  ~LinkTest() override {
+    end(ExitCode::interrupted, "end of the test");
+    for (const auto& folder : {settings_.out, elsewhere_}) std::filesystem::remove_all(folder);
+  }
 
   void end(ExitCode code, const std::string& reason) {
     if (fluid_) fluid_->say(toryu_LEFT);
@@ -133,12 +146,12 @@ class LinkTest : public testing::Test {
   }
 
   /// Where nobody else is. The domain is another than the coupler's, since a process makes each only once:
-  /// one folder in 25 has the same, and there a test would find the coupler.
-  LinkSettings impatient_elsewhere(const std::string& role) const {
+  /// one secret in 100 has the same, and there a test would find the coupler.
+  LinkSettings impatient_elsewhere(const std::string& role) {
     LinkSettings settings = settings_for(role);
     const auto domain = [](const auto& out) { return dds::rendezvous(out).domain; };
-    do settings.out += "_elsewhere";
-    while (domain(settings.out) == domain(settings_.out));
+    settings.out = elsewhere_ = settings.out.string() + "_elsewhere";
+    while (domain(settings.out) == domain(settings_.out)) forget_run_secret(settings.out);
     settings.time_limit = 0.3;
     return settings;
   }
@@ -173,6 +186,7 @@ class LinkTest : public testing::Test {
   Window window_{.number = 1, .iteration = 0, .time = 0, .dt = 1};
   InterfaceLoad load_{
       std::vector<double>(particles, 1.0), std::vector<double>(dim* particles, 1.0), {}, Vec::Zero()};
+  std::filesystem::path elsewhere_;
   std::filesystem::path restart_of_solid_, checkpoint_of_solid_;
   std::chrono::milliseconds work_after_answer_{0};  // of the solid
   LinkSettings settings_ = settings_for("coupler");
@@ -188,6 +202,7 @@ TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
   std::string nothing;
   toryu_Status status{};
   status.reason = nothing.data();
+  std::filesystem::remove_all(out);
   writer.write(status);
   EXPECT_TRUE(node.wait(2s));
   EXPECT_FALSE(node.wait(20ms)) << "a loop around it would spin";
@@ -272,6 +287,40 @@ TEST_F(LinkTest, MessageOfAnotherSessionIsPassedOver) {
   solid.get();
 }
 
+/// Another process with the secret and the id of the run, which answers in the fluid's place.
+TEST_F(LinkTest, AStrangerNeitherAnswersNorDisplacesAnAnswer) {
+  auto solid = start_solid();
+  fluid_->say_hello();
+  coupler_.gather({});
+  const auto start = coupler_.begin({});
+  RawFluid stranger(settings_.out);
+  for (window_.number = 1; window_.number <= 3; ++window_.number) {
+    const auto fluid = std::async(std::launch::async, [&] {
+      const auto head = fluid_->await_window();
+      for (int k = 0; k < 50; ++k) stranger.answer(head, 666);
+      fluid_->answer(head, 7);
+      for (int k = 0; k < 50; ++k) stranger.answer(head, 666);
+    });
+    coupler_.grant_fluid(window_, start.motion);
+    fluid.wait();
+    EXPECT_EQ(coupler_.await_fluid(window_).load.pressure, std::vector<double>(particles, 7.0));
+  }
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(LinkTest, ADamagedAnswerEndsTheRun) {
+  auto solid = start_solid();
+  fluid_->say_hello();
+  coupler_.gather({});
+  const auto start = coupler_.begin({});
+  const auto fluid = std::async(std::launch::async, [&] { fluid_->answer_damaged(fluid_->await_window()); });
+  EXPECT_THAT([&] { coupler_.ask_fluid(window_, start.motion); },
+              ThrowsMessage<PeerLost>(HasSubstr("a message of 'toryu/load_from_fluid' was damaged")));
+  end(ExitCode::done, "");
+  solid.get();
+}
+
 TEST_F(LinkTest, ACheckpointIsATurnOfBothAndSaysWhoCouldNot) {
   auto solid = run_one_window();
   const auto fluid = std::async(std::launch::async, [this] { fluid_->fail_checkpoint("no space"); });
@@ -329,7 +378,7 @@ TEST_F(LinkTest, AnInterruptedParticipantIsHeard) {
 TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
   fluid_->say_hello(wire::protocol + 1, "CGS", 3);
   EXPECT_THAT([&] { coupler_.gather({}); },
-              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 6, the coupler's is 5\n"
+              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 7, the coupler's is 6\n"
                                       "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
                                       "raw_fluid: error: dimension is 3, the coupler's is 2"));
 }
@@ -365,6 +414,7 @@ TEST(Lease, OfAProcessThatRunsMayLapse) {
   settings.time_limit = 4;  // longer than a lease and its grace
   EXPECT_THAT([&] { lose_the_fluid(settings, own_process()); },
               ThrowsMessage<PeerLost>("solid participant did not join within 4 s"));
+  std::filesystem::remove_all(settings.out);
 }
 
 TEST(Death, IsNoticedThoughTheLeaseHolds) {

@@ -93,32 +93,5 @@ TEST(Ending, OfABugElsewhereIsALostPeer) {
   EXPECT_THROW(throw_ending({ExitCode::bug, "why"}), PeerLost);
 }
 
-TEST(Rendezvous, FollowsFromTheFolder) {
-  const auto a = dds::rendezvous("out/a"), b = dds::rendezvous("out/b");
-  EXPECT_NE(a.tag, b.tag);
-  EXPECT_EQ(a.tag, dds::rendezvous("out/../out/./a").tag);
-  EXPECT_EQ(a.domain, dds::rendezvous(std::filesystem::absolute("out/a")).domain);
-  for (const auto& place : {a, b}) {
-    EXPECT_GE(place.domain, 1u);
-    EXPECT_LE(place.domain, 100u);
-  }
-}
-
-TEST(Rendezvous, FollowsFromWhereTheFolderLiesNotFromItsPath) {
-  const auto folder = std::filesystem::temp_directory_path() / ("toryu_place_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  const auto first = dds::rendezvous(folder).tag;
-  std::filesystem::create_symlink(folder, folder.string() + "_link");
-  EXPECT_EQ(dds::rendezvous(folder.string() + "_link").tag, first);
-  std::filesystem::remove(folder.string() + "_link");
-  // another folder of the same path, as in another container
-  std::filesystem::rename(folder, folder.string() + "_before");
-  std::filesystem::create_directories(folder);
-  EXPECT_NE(dds::rendezvous(folder).tag, first);
-  EXPECT_EQ(dds::rendezvous(folder.string() + "_before").tag, first);
-  std::filesystem::remove(folder);
-  std::filesystem::remove(folder.string() + "_before");
-}
-
 }  // namespace
 }  // namespace toryu
