@@ -100,7 +100,7 @@ void Connection::handle_session(const toryu_Session& session) {
     write_status(toryu_LEFT);  // so that the coupler knows that this side knows
     status_.flush(1s);
     const auto code = static_cast<ExitCode>(session.exit_code);
-    if (code != ExitCode::done) throw_ending({code, session.reason});
+    if (code != ExitCode::done) throw_ending({code, wire::text(session.reason)});
     return;
   }
   if (taken_in != 0 && taken_in != node_.id()) {

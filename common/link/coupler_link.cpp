@@ -210,7 +210,7 @@ std::vector<std::string> CouplerLink::write_checkpoint(const Window& window, con
   std::vector<std::string> failures;
   const auto await = [&](auto& reader, const Participant& sender) {
     c.await(reader, sender, window, "write its checkpoint", [&](const toryu_CheckpointReport& report) {
-      const std::string failure = report.failure;
+      const std::string failure = wire::text(report.failure);
       if (!failure.empty()) failures.push_back(sender.name() + ": " + failure);
     });
   };

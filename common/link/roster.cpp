@@ -33,7 +33,7 @@ void Roster::compare(const toryu_Hello& hello, const Participant& participant) c
   must_agree("protocol", hello.protocol, wire::protocol);
   must_agree("hash of the case", fmt::format("{:016x}", hello.case_hash),
              fmt::format("{:016x}", own_.case_hash));
-  must_agree("system of units", std::string(hello.units), std::string(wire::units));
+  must_agree("system of units", wire::text(hello.units), std::string(wire::units));
   must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
   const auto must_be_able = [&](bool asked, bool able, const char* message) {
     if (asked && !able) errors.push_back({.place = program, .message = message});
@@ -52,10 +52,11 @@ void Roster::accept(const toryu_Hello& hello) {
   Participant& participant = hello.role == toryu_FLUID ? fluid_ : solid_;
   if (participant.joined()) {
     if (participant.id != hello.sender)
-      log::warn("refused a second {} participant: {}", participant.part, hello.program);
+      log::warn("refused a second {} participant: {}", participant.part, wire::text(hello.program));
     return;
   }
-  participant.partner = {hello.program, hello.version, hello.used_case, hello.can_checkpoint};
+  participant.partner = {wire::text(hello.program), wire::text(hello.version), wire::text(hello.used_case),
+                         hello.can_checkpoint};
   participant.process = hello.process;
   participant.traits = {hello.reach, hello.time_step_limit, hello.density, hello.sound_speed, hello.spacing};
   participant.id = hello.sender;
@@ -86,7 +87,8 @@ void Roster::note(const toryu_Status& status) {
   participant->left = true;
   if (session_.over()) return;
   const auto code = static_cast<ExitCode>(status.exit_code);
-  const std::string reason = code == ExitCode::done ? "left before the end of the run" : status.reason;
+  const std::string reason =
+      code == ExitCode::done ? "left before the end of the run" : wire::text(status.reason);
   throw_ending({code, fmt::format("{}: {}", participant->name(), reason)});
 }
 
