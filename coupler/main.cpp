@@ -110,6 +110,7 @@ ExitCode couple(const Options& options) {
     print(file.description());
     return ExitCode::done;
   }
+  check_folder(file, options.out);
   file.throw_if_faulty();
   for (const auto& beyond : stability_warnings(file, coupling)) log::warn("{}", beyond);
   if (options.check) return ExitCode::done;

@@ -113,6 +113,7 @@ ExitCode solve(const Options& options) {
     print(file.description());
     return ExitCode::done;
   }
+  check_folder(file, options.out);
   file.throw_if_faulty();
   const auto made = fluid::make_model(parameters, scene);
   FluidModel& model = *made;

@@ -119,6 +119,7 @@ ExitCode solve(const Options& options) {
     print(file.description());
     return ExitCode::done;
   }
+  check_folder(file, options.out);
   file.throw_if_faulty();
   const Body body = build_body(
       parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); });

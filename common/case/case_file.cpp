@@ -1,8 +1,6 @@
 #include "common/case/case_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <sstream>
 #include <tuple>
 
@@ -11,12 +9,14 @@
 #include "common/case/nearest_word.hpp"
 #include "common/case/overrides.hpp"
 #include "common/case/read_table.hpp"
+#include "common/case/text_file.hpp"
 #include "common/case/write_table.hpp"
 
 namespace toryu {
 
 struct CaseFile::Content {
   std::filesystem::path file;
+  std::vector<std::filesystem::path> inputs;  ///< what was read
   std::string text;
   std::vector<std::string> overrides;
   toml::table root;
@@ -32,33 +32,58 @@ struct CaseFile::Content {
 
 namespace {
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw BadInput({{.place = file.string(), .message = "cannot be read"}});
-  return text.str();
+bool is_there(const toml::table& root, const std::string& section) {
+  const toml::node* node = root.get(section);
+  return node && node->value_exact<bool>() != false;
 }
 
-/// Parses `file` and, if it names a `base`, puts it into that. Appends what was read to `text`.
-toml::table read_document(const std::filesystem::path& file, std::string& text) {
-  const std::string own = read_text(file);
-  text += own;
-  toml::table changes = parse_document(own, file.string());
+Kind kind_of(const toml::table& root) {
+  if (root.contains("study")) return Kind::study;
+  const bool fluid = is_there(root, "fluid"), solid = is_there(root, "solid");
+  if (fluid && solid) return Kind::coupled;
+  return fluid ? Kind::fluid : solid ? Kind::solid : Kind::empty;
+}
+
+/// Path, line and column of every key and of every table in a list, below `path`.
+void add_places(const toml::node& node, const toml::array& path, toml::array& places) {
+  const auto add = [&](const auto& part, const toml::source_region& place, const toml::node& inner) {
+    toml::array here = path;
+    here.push_back(part);
+    places.push_back(toml::array(here, static_cast<std::int64_t>(place.begin.line),
+                                 static_cast<std::int64_t>(place.begin.column)));
+    add_places(inner, here, places);
+  };
+  if (const toml::table* table = node.as_table())
+    for (const auto& [key, inner] : *table) add(std::string(key.str()), key.source(), inner);
+  else if (const toml::array* array = node.as_array())
+    for (std::size_t i = 0; i < array->size(); ++i)
+      if (const toml::node& inner = *array->get(i); inner.is_table())
+        add(static_cast<std::int64_t>(i), inner.source(), inner);
+}
+
+/// Parses `file` and, if it names a `base`, puts it into that. Appends what was read to `text` and `inputs`.
+toml::table read_document(const std::filesystem::path& file, std::string& text,
+                          std::vector<std::filesystem::path>& inputs) {
+  text += read_text(file, largest_case);
+  inputs.push_back(file);
+  toml::table changes = parse_document(text, file.string());
   const auto entry = changes.find("base");
-  if (entry == changes.end()) return changes;
+  if (entry == changes.end() || kind_of(changes) == Kind::study) return changes;
   const auto place = entry->first.source();
   const auto name = entry->second.value_exact<std::string>();
   const auto base = file.parent_path() / name.value_or("");
-  if (!name || std::filesystem::path(*name).has_parent_path() || !std::filesystem::is_regular_file(base))
+  if (!name || std::filesystem::path(*name).has_parent_path() || !is_file(base))
     throw BadInput(
         {fault_at(place, "'base' must name a case file beside this one, found " + found(entry->second))});
   changes.erase("base");
-  toml::table root = parse_document(read_text(base), base.string());
+  const std::string base_text = read_text(base, largest_case);
+  inputs.push_back(base);
+  toml::table root = parse_document(base_text, base.string());
   if (const auto next = root.find("base"); next != root.end())
     throw BadInput({fault_at(next->first.source(),
                              "a case file that others have as their base cannot have one itself")});
-  text += read_text(base);
+  if (kind_of(root) == Kind::study) throw BadInput({fault_at(place, "'base' names a study, not a case")});
+  text += base_text;
   merge_document(root, std::move(changes));
   return root;
 }
@@ -70,21 +95,24 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 }  // namespace
 
 std::filesystem::path find_case_file(const std::filesystem::path& path) {
-  std::error_code failure, none;
-  if (std::filesystem::is_regular_file(path, failure)) return path;
-  auto file = path / "case.toml";
-  if (std::filesystem::is_regular_file(file, none)) return file;
-  const bool folder = std::filesystem::is_directory(path, none), absent = failure.value() == ENOENT;
-  throw BadInput({{.place = path.string(),
-                   .message = folder               ? "this folder holds no case.toml"
-                              : absent || !failure ? "no such file or folder"
-                                                   : "cannot be read: " + failure.message()}});
+  std::error_code error;
+  const auto type = std::filesystem::status(path, error).type();
+  if (type == std::filesystem::file_type::regular) return path;
+  const auto file = path / "case.toml";
+  const bool folder = type == std::filesystem::file_type::directory;
+  if (folder && is_file(file)) return file;
+  const std::string message = folder ? "this folder holds no case.toml"
+                              : type == std::filesystem::file_type::not_found ? "no such file or folder"
+                              : error ? "cannot be read: " + error.message()
+                                      : "is neither a file nor a folder";
+  throw BadInput({{.place = path.string(), .message = message}});
 }
 
 std::string case_name(const std::filesystem::path& file) {
   const auto path = std::filesystem::absolute(file).lexically_normal();
   const std::string folder = path.parent_path().filename().string();
-  return path.stem() == "case" ? folder : folder + "_" + path.stem().string();
+  if (path.stem() == "case") return folder.empty() ? "case" : folder;  // a case in the root folder
+  return folder + "_" + path.stem().string();
 }
 
 CaseFile::CaseFile(const std::filesystem::path& path, const std::vector<std::string>& overrides)
@@ -93,7 +121,7 @@ CaseFile::CaseFile(const std::filesystem::path& path, const std::vector<std::str
   c.overrides = overrides;
   if (!path.empty()) {
     c.file = find_case_file(path);
-    c.root = read_document(c.file, c.text);
+    c.root = read_document(c.file, c.text, c.inputs);
   }
   c.start = {{1, 1}, {1, 1}, std::make_shared<const std::string>(c.file.string())};
   for (const auto& text : overrides)
@@ -104,8 +132,11 @@ CaseFile::CaseFile(const std::filesystem::path& path, const std::vector<std::str
 CaseFile::~CaseFile() = default;
 
 bool CaseFile::has(const std::string& section) const {
-  const toml::node* node = content_->root.at_path(section).node();
-  return node && node->value_exact<bool>() != false;
+  return is_there(content_->root, section);
+}
+
+Kind CaseFile::kind() const {
+  return kind_of(content_->root);
 }
 
 void CaseFile::visit(const std::function<void(ParameterTable&)>& description) {
@@ -131,8 +162,15 @@ void CaseFile::fault(const std::string& key, const std::string& message) {
   content_->faults.push_back(fault_at(place_of(content_->root, key, content_->start), message));
 }
 
+void CaseFile::fault(const InputError& fault) {
+  content_->faults.push_back(fault);
+}
+
 void CaseFile::throw_if_faulty() const {
   const Content& c = *content_;
+  if (kind() == Kind::study)
+    throw BadInput({fault_at(c.root.find("study")->first.source(),
+                             "this is a study, and a program computes a case; ./run.sh runs both")});
   std::vector<InputError> faults = c.faults;
   for (const auto& [section, fault] : c.override_faults)
     if (!contains(c.left_sections, section)) faults.push_back(fault);
@@ -162,13 +200,33 @@ void CaseFile::throw_if_faulty() const {
   throw BadInput(faults);
 }
 
-std::string CaseFile::merged() const {
+void CaseFile::throw_if_overrides_faulty() const {
   std::vector<InputError> faults;
   for (const auto& [section, fault] : content_->override_faults) faults.push_back(fault);
   if (!faults.empty()) throw BadInput(faults);
+}
+
+std::string CaseFile::merged() const {
+  throw_if_overrides_faulty();
   std::ostringstream text;
   text << toml::toml_formatter(content_->root);
   return text.str();
+}
+
+std::string CaseFile::resolved() const {
+  throw_if_overrides_faulty();
+  toml::table resolved;
+  const char* const kinds[] = {"study", "coupled", "fluid", "solid", "empty"};
+  toml::array inputs, places;
+  for (const auto& file : content_->inputs) inputs.push_back(file.string());
+  add_places(content_->root, {}, places);
+  resolved.insert("kind", kinds[static_cast<int>(kind())]);
+  resolved.insert("file", content_->file.string());
+  resolved.insert("name", name());
+  resolved.insert("inputs", inputs);
+  resolved.insert("content", content_->root);
+  resolved.insert("places", places);
+  return json_text(resolved);
 }
 
 std::string CaseFile::used() const {
@@ -193,6 +251,10 @@ std::uint64_t CaseFile::hash() const {
   add(content_->text);
   for (const auto& text : content_->overrides) add(text);
   return hash;
+}
+
+const std::vector<std::filesystem::path>& CaseFile::inputs() const {
+  return content_->inputs;
 }
 
 std::filesystem::path CaseFile::folder() const {

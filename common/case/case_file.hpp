@@ -14,6 +14,9 @@
 
 namespace toryu {
 
+/// What a file describes. A study is told by its table [study], a case by its sections.
+enum class Kind { study, coupled, fluid, solid, empty };
+
 /// The file that a user means by `path`: a case.toml, or a folder that holds one. Throws BadInput if there is
 /// none.
 std::filesystem::path find_case_file(const std::filesystem::path& path);
@@ -29,6 +32,7 @@ class CaseFile {
   CaseFile(const std::filesystem::path& path, const std::vector<std::string>& overrides);
   ~CaseFile();
 
+  Kind kind() const;
   /// Whether the top-level section is there, and not `false`.
   bool has(const std::string& section) const;
 
@@ -51,12 +55,16 @@ class CaseFile {
   /// Adds a fault that the owner of a section found by itself, at the place of `key`: a path with items by
   /// number or name ("fluid.region.0.box").
   void fault(const std::string& key, const std::string& message);
+  /// Adds a fault of another file that the case names.
+  void fault(const InputError& fault);
   /// Throws BadInput with all faults, unknown top-level sections among them, sorted by line.
   void throw_if_faulty() const;
 
   /// The case as TOML, with its base merged and the overrides applied, whether or not anyone reads its
   /// sections. Throws BadInput with the faults of the overrides.
   std::string merged() const;
+  /// The same as JSON, with the kind, the name, the files that were read and the place of every key.
+  std::string resolved() const;
   /// The sections read so far with every value, defaults included, as TOML that repeats the run.
   std::string used() const;
   /// The sections read so far as a table of key, unit, default, range and help.
@@ -64,6 +72,8 @@ class CaseFile {
 
   /// A hash of the text and the overrides, equal in all participants of a run.
   std::uint64_t hash() const;
+  /// The files that were read: the case's own and its base.
+  const std::vector<std::filesystem::path>& inputs() const;
   /// The folder of the file: paths in a case are relative to it.
   std::filesystem::path folder() const;
   /// The folder's name: the case's.
@@ -71,6 +81,7 @@ class CaseFile {
 
  private:
   void visit(const std::function<void(ParameterTable&)>& description);
+  void throw_if_overrides_faulty() const;
   struct Content;
   std::unique_ptr<Content> content_;
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
+
+#include "common/case/depth.hpp"
 
 namespace toryu {
 
@@ -22,8 +25,11 @@ void merge_items(toml::array& base, toml::array&& changes) {
 }  // namespace
 
 toml::table parse_document(const std::string& text, const std::string& place) {
+  check_keys(text, place);
   try {
-    return toml::parse(std::string_view(text), std::string_view(place));
+    toml::table document = toml::parse(std::string_view(text), std::string_view(place));
+    check_levels(document, place);
+    return document;
   } catch (const toml::parse_error& error) {
     throw BadInput({fault_at(error.source(), fmt::format("not valid TOML: {}", error.description()))});
   }
@@ -100,6 +106,13 @@ toml::source_region place_of(const toml::table& table, const std::string& path,
     }
   }
   return place;
+}
+
+std::string json_text(const toml::node& node) {
+  std::ostringstream text;
+  text << toml::json_formatter(
+      node, toml::json_formatter::default_flags & ~toml::format_flags::quote_infinities_and_nans);
+  return text.str();
 }
 
 std::string found(const toml::node& node) {

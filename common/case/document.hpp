@@ -12,7 +12,8 @@
 
 namespace toryu {
 
-/// Parses `text`, which was found at `place` (a file's name, an override). Throws BadInput if it is not TOML.
+/// Parses `text`, which was found at `place` (a file's name, an override). Throws BadInput if it is not TOML,
+/// or deeper than depth.hpp allows.
 toml::table parse_document(const std::string& text, const std::string& place);
 
 /// Puts what `changes` says into `base`: sections key by key; an item of a list of sections into the item of
@@ -35,6 +36,9 @@ std::vector<std::string> split_path(const std::string& path);
 
 /// The index of the item of an array of tables that `part` means: a number from 0, or the item's `name`.
 std::optional<std::size_t> item_index(const toml::array& array, const std::string& part);
+
+/// JSON, with Infinity and NaN for numbers that are not finite, as Python reads it.
+std::string json_text(const toml::node& node);
 
 /// What a node is, for a user: `the text "abc"`, `the number 0.5`, `a section`.
 std::string found(const toml::node& node);

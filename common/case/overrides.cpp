@@ -1,5 +1,6 @@
 #include "common/case/overrides.hpp"
 
+#include "common/case/depth.hpp"
 #include "common/case/nearest_word.hpp"
 
 namespace toryu {
@@ -74,6 +75,8 @@ std::optional<InputError> apply_override(toml::table& root, const std::string& t
   for (const auto& part : parts) empty_part |= part.empty();
   if (equals == std::string::npos || empty_part)
     return InputError{.place = typed, .message = "expected section.key=value"};
+  if (parts.size() > most_key_parts)
+    return InputError{.place = typed, .message = fmt::format("a key of more than {} parts", most_key_parts)};
 
   toml::table document = parse_value(text.substr(equals + 1), typed);
   toml::node& value = *document.get("value");

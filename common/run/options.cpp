@@ -18,7 +18,8 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 struct Typed {
   std::string case_path, out, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
-  bool check = false, describe = false, print_case = false, restart = false, overwrite = false;
+  bool check = false, describe = false, print_case = false, resolved = false, restart = false,
+       overwrite = false;
   bool can_checkpoint = false, version = false, help = false;
 };
 
@@ -45,6 +46,10 @@ void declare(CLI::App& app, Typed& typed) {
   app.add_flag("--overwrite", typed.overwrite, "Replace the results that the folder holds");
   app.add_flag("--print-case", typed.print_case,
                "Print the case as it is read, with its base and the values of --set, as TOML");
+  app.add_flag(
+      "--resolved", typed.resolved,
+      "Print the same as JSON with its kind, its files, the points of its references and the place of "
+      "every key");
   app.add_flag("--can-checkpoint", typed.can_checkpoint,
                "Print whether the program can write a checkpoint: yes or no");
   app.add_flag("--version", typed.version, "Print the version and the commit");
@@ -103,6 +108,7 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
   options.restart = typed.restart;
   options.overwrite = typed.overwrite;
   options.print_case = typed.print_case;
+  options.resolved = typed.resolved;
   std::vector<InputError> faults = extra_faults(app);
   if (const auto threads = thread_count(typed.threads))
     options.threads = *threads;

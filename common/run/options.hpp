@@ -16,6 +16,7 @@ struct Options {
   bool check = false;       ///< read and check the case, then end
   bool describe = false;    ///< print the parameters, then end
   bool print_case = false;  ///< print the case as it is read, then end
+  bool resolved = false;    ///< print what the case comes to for other programs, then end
   bool restart = false;     ///< go on from the newest checkpoint in `out`
   bool overwrite = false;   ///< replace results that `out` holds
 };

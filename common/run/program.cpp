@@ -14,6 +14,7 @@
 #include "common/run/provenance.hpp"
 #include "common/run/standard_streams.hpp"
 #include "common/run/team.hpp"
+#include "common/scene/resolved_case.hpp"
 
 namespace toryu {
 
@@ -99,6 +100,11 @@ int run_program(const std::string& role, int argc, char** argv,
     const Options options = parse_options(role, arguments);
     if (options.print_case) {
       print(CaseFile(options.case_path, options.overrides).merged() + '\n');
+      return ExitCode::done;
+    }
+    if (options.resolved) {
+      CaseFile file(options.case_path, options.overrides);
+      print(resolved_case(file) + '\n');
       return ExitCode::done;
     }
     const bool computes = !options.check && !options.describe;

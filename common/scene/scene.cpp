@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <sstream>
+
 namespace toryu {
 
 namespace {
@@ -29,14 +32,36 @@ void check_walls(CaseFile& file, const Scene& scene) {
 
 void check_references(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.references.size(); ++i) {
-    const std::string& name = scene.references[i].file;
-    const std::string key = fmt::format("reference.{}.file", i);
-    if (name.empty()) continue;
-    if (std::filesystem::path(name).is_absolute() || name.find("..") != std::string::npos)
-      file.fault(key, fmt::format("'{}' must lie in the folder of the case", name));
-    else if (!std::filesystem::is_regular_file(file.folder() / name))
-      file.fault(key, fmt::format("no file '{}' in the folder of the case", name));
+    const Reference& reference = scene.references[i];
+    const auto tell = [&](const ReferenceFault& fault) {
+      if (fault.line > 0)
+        file.fault({.place = (file.folder() / reference.file).string(),
+                    .line = fault.line,
+                    .column = 1,
+                    .message = fault.message});
+      else
+        file.fault(fmt::format("reference.{}.{}", i, fault.key), fault.message);
+    };
+    std::optional<ReferenceFault> fault;
+    if (!reference.file.empty() && !reference.column.empty()) read_curve(file.folder(), reference, fault);
+    if (fault) tell(*fault);
+    if (!reference.series.empty() && (fault = fault_of_series(reference))) tell(*fault);
   }
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Moves what is there to the next free name, PATH.N.
+void keep_beside(const std::filesystem::path& path) {
+  std::filesystem::path kept;
+  for (int number = 1; kept.empty() || std::filesystem::exists(kept); ++number)
+    kept = fmt::format("{}.{}", path.string(), number);
+  std::filesystem::rename(path, kept);
 }
 
 }  // namespace
@@ -125,12 +150,29 @@ Scene read_scene(CaseFile& file) {
   return scene;
 }
 
+void check_folder(CaseFile& file, const std::filesystem::path& out) {
+  std::error_code ignored;
+  const auto folder = std::filesystem::weakly_canonical(out, ignored);
+  for (const auto& input : file.inputs()) {
+    const auto place = std::filesystem::weakly_canonical(input, ignored).lexically_relative(folder);
+    if (!place.empty() && is_written_by_runs(place))
+      file.fault(
+          {.place = input.string(),
+           .message = fmt::format("a run with its results in '{}' would write over this file; give --out "
+                                  "another folder, or take a copy of the file",
+                                  out.string())});
+  }
+}
+
 void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out) {
   for (const auto& reference : scene.references) {
     const auto source = file.folder() / reference.file, target = out / reference.file;
     std::filesystem::create_directories(target.parent_path());
-    if (std::filesystem::exists(target) && std::filesystem::equivalent(source, target)) continue;
-    std::filesystem::copy_file(source, target, std::filesystem::copy_options::overwrite_existing);
+    if (std::filesystem::exists(target)) {
+      if (std::filesystem::equivalent(source, target) || content_of(source) == content_of(target)) continue;
+      keep_beside(target);
+    }
+    std::filesystem::copy_file(source, target);
   }
 }
 

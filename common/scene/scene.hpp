@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/case/case_file.hpp"
+#include "common/scene/reference.hpp"
 #include "common/vector.hpp"
 
 namespace toryu {
@@ -49,13 +50,6 @@ struct Wall {
 };
 void describe(ParameterTable& table, Wall& wall);
 
-/// A measured or published curve that the report draws over a series of this run.
-struct Reference {
-  std::string label;
-  std::string file;    ///< CSV beside the case; lines that start with # are comments
-  std::string series;  ///< "solid.csv:tip_displacement_x[m]"
-  std::string column;  ///< column of `file`; its first column is time [s]
-};
 void describe(ParameterTable& table, Reference& reference);
 
 /// The directions in which space repeats itself: what leaves the domain at one side comes in at the other.
@@ -77,9 +71,12 @@ struct Scene {
 /// The keys of [case]; walls and references are sections of their own.
 void describe(ParameterTable& table, Scene& scene);
 /// Reads [case], [[wall]] and [[reference]], and checks that names of walls differ, that walls lie within the
-/// domain and that the files of references are there. Faults are collected in `file`.
+/// domain and that references can be read. Faults are collected in `file`.
 Scene read_scene(CaseFile& file);
-/// Copies the files of the references to `out`, so that the case written there finds them as well.
+/// A file of the case that lies where a run with its results in `out` would write is a fault of `file`.
+void check_folder(CaseFile& file, const std::filesystem::path& out);
+/// Copies the files of the references to `out`, so that the case written there finds them as well. Another
+/// file that is there stays beside the copy, as NAME.N.
 void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out);
 
 /// Throws BadInput if a body of `boxes` would have more than 1e8 particles.

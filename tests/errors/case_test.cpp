@@ -1,6 +1,8 @@
 // The exact text of each kind of fault of a case file and of an override.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include "common/case/text_file.hpp"
 #include "tests/errors/case_text.hpp"
 
 namespace toryu {
@@ -14,6 +16,12 @@ std::string name_of(const testing::TestParamInfo<Parameter>& one) {
 struct Fault {
   std::string name, text, expected;
 };
+
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i) result += text;
+  return result;
+}
 
 class CaseFault : public testing::TestWithParam<Fault> {};
 
@@ -119,6 +127,26 @@ INSTANTIATE_TEST_SUITE_P(
               "case.toml:3:1: error: not valid TOML: Error while parsing table header: cannot redefine "
               "existing "
               "table 'medium'"},
+        Fault{"ByteOrderMark", "\xEF\xBB\xBF[medium]\ndensity = 0\n",
+              "case.toml:2:1: error: 'density' in [medium] must be above 0 [kg/m3], found 0"},
+        Fault{"KeyOfManyParts", "[medium]\ndensity = 1\n" + repeated("a.", 100000) + "a = 1\n",
+              "case.toml:3:64: error: a key of more than 32 parts"},
+        Fault{"HeaderOfManyParts", "[" + repeated("'a' . ", 100000) + "a]\n",
+              "case.toml:1:192: error: a key of more than 32 parts"},
+        Fault{"InlineKeyOfManyParts", "[medium]\ndensity = 1\ndrag = { " + repeated("a.", 40) + "a = 1 }\n",
+              "case.toml:3:73: error: a key of more than 32 parts"},
+        Fault{"DotsInTextsAndNumbers",
+              "# " + repeated("a.", 99) + "\n[medium]\ndensity = 1\nlabel = '" + repeated("a.", 99) +
+                  "'\nwind = [1.0, 1.0]\nhistory = [" + repeated("[0.0, 1.0], ", 99) + "]\n",
+              ""},
+        Fault{"ManyLevels", "[other]\na = " + repeated("[", 100) + repeated("]", 100) + "\n",
+              "case.toml:1:1: error: tables and lists within each other on more than 64 levels"},
+        Fault{"ManyBrackets", "a = " + repeated("[", 400) + repeated("]", 400) + "\n",
+              "case.toml:1:261: error: not valid TOML: Error while parsing value: exceeded maximum nested "
+              "value "
+              "depth of 256 (TOML_MAX_NESTED_VALUES)"},
+        Fault{"Study", "[study]\ntitle = 'a'\n[medium]\n",
+              "case.toml:1:2: error: this is a study, and a program computes a case; ./run.sh runs both"},
         Fault{"AllAtOnceByLine", "[medum]\n[medium]\nratio = 0\nlaw = 1\nsteps = 'two'\n",
               "case.toml:1:2: error: unknown section 'medum'; did you mean 'medium'?\n"
               "case.toml:2:2: error: missing key 'density' in [medium]: a number [kg/m3] above 0, at rest\n"
@@ -167,6 +195,9 @@ INSTANTIATE_TEST_SUITE_P(
             "found the text \"3O\""},
         OverrideFault{
             "NoValue", {"medium.density"}, "--set medium.density: error: expected section.key=value"},
+        OverrideFault{"ManyParts",
+                      {repeated("a.", 40) + "a=1"},
+                      "--set " + repeated("a.", 40) + "a=1: error: a key of more than 32 parts"},
         OverrideFault{"EmptyKey", {"medium..x=1"}, "--set medium..x=1: error: expected section.key=value"},
         OverrideFault{
             "NoSuchName",
@@ -196,19 +227,32 @@ INSTANTIATE_TEST_SUITE_P(
                       "--set medium.ratio=9: error: 'ratio' in [medium] must be from 1 to 2, found 9"}),
     name_of<OverrideFault>);
 
+std::string fault_of(const std::filesystem::path& path) {
+  try {
+    CaseFile file(path, {});
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CaseFiles, ThatAreNoFiles) {
+  const CaseText text("");
+  const std::string pipe = text.folder() / "pipe", name(300, 'x');
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(fault_of(pipe), pipe + ": error: is neither a file nor a folder");
+  EXPECT_EQ(fault_of("/dev/zero"), "/dev/zero: error: is neither a file nor a folder");
+  EXPECT_EQ(fault_of(name), name + ": error: cannot be read: File name too long");
+  text.add("large.toml", std::string(largest_case + 1, '#'));
+  EXPECT_EQ(fault_of(text.folder() / "large.toml"),
+            (text.folder() / "large.toml").string() + ": error: is larger than 4 MB, the most that is read");
+}
+
 TEST(CaseFiles, ThatAreNotThere) {
-  const auto text_of = [](const std::filesystem::path& path) -> std::string {
-    try {
-      CaseFile file(path, {});
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(text_of("cases/no_such_case"), "cases/no_such_case: error: no such file or folder");
+  EXPECT_EQ(fault_of("cases/no_such_case"), "cases/no_such_case: error: no such file or folder");
   const CaseText text("");
   std::filesystem::remove(text.folder() / "case.toml");
-  EXPECT_EQ(text_of(text.folder()), text.folder().string() + ": error: this folder holds no case.toml");
+  EXPECT_EQ(fault_of(text.folder()), text.folder().string() + ": error: this folder holds no case.toml");
 }
 
 const std::string sound_scene =
@@ -263,16 +307,109 @@ TEST(SceneFaults, MotionWithoutRows) {
 
 TEST(SceneFaults, ReferenceElsewhere) {
   EXPECT_EQ(
-      CaseText(sound_scene + "[[reference]]\nlabel = 'a'\nfile = '../b/a.csv'\nseries = 's'\ncolumn = 'x'\n")
+      CaseText(sound_scene +
+               "[[reference]]\nlabel = 'a'\nfile = '../b/a.csv'\nseries = 'fluid.csv:x'\ncolumn = 'x'\n")
           .scene_faults(),
       "case.toml:10:1: error: '../b/a.csv' must lie in the folder of the case");
 }
 
 TEST(SceneFaults, ReferenceWithoutFile) {
+  EXPECT_EQ(CaseText(sound_scene +
+                     "[[reference]]\nlabel = 'a'\nfile = 'none.csv'\nseries = 'fluid.csv:x'\ncolumn = 'x'\n")
+                .scene_faults(),
+            "case.toml:10:1: error: no file 'none.csv' in the folder of the case");
+}
+
+struct ReferenceFile {
+  std::string name, text, expected;
+};
+
+class ReferenceFaults : public testing::TestWithParam<ReferenceFile> {};
+
+TEST_P(ReferenceFaults, HaveTheirText) {
+  const CaseText text(sound_scene +
+                      "[[reference]]\nlabel = 'a'\nfile = 'tip.csv'\nseries = 'solid.csv:tip_y[m]'\n"
+                      "column = 'y[m]'\n");
+  text.add("tip.csv", GetParam().text);
+  EXPECT_EQ(text.scene_faults(), GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, ReferenceFaults,
+    testing::Values(
+        ReferenceFile{"None", "# by hand\r\nt[s],y[m]\r\n\r\n0,0\r\n 0.1 , +1e-3\r\n", ""},
+        ReferenceFile{"NoneInQuotes", "\xEF\xBB\xBF\"t, of the run\",\"y[m]\"\n0,\"0\"\n", ""},
+        ReferenceFile{"NoneWithGaps", "t[s],y[m]\n0,\n0.1,nan\n0.2,1", ""},
+        ReferenceFile{"Empty", "", "case.toml:10:1: error: 'tip.csv' is empty"},
+        ReferenceFile{"CommentsAlone", "# t[s],y[m]\n\n", "case.toml:10:1: error: 'tip.csv' is empty"},
+        ReferenceFile{"HeadAlone", "t[s],y[m]\n",
+                      "case.toml:10:1: error: 'tip.csv' holds no number in the column 'y[m]'"},
+        ReferenceFile{"GapsAlone", "t[s],y[m]\n0,\n1,inf\n",
+                      "case.toml:10:1: error: 'tip.csv' holds no number in the column 'y[m]'"},
+        ReferenceFile{"Text", "t[s],y[m]\n0,1\n# so\n1,b\n",
+                      "tip.csv:4:1: error: 'b' is no number, in the column 'y[m]'"},
+        ReferenceFile{"TextForTime", "t[s],y[m]\nnow,1\n",
+                      "tip.csv:2:1: error: 'now' is no number, in the column 't[s]'"},
+        ReferenceFile{"DecimalCommas", "t[s],y[m]\n0,01,0,5\n",
+                      "tip.csv:2:1: error: 4 cells in a row under 2 columns"},
+        ReferenceFile{
+            "Semicolons", "t[s];y[m]\n0;0\n",
+            "case.toml:12:1: error: no column 'y[m]' in 'tip.csv'; commas part its columns, and its "
+            "numbers have points"},
+        ReferenceFile{"ColumnNearAnother", "t[s],y [m]\n0,0\n",
+                      "case.toml:12:1: error: no column 'y[m]' in 'tip.csv'; did you mean 'y [m]'?"},
+        ReferenceFile{"ColumnNearNone", "time,load[N]\n0,0\n",
+                      "case.toml:12:1: error: no column 'y[m]' in 'tip.csv'; its columns are 'time', "
+                      "'load[N]'"}),
+    name_of<ReferenceFile>);
+
+std::string reference_faults(const std::string& file, const std::string& series, const std::string& column) {
+  const CaseText text(sound_scene + "[[reference]]\nlabel = 'a'\nfile = '" + file + "'\nseries = '" + series +
+                      "'\ncolumn = '" + column + "'\n");
+  for (const char* name : {"tip.csv", "fluid.csv"}) text.add(name, "t[s],y[m]\n0,0\n");
+  std::filesystem::create_directory(text.folder() / "folder.csv");
+  return text.scene_faults();
+}
+
+TEST(ReferenceFault, OfTheNames) {
+  EXPECT_EQ(reference_faults("tip.csv", "solid.csv:tip_y[m]", "y"),
+            "case.toml:12:1: error: no column 'y' in 'tip.csv'; did you mean 'y[m]'?");
+  EXPECT_EQ(reference_faults("tip.csv", "tip_y[m]", "y[m]"),
+            "case.toml:11:1: error: 'series' must be FILE.csv:COLUMN, such as "
+            "'solid.csv:tip_displacement_x[m]', found 'tip_y[m]'");
   EXPECT_EQ(
-      CaseText(sound_scene + "[[reference]]\nlabel = 'a'\nfile = 'none.csv'\nseries = 's'\ncolumn = 'x'\n")
-          .scene_faults(),
-      "case.toml:10:1: error: no file 'none.csv' in the folder of the case");
+      reference_faults("tip.csv", "sold.csv:tip_y[m]", "y[m]"),
+      "case.toml:11:1: error: no series 'sold.csv'; there are 'fluid', 'solid', 'coupler'; did you mean "
+      "'solid'?");
+  EXPECT_EQ(reference_faults("folder.csv", "solid.csv:tip_y[m]", "y[m]"),
+            "case.toml:10:1: error: no file 'folder.csv' in the folder of the case");
+  EXPECT_EQ(
+      reference_faults("./fluid.csv", "solid.csv:tip_y[m]", "y[m]"),
+      "case.toml:10:1: error: './fluid.csv' is the name of a file of the results, beside which a copy of "
+      "the reference is kept; give it another name or put it into a folder");
+}
+
+TEST(FolderFault, IsACaseThatARunWouldWriteOver) {
+  const CaseText text("");
+  const auto faults = [&](const std::string& file, const std::string& out) -> std::string {
+    text.add(file, "base = 'log.txt'\n" + sound_scene);
+    CaseFile read(text.folder() / file, {});
+    read_scene(read);
+    check_folder(read, out);
+    try {
+      read.throw_if_faulty();
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  text.add("log.txt", "");
+  const std::string folder = text.folder(), words = ": error: a run with its results in '" + folder + "' ";
+  EXPECT_EQ(faults("used_case.toml", folder + "/out"), "");
+  EXPECT_TRUE(faults("mine.toml", folder).starts_with(folder + "/log.txt" + words));
+  EXPECT_TRUE(faults("used_case.toml", folder).starts_with(folder + "/used_case.toml" + words));
+  std::filesystem::create_directory_symlink(folder, folder + "/link");
+  EXPECT_NE(faults("used_case.toml", folder + "/link"), "");
 }
 
 TEST(BaseFault, NamesTheFileThatHasIt) {

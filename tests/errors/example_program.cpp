@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
       print(file.description());
       return ExitCode::done;
     }
+    check_folder(file, options.out);
     file.throw_if_faulty();
     if (options.check) return ExitCode::done;
     log::info("runs to {} s with {} threads", scene.end_time, options.threads);

@@ -1,11 +1,15 @@
 #include "common/scene/scene.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/scene/resolved_case.hpp"
 #include "tests/errors/case_text.hpp"
 
 namespace toryu {
 namespace {
+
+using testing::HasSubstr;
 
 const std::string text = R"(
 [case]
@@ -72,6 +76,57 @@ TEST_F(SceneTest, RepeatsFromTheResultsFolder) {
   EXPECT_EQ(again.used(), file.used());
   EXPECT_NO_THROW(copy_references(repeated, again, out));
   EXPECT_GT(std::filesystem::file_size(out / "reference/level.csv"), 0u);
+}
+
+TEST_F(SceneTest, KeepsAnotherFileThatIsWhereAReferenceGoes) {
+  CaseFile file(case_.folder(), {});
+  const Scene scene = read_scene(file);
+  const auto reference = case_.folder() / "out/reference";
+  std::filesystem::create_directories(reference);
+  for (const char* mine : {"mine", "mine too"}) {
+    std::ofstream(reference / "level.csv") << mine;
+    copy_references(scene, file, case_.folder() / "out");
+    copy_references(scene, file, case_.folder() / "out");
+  }
+  EXPECT_EQ(std::filesystem::file_size(reference / "level.csv.1"), 4u);
+  EXPECT_EQ(std::filesystem::file_size(reference / "level.csv.2"), 8u);
+  EXPECT_FALSE(std::filesystem::exists(reference / "level.csv.3"));
+  EXPECT_TRUE(std::filesystem::exists(case_.folder() / "reference/level.csv"));
+}
+
+std::string resolved(const std::filesystem::path& path) {
+  CaseFile file(path, {"fluid.more=inf"});
+  std::string found = resolved_case(file);
+  std::erase_if(found, [](char c) { return c == ' ' || c == '\n'; });
+  return found;
+}
+
+TEST_F(SceneTest, IsResolvedForOtherPrograms) {
+  const std::string found = resolved(case_.folder());
+  EXPECT_THAT(found, HasSubstr(R"("kind":"fluid")"));
+  EXPECT_THAT(found, HasSubstr(R"("name":")" + case_.folder().filename().string() + '"'));
+  EXPECT_THAT(found, HasSubstr(R"("inputs":[")" + (case_.folder() / "case.toml").string() + "\"]"));
+  EXPECT_THAT(found, HasSubstr(R"("fluid":{"more":Infinity})"));
+  EXPECT_THAT(found, HasSubstr(R"([["wall",1,"name"],12,1])"));
+  EXPECT_THAT(found, HasSubstr(R"("label":"measured","points":[[0.0,1.0]],)"));
+}
+
+TEST_F(SceneTest, IsResolvedWithTheFaultOfAReference) {
+  case_.add("reference/level.csv", "time,level\n0,high\n");
+  const std::string found = resolved(case_.folder());
+  EXPECT_THAT(found, HasSubstr(R"("fault":"reference/level.csv:2:'high'isnonumber,inthecolumn'level'")"));
+}
+
+TEST(Study, IsToldByItsTable) {
+  for (const char* head : {"[study]\n", "[ study ]\n", "study.title = 'a'\n", "study = 1\n",
+                           "\"study\" = {}\n", "\xEF\xBB\xBF[[study]]\n"}) {
+    const CaseText one(std::string(head) + "[fluid]\n");
+    EXPECT_EQ(CaseFile(one.folder(), {}).kind(), Kind::study) << head;
+  }
+  EXPECT_EQ(CaseFile(CaseText("[fluid]\nstudy = 1\n").folder(), {}).kind(), Kind::fluid);
+  EXPECT_EQ(CaseFile(CaseText("# [study]\n[fluid]\n[solid]\n").folder(), {}).kind(), Kind::coupled);
+  EXPECT_EQ(CaseFile(CaseText("fluid = false\n[solid]\n").folder(), {}).kind(), Kind::solid);
+  EXPECT_EQ(CaseFile(CaseText("text = '''\n[study]\n'''\n").folder(), {}).kind(), Kind::empty);
 }
 
 TEST(Box, HoldsItsSmallerCornerOnly) {

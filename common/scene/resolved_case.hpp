@@ -1,0 +1,16 @@
+/// What a case file comes to, for other programs: the launcher, the report and the studies read no case
+/// themselves.
+#pragma once
+
+#include <string>
+
+#include "common/case/case_file.hpp"
+
+namespace toryu {
+
+/// JSON: `case`, as CaseFile::resolved gives it, and `references`, each with what the case says of it and
+/// either its `points` (rows of time [s] and value) or its `fault`. Throws BadInput with the faults of the
+/// overrides.
+std::string resolved_case(CaseFile& file);
+
+}  // namespace toryu
