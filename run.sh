@@ -10,7 +10,6 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 [ -e /dev/fd/2 ] || exec 2>/dev/null
 
 "$root/tools/install.sh" run
-! grep -qs -d skip '^ *\[study\]' -- "$@" </dev/null || "$root/tools/install.sh" study
 toryu=(/usr/bin/python3 -I -X utf8 "$root/tools/toryu")
 case ${1---help} in -h | --help) exec "${toryu[@]}" launch --help ;; esac
 options=(-DTORYU_TESTS=OFF)

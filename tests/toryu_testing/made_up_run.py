@@ -36,8 +36,13 @@ def case_text(sides):
 
 
 def make_case(folder, sides=("fluid", "solid")):
-    (folder / "reference").mkdir(parents=True)
+    folder.mkdir(parents=True)
     (folder / "case.toml").write_text(case_text(sides))
+    make_reference(folder)
+
+
+def make_reference(folder):
+    (folder / "reference").mkdir(exist_ok=True)
     points = "".join(f"{t:.2f},{1.1 * tip(t)[0]:.6f}\n" for t in np.arange(0, 0.5, 0.04))
     (folder / "reference/measured.csv").write_text("# made up\nt_s,x_m\n" + points)
 
@@ -162,4 +167,5 @@ def make_results(out, sides=("fluid", "solid"), end=0.4, frames=21):
                                       "round_trip[s]": 7e-5 + 1e-5 * np.sin(90 * times)})
         write_summary(out, "coupler", waiting=57.0, end=end)
     (out / "used_case.toml").write_text(case_text(sides))
+    make_reference(out)
     (out / "log.txt").write_text("2026-01-01 10:00:00.000 fluid_solver info: 2240 particles\n")

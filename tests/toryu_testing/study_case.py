@@ -9,6 +9,8 @@ import tempfile
 import time
 import unittest
 
+from toryu import PROGRAMS
+
 HERE = pathlib.Path(__file__).resolve().parent
 HEAD = '[study]\ntitle = "A made-up study & more"\ncase = "case.toml"\n'
 TWO_AXES = """
@@ -33,7 +35,8 @@ def make_programs(folder):
     """A folder with stand-ins for all that a study of one side starts."""
     folder.mkdir()
     shutil.copy(HERE / "fake_study_solver.py", folder / "fluid_solver")
-    shutil.copy(HERE / "fake_coupler.sh", folder / "coupler")
+    # the real one reads the study and its case
+    (folder / "coupler").write_text(f'#!/bin/sh\nexec "{PROGRAMS}/coupler" "$@"\n')
     (folder / "reference_loop").write_text("#!/bin/sh\necho 0.5 0.6\n")
     for path in folder.iterdir():
         path.chmod(0o755)

@@ -11,6 +11,18 @@ class FolderTaken(Exception):
     """Another process holds the folder."""
 
 
+def is_held(folder, name):
+    """Whether a process holds `folder` by its file `name`, which need not be there."""
+    try:
+        with open(folder / name) as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        pass
+    return False
+
+
 @contextlib.contextmanager
 def lock_folder(folder, name, patience=0.0):
     """Holds `folder`, which is made if need be, by a lock on its file `name`; waits `patience` [s] for another to let

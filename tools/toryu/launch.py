@@ -7,6 +7,7 @@ closes with the report and a summary; a study it hands on to toryu.study.
 import argparse
 import contextlib
 import errno
+import importlib.util
 import os
 import pathlib
 import re
@@ -15,7 +16,8 @@ import shutil
 import subprocess
 import sys
 
-from toryu import PROGRAMS, program, results, summary_text
+from toryu import PROGRAMS, program, summary_text
+from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED, Run, says_yes
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
@@ -58,7 +60,8 @@ def parse(arguments):
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
                         help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
-    if options.case is None and options.restart and os.path.isfile(results.case_file(options.restart)):
+    if options.case is None and options.restart and any(
+            map(os.path.isfile, (options.restart, os.path.join(options.restart, "case.toml")))):
         options.case, options.restart = options.restart, ""  # "--restart CASE": the case stands where a folder may
     if options.case is None:
         parser.error("the following arguments are required: CASE")
@@ -66,14 +69,12 @@ def parse(arguments):
     for name in ("end_time", "threads", "log_level"):
         if (value := getattr(options, name)) is not None:
             options.passed_on.append(f"--{name.replace('_', '-')}={value}")
-    settle_folder(options)
     return options
 
 
-def settle_folder(options):
+def settle_folder(options, case):
     """Where the results go, or are."""
-    given, options.out = options.out, pathlib.Path(options.restart or options.out or
-                                                   pathlib.Path("out") / results.case_name(options.case))
+    given, options.out = options.out, pathlib.Path(options.restart or options.out or pathlib.Path("out") / case.name)
     if options.restart is None:
         return
     if options.overwrite:
@@ -87,36 +88,44 @@ def settle_folder(options):
     options.passed_on.append("--restart")
 
 
-def is_study(path):
-    """Whether `path` is a file with a table [study]."""
-    try:
-        return bool(re.search(r"^\s*\[study\]", pathlib.Path(path).read_text(encoding="utf-8"), re.MULTILINE))
-    except (OSError, ValueError):
-        return False  # a folder, an option, or nothing that can be read
+def programs_folder(arguments):
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    parser.add_argument("--bin", type=pathlib.Path, default=PROGRAMS)
+    return parser.parse_known_args(arguments)[0].bin
 
 
-def content_of(options):
-    """What the case says; all that is wrong with an override, the programs' checks will tell."""
+def is_study(argument, coupler):
+    """Whether `argument` is a file that describes a study; what is wrong with a file is told where it is run."""
+    with contextlib.suppress(BadCase):
+        return os.path.isfile(argument) and resolve(argument, coupler).kind == "study"
+    return False
+
+
+def run_study(arguments):
+    """Goes on as toryu.study, which needs a package more."""
+    if importlib.util.find_spec("matplotlib") is None:
+        subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "study"], check=True)
+    os.execv(sys.executable, program.python("study", *arguments))
+
+
+def case_of(options):
+    """The case as it is read; all that is wrong with an override, the programs' checks will tell."""
     coupler = options.bin / "coupler"
     try:
-        with contextlib.suppress(results.BadCase):
-            return results.case_content(options.case, coupler, tuple(options.set))
-        return results.case_content(options.case, coupler)
-    except results.BadCase as error:
+        with contextlib.suppress(BadCase):
+            return resolve(options.case, coupler, tuple(options.set))
+        return resolve(options.case, coupler)
+    except BadCase as error:
         raise SystemExit(complain(str(error)))
-    except OSError as error:
-        raise SystemExit(complain(f"{coupler}: error: cannot be started: {error.strerror}"))
 
 
-def programs(options, content):
+def programs(options, case):
     """Name -> executable of each program that the case needs, the lead first."""
     executables = {"coupler": options.bin / "coupler", "fluid_solver": options.fluid or options.bin / "fluid_solver",
                    "solid_solver": options.solid or options.bin / "solid_solver"}
-    needed = [f"{side}_solver" for side in ("fluid", "solid") if content.get(side, False) is not False]
-    if not needed:
-        raise SystemExit(complain(f"{results.case_file(options.case)}: error: no section [fluid] and no section [solid]: "
-                                  "nothing to compute"))
-    names = ["coupler", *needed] if len(needed) == 2 else needed
+    if case.kind not in PROGRAMS_OF:
+        raise SystemExit(complain(f"{case.file}: error: no section [fluid] and no section [solid]: nothing to compute"))
+    names = PROGRAMS_OF[case.kind]
     for name in names:
         if not shutil.which(executables[name]):
             raise SystemExit(complain(f"{executables[name]}: error: no such program, needed as {name}"))
@@ -196,6 +205,13 @@ def hold(out, name):
     return held
 
 
+def used_references(options):
+    """The files of the references that the used case of a former run names."""
+    with contextlib.suppress(BadCase):
+        return [r["file"] for r in resolve(options.out / "used_case.toml", options.bin / "coupler").references]
+    return []
+
+
 def set_former_aside(options):
     """Former results are kept beside the new ones, or removed if that was asked for."""
     # Programs that were started by hand hold the folder by a lock of their own.
@@ -204,7 +220,7 @@ def set_former_aside(options):
         try:
             if options.overwrite:
                 remove_former(options.out)
-            elif words := keep_former(options.out):
+            elif words := keep_former(options.out, used_references(options)):
                 print(words, file=sys.stderr)
         except OSError as error:
             done, hint = ("removed", "") if options.overwrite else ("kept beside it", "; --overwrite removes them")
@@ -217,12 +233,12 @@ def go_on_with(arguments, options):
     return shlex.join(["./run.sh", *kept])
 
 
-def report(options, content, code, words):
+def report(options, case, code, words):
     """Makes report.html and prints the summary; returns the exit code of the report."""
     failed = DONE if options.no_report else subprocess.run(
         program.python("report", options.out, "--case", options.case, f"--bin={options.bin}", f"--exit-code={code}",
                        f"--words={words[-MOST_WORDS:]}"), stdout=subprocess.DEVNULL).returncode
-    if text := summary_text.of_run(options.case, content, options.out):
+    if text := summary_text.of_run(case.references, options.out):
         print(text)
     if not failed and not options.no_report:
         print(f"report  {options.out / 'report.html'}")
@@ -230,12 +246,14 @@ def report(options, content, code, words):
 
 
 def main(arguments):
-    if any(map(is_study, arguments)):
-        os.execv(sys.executable, program.python("study", *arguments))
+    coupler = programs_folder(arguments) / "coupler"
+    if any(is_study(argument, coupler) for argument in arguments):
+        run_study(arguments)
     options = parse(arguments)
-    content = content_of(options)
+    case = case_of(options)
+    settle_folder(options, case)
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
-                for name, executable in programs(options, content).items()}
+                for name, executable in programs(options, case).items()}
     if options.print_case:
         return subprocess.run([options.bin / "coupler", options.case, "--print-case", *options.passed_on]).returncode
     if options.describe:
@@ -246,7 +264,7 @@ def main(arguments):
         return code
     warn_without_checkpoints(options, [command[0] for name, command in commands.items() if name not in own])
     if options.check:
-        print(f"{results.case_file(options.case)}: no errors")
+        print(f"{case.file}: no errors")
         return DONE
 
     # what the user has set, stays
@@ -260,7 +278,7 @@ def main(arguments):
             print(words, file=sys.stderr)
         # A restart that is refused leaves the report of the run before.
         refused = code == BAD_INPUT and options.restart is not None
-        unreported = DONE if refused else report(options, content, code, words)
+        unreported = DONE if refused else report(options, case, code, words)
         # a restart repeats a failure of physics
         if code not in (DONE, BAD_INPUT, PHYSICS_FAILED) and newest_checkpoint(options.out):
             print(f"go on with: {go_on_with(arguments, options)}")

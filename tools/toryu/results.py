@@ -1,45 +1,14 @@
-"""What a run left, read back: series, summaries, references, and the figures taken from them."""
+"""What a run left, read back: series, summaries, and the figures taken from them. A file that is damaged is left out, and
+said so where that is wanted."""
 
 import bisect
 import csv
-import functools
 import math
-import os
-import pathlib
 import re
-import subprocess
 import tomllib
 from dataclasses import dataclass
 
-from toryu.processes import DONE
-
 PARTICIPANTS = ("fluid", "solid", "coupler")
-
-
-def case_file(case):
-    """The case.toml of CASE, a folder or the file itself."""
-    path = pathlib.Path(case)
-    return path / "case.toml" if os.path.isdir(path) else path  # of a path that cannot be one, too
-
-
-class BadCase(Exception):
-    """What the program says is wrong with a case, a line each."""
-
-
-@functools.cache
-def case_content(case, program, overrides=()):
-    """What the case says, with its base merged and `overrides` ("key=value") applied, as the program prints it."""
-    done = subprocess.run([program, case, "--print-case", *(f"--set={pair}" for pair in overrides)],
-                          capture_output=True, text=True, stdin=subprocess.DEVNULL)
-    if done.returncode != DONE:
-        raise BadCase((done.stdout + done.stderr).strip() or f"{program} --print-case ended with {done.returncode}")
-    return tomllib.loads(done.stdout)
-
-
-def case_name(case):
-    """cases/gate and cases/gate/case.toml -> gate; cases/gate/fine.toml -> gate_fine"""
-    path = case_file(case).resolve()
-    return path.parent.name if path.stem == "case" else f"{path.parent.name}_{path.stem}"
 
 
 def read_columns(path):
@@ -50,7 +19,7 @@ def read_columns(path):
         except (TypeError, ValueError):
             return math.nan
 
-    with open(path, newline="", encoding="utf-8") as file:
+    with open(path, newline="", encoding="utf-8", errors="replace") as file:
         rows = [row for row in csv.reader(line for line in file if not line.startswith("#")) if row]
     if not rows:
         return {}
@@ -66,16 +35,84 @@ def newest(path):
     return max(found, key=lambda p: p.stat().st_mtime_ns, default=None)
 
 
-def read_series(out, name):
-    """Columns of `NAME.csv`, or of what an ended run left of it; {} if there is none."""
+def note(faults, path, why):
+    """Adds that a file of the results is of no use, where that is wanted."""
+    if faults is not None:
+        faults.append(f"{path.name} {why}")
+
+
+def read_series(out, name, faults=None):
+    """Columns of `NAME.csv`, or of what an ended run left of it; {} if there is none. Only rows whose time goes on."""
     path = newest(out / f"{name}.csv")
-    return read_columns(path) if path else {}
+    if path is None:
+        return {}
+    try:
+        columns = read_columns(path)
+    except (OSError, csv.Error) as error:
+        note(faults, path, f"cannot be read: {error}")
+        return {}
+    if not columns.get("time[s]"):
+        note(faults, path, "is empty" if not columns else "holds no row" if "time[s]" in columns else "has no column time[s]")
+        return {}
+    kept, last = [], -math.inf
+    for i, time in enumerate(columns["time[s]"]):
+        if last <= time < math.inf:
+            kept.append(i)
+            last = time
+    if not kept:
+        note(faults, path, "holds no time")
+        return {}
+    return {column: [values[i] for i in kept] for column, values in columns.items()}
 
 
-def read_summaries(out):
-    """Participant -> its summary, of those that left one."""
-    paths = {p: out / f"{p}_summary.toml" for p in PARTICIPANTS}
-    return {p: tomllib.loads(path.read_text(encoding="utf-8")) for p, path in paths.items() if path.is_file()}
+def read_summaries(out, faults=None):
+    """Participant -> its summary, of those that left a sound one."""
+    found = {}
+    for participant in PARTICIPANTS:
+        path = out / f"{participant}_summary.toml"
+        if not path.is_file():
+            continue
+        try:
+            summary = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError, RecursionError) as error:
+            note(faults, path, f"cannot be read: {error}")
+            continue
+        if wrong := fault_of(summary, SUMMARY):
+            note(faults, path, f"is damaged: {wrong}")
+        else:
+            found[participant] = OPTIONAL | summary
+    return found
+
+
+NUMBER = (int, float)
+SUMMARY = {"exit_code": int, "wall_time": NUMBER, "waiting_time": NUMBER, "processor_time": NUMBER,
+           "simulated_time": NUMBER, "steps": int, "smallest_time_step": NUMBER, "largest_time_step": NUMBER}
+OPTIONAL = {"end_reason": "", "time_step_rule": "", "particles": {}, "figures": {}, "provenance": {}, "term": [], "part": []}
+# of the values in a table, and of the tables in a list
+VALUES = {"particles": int, "figures": NUMBER}
+ITEMS = {"term": {"name": str, "formula": str, "parameters": str, "source": str},
+         "part": {"name": str, "seconds": NUMBER, "calls": int}}
+
+
+def fault_of(summary, kinds):
+    """What a summary lacks, "" if it is whole."""
+    def right(value, kind):
+        return isinstance(value, kind) and not isinstance(value, bool)
+
+    for key, kind in kinds.items():
+        if not right(summary.get(key), kind):
+            return f"'{key}' is missing or of another kind"
+    for key, empty in OPTIONAL.items() if kinds is SUMMARY else ():
+        if not isinstance(summary.get(key, empty), type(empty)):
+            return f"'{key}' is of another kind"
+    for key, kind in VALUES.items() if kinds is SUMMARY else ():
+        if not all(right(value, kind) for value in summary.get(key, {}).values()):
+            return f"'{key}' holds something of another kind"
+    for key, inner in ITEMS.items() if kinds is SUMMARY else ():
+        for item in summary.get(key, []):
+            if wrong := fault_of(item, inner) if isinstance(item, dict) else "no table":
+                return f"[[{key}]]: {wrong}"
+    return ""
 
 
 @dataclass
@@ -108,19 +145,21 @@ def unit_of(column):
     return found[1] if found else ""
 
 
-def compare(case, content, out):
-    """The [[reference]] curves in the content of the case with the distance of the run to each."""
-    folder = case_file(case).parent
-    return [_compare(folder, out, reference) for reference in content.get("reference", [])]
+def compare(references, out):
+    """The references of a case with the distance of the run to each; those with a fault are left out."""
+    return [_compare(out, reference) for reference in references if "points" in reference]
 
 
-def _compare(folder, out, reference):
+def faults_of(references):
+    """What is wrong with the references of a case, a sentence each."""
+    return [f"reference '{r['label']}': {r['fault']}" for r in references if "fault" in r]
+
+
+def _compare(out, reference):
     file, _, column = reference["series"].partition(":")
-    columns = read_columns(folder / reference["file"])
-    times = next(iter(columns.values()))
-    points = [(t, v) for t, v in zip(times, columns[reference["column"]]) if math.isfinite(t) and math.isfinite(v)]
     name = file.removesuffix(".csv")
     series = read_series(out, name)
+    points = [tuple(point) for point in reference["points"]]
     distance = rms_share(points, series.get("time[s]", []), series.get(column, []))
     return Comparison(reference["label"], name, column, points, distance)
 
@@ -129,8 +168,8 @@ def rms_share(reference, times, values):
     if not times or not values:
         return math.nan
     peak = max(abs(v) for _, v in reference)
-    squares = [(interpolate(t, times, values) - v) ** 2 for t, v in reference if 0 < t <= times[-1]]
-    return math.sqrt(sum(squares) / len(squares)) / peak if squares and peak > 0 else math.nan
+    differences = [interpolate(t, times, values) - v for t, v in reference if 0 < t <= times[-1]]
+    return math.hypot(*differences) / math.sqrt(len(differences)) / peak if differences and peak > 0 else math.nan
 
 
 def interpolate(time, times, values):
@@ -140,7 +179,8 @@ def interpolate(time, times, values):
         return values[0]
     if i == len(times):
         return values[-1]
-    share = (time - times[i - 1]) / (times[i] - times[i - 1])
+    passed = times[i] - times[i - 1]
+    share = (time - times[i - 1]) / passed if passed > 0 else 1.0
     return values[i - 1] + share * (values[i] - values[i - 1])
 
 

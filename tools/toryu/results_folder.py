@@ -5,7 +5,6 @@ import os
 import pathlib
 import re
 import shutil
-import tomllib
 
 from toryu.results import PARTICIPANTS
 
@@ -29,9 +28,9 @@ def remove_former(out):
         shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
-def keep_former(out):
-    """Moves the results of a former run into the next free folder OUT.N beside `out`. Returns what to say of it, "" if
-    there are none. Raises OSError if they cannot be measured or moved; they are all where they were then."""
+def keep_former(out, references=()):
+    """Moves the results of a former run into the next free folder OUT.N beside `out`, with copies of the files
+    `references` that its used case names. Returns what to say of it, "" if there are none. Raises OSError if they cannot be measured or moved; they are all where they were then."""
     found = written(out)
     if not found:
         return ""
@@ -42,7 +41,7 @@ def keep_former(out):
     former_size = size + room([numbered(beside, n) for n in numbers])
     target = numbered(beside, max(numbers, default=0) + 1)
     target.mkdir()
-    move(found, out, target)
+    move(found, out, target, references)
     with contextlib.suppress(OSError):
         (out / "frames").rmdir()  # stays if it holds something else
     total = f"; {len(numbers) + 1} former results take {readable_size(former_size)}" if numbers else ""
@@ -59,11 +58,11 @@ def former_numbers(out):
     return sorted(int(found[1]) for path in out.parent.iterdir() if (found := name.fullmatch(path.name)))
 
 
-def move(paths, out, target):
+def move(paths, out, target, references=()):
     """Moves `paths` in `out` to the same places in `target`, all or none."""
     moved = []
     try:
-        copy_references(out, target)  # before the case moves that names them
+        copy_references(out, target, references)  # before the case moves that names them
         for path in paths:
             new = target / path.relative_to(out)
             new.parent.mkdir(exist_ok=True)
@@ -76,15 +75,10 @@ def move(paths, out, target):
         raise
 
 
-def copy_references(out, target):
+def copy_references(out, target, references):
     """The reference curves that the used case names lie beside it, so that it repeats the run wherever it is. They are
     not moved: `out` may be the folder of the case."""
-    try:
-        used = tomllib.loads((out / "used_case.toml").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return
-    for reference in used.get("reference", []):
-        file = pathlib.PurePath(reference.get("file", ""))
+    for file in map(pathlib.PurePath, references):
         if not file.is_absolute() and ".." not in file.parts and (out / file).is_file():
             (target / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(out / file, target / file)

@@ -6,10 +6,10 @@ import re
 from toryu import results
 
 
-def of_run(case, content, out):
-    """`content` is what the case says."""
+def of_run(references, out):
+    """`references`: of the case, as resolved."""
     summaries = results.read_summaries(out)
-    lines = [*displacements(out), *distances(case, content, out), *failed_bonds(summaries), *times(summaries),
+    lines = [*displacements(out), *distances(references, out), *failed_bonds(summaries), *times(summaries),
              *coupling(summaries)]
     width = max((len(label) for label, _ in lines), default=0)
     return "\n".join(f"{label:{width}}  {text}" for label, text in lines)
@@ -25,13 +25,9 @@ def displacements(out):
             yield f"peak {found[1]} displacement {found[2]}", f"{value * 1e3:.4g} mm at {time:.4g} s"
 
 
-def distances(case, content, out):
-    try:
-        comparisons = results.compare(case, content, out)
-    except (OSError, KeyError) as error:
-        return [("references", f"cannot be read: {error!r}")]
+def distances(references, out):
     return [(f"distance in {c.quantity}", f"{100 * c.distance:.1f} % of the peak of '{c.label}' (root mean square)")
-            for c in comparisons if math.isfinite(c.distance)]
+            for c in results.compare(references, out) if math.isfinite(c.distance)]
 
 
 def failed_bonds(summaries):

@@ -31,6 +31,19 @@ class Contour:
         return [int(first + last) // 2 for first, last in zip(starts[::2], starts[1::2])]
 
 
+def check(surface):
+    """Raises ValueError if the arrays of an open surface.h5 do not belong together; what cannot be read raises too."""
+    points = len(surface["area"][:])
+    shapes = {"time": (len(surface["time"]),), "start_position": (points, 2), "normal": (points, 2),
+              "area": (points,), "work_piece": (points,)}
+    names(surface)
+    for name, values in surface.items():
+        shape = shapes.get(name, (len(surface["time"]), points))
+        if values.shape[:len(shape)] != shape or values.dtype.kind not in "fiu":
+            raise ValueError(f"'{name}' is of another size or kind")
+        values[:]
+
+
 def contours(surface):
     """Contours of all work pieces of `surface`, an open surface.h5, longest first for each work piece. An open one
     starts at its lower end (left, if both are level), a closed one at its lowest point, anticlockwise. Points
@@ -40,7 +53,7 @@ def contours(surface):
     found = []
     for index, name in enumerate(names(surface)):
         rows = np.flatnonzero((owner == index) & (area > 0))
-        spacing = typical_spacing(position[rows])
+        spacing = typical_spacing(position[rows], area[rows])
         chains = [(rows[chain], closed) for chain, closed in ordered(position[rows], normal[rows], spacing)]
         places = sorted(range(len(chains)), key=lambda k: tuple(position[chains[k][0]].mean(axis=0)))
         for k, (chain, closed) in sorted(enumerate(chains), key=lambda item: -len(item[1][0])):
@@ -57,13 +70,13 @@ def names(surface):
     return (text.decode() if isinstance(text, bytes) else str(text)).split(";")
 
 
-def typical_spacing(points):
-    """Median distance [m] to the nearest other point; 0 of fewer than two."""
+def typical_spacing(points, area):
+    """Median distance [m] to the nearest other point; of a point alone its face."""
     if len(points) < 2:
-        return 0.0
+        return float(area.sum())
     distance = np.linalg.norm(points[:, None] - points, axis=2)
     np.fill_diagonal(distance, np.inf)
-    return float(np.median(distance.min(axis=1)))
+    return float(np.median(distance.min(axis=1))) or float(np.median(area))
 
 
 def ordered(points, normals, spacing):

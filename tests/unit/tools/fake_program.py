@@ -74,7 +74,7 @@ class Plan:
         """How `--check` ends; lines are parted by |."""
 
     def print_fails(self, code, *lines):
-        """How `--print-case` ends."""
+        """How `--print-case` and `--resolved` end."""
 
     def answers(self, seconds, code, text):
         """What `--can-checkpoint` says, after a while."""
@@ -97,16 +97,9 @@ if case == "--can-checkpoint":
         print(text)
         sys.exit(int(code))
     sys.exit(2)
-if "--print-case" in arguments:
-    try:
-        sections = (pathlib.Path(case) / "case.toml").read_text()
-    except OSError as error:
-        print(f"{case}: error: cannot be read: {error.strerror}", file=sys.stderr)
-        sys.exit(2)
-    for away in (a.removeprefix("--set=").removesuffix("=false") for a in arguments if a.endswith("=false")):
-        sections = sections.replace(f"[{away}]\n", "")
+if "--print-case" in arguments or "--resolved" in arguments:
     if not any(line.startswith("print_fails") for line in plan):
-        print(sections)
+        os.execv(me.parent / "real_coupler", ["coupler", case, *arguments])
     end_as_planned("print_fails")
 if "--describe" in arguments:
     for line in plan:

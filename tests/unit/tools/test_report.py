@@ -4,7 +4,6 @@ import base64
 import json
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -15,11 +14,10 @@ import zlib
 import h5py
 import numpy as np
 
+from toryu import PROGRAMS
 from toryu.report import data, frames, scene, tables
 from toryu.report.__main__ import page as make_page
 from toryu_testing import made_up_run
-
-FAKE_COUPLER = pathlib.Path(made_up_run.__file__).parent / "fake_coupler.sh"
 
 
 class Page(unittest.TestCase):
@@ -133,16 +131,14 @@ class Page(unittest.TestCase):
         made_up_run.make_case(self.case)
         made_up_run.make_results(self.out, frames=2)
         (self.out / "used_case.toml").unlink()
-        (self.out.parent / "bin").mkdir()
-        shutil.copy(FAKE_COUPLER, self.out.parent / "bin/coupler")
-        content = self.content(self.page("--bin", self.out.parent / "bin"))
+        content = self.content(self.page())
         self.assertEqual([wall["name"] for wall in content["walls"]], ["floor", "piston"])
         self.assertEqual(len(content["compared"]), 1)
 
     def test_too_many_particles_are_shown_in_fewer_frames(self):
         self.make(frames=9)
         with unittest.mock.patch.object(frames, "SIZE_LIMIT", 1.2e5):
-            page = make_page(self.case, self.out, coupler=None, exit_code=None, words="")
+            page = make_page(self.case, self.out, coupler=PROGRAMS / "coupler", exit_code=None, words="")
         times = self.content(page)["bodies"][0]["times"]
         self.assertLess(len(times), 9)
         self.assertEqual((times[0], times[-1]), (0, 0.4))

@@ -4,14 +4,12 @@ import math
 import os
 import pathlib
 import tempfile
-import tomllib
 import unittest
 
-from toryu import results, summary_text
+from toryu import PROGRAMS, results, summary_text
+from toryu.case import resolve
 from toryu_testing import made_up_run
 
-FAKE_COUPLER = pathlib.Path(made_up_run.__file__).parent / "fake_coupler.sh"
-CONTENT = tomllib.loads(made_up_run.case_text(("fluid", "solid")))
 
 
 class Figures(unittest.TestCase):
@@ -33,20 +31,6 @@ class Figures(unittest.TestCase):
             self.assertEqual(results.interpolate(time, [0.0, 0.5, 2.5], [2.0, 4.0, 8.0]), value)
 
 
-class Cases(unittest.TestCase):
-    def test_a_case_is_what_the_program_prints(self):
-        with tempfile.TemporaryDirectory() as folder:
-            case = pathlib.Path(folder) / "case.toml"
-            case.write_text("[fluid]\nspacing = 4\n")
-            self.assertEqual(results.case_content(case, FAKE_COUPLER), {"fluid": {"spacing": 4}})
-            case.write_text("read once only")
-            self.assertEqual(results.case_content(case, FAKE_COUPLER), {"fluid": {"spacing": 4}})
-
-    def test_what_the_program_says_of_a_bad_case_is_told(self):
-        with self.assertRaisesRegex(results.BadCase, "absent: No such file"):
-            results.case_content("absent", FAKE_COUPLER)
-
-
 class Files(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -54,6 +38,7 @@ class Files(unittest.TestCase):
         self.case, self.out = pathlib.Path(folder.name) / "gate", pathlib.Path(folder.name) / "out"
         made_up_run.make_case(self.case)
         self.out.mkdir()
+        self.references = resolve(self.case, PROGRAMS / "coupler").references
 
     def test_comments_and_half_rows_are_left_out(self):
         path = self.out / "a.csv"
@@ -78,7 +63,7 @@ class Files(unittest.TestCase):
 
     def test_the_summary_of_a_run(self):
         made_up_run.make_results(self.out, frames=2)
-        text = summary_text.of_run(self.case, CONTENT, self.out)
+        text = summary_text.of_run(self.references, self.out)
         self.assertIn("peak tip displacement x", text)
         self.assertIn("40 mm at 0.15 s", text)
         # The reference is 1.1 times the plate's path: the rms of 0.1/1.1 path, as a share of its largest sample.
@@ -94,12 +79,12 @@ class Files(unittest.TestCase):
         summary = self.out / "solid_summary.toml"
         summary.write_text(summary.read_text().replace(
             "[figures]\n", '[figures]\n"torn_bonds" = 16.0\n"clumped_bonds" = 0.0\n'))
-        text = summary_text.of_run(self.case, CONTENT, self.out)
+        text = summary_text.of_run(self.references, self.out)
         self.assertRegex(text, r"WARNING +the solid has torn: up to 16 pairs of adjacent particles; see log.txt")
         self.assertNotIn("clumped", text)
 
     def test_a_run_that_left_nothing_has_an_empty_summary(self):
-        self.assertEqual(summary_text.of_run(self.case, CONTENT, self.out), "")
+        self.assertEqual(summary_text.of_run(self.references, self.out), "")
 
 
 if __name__ == "__main__":

@@ -101,7 +101,7 @@ class HalfDone(Study):
         time.sleep(0.2)  # for the checkpoint
         process.kill()
         process.communicate()
-        (half / "left.txt").touch()
+        (half / "detached.csv").touch()
         return half.name
 
     def go_on(self, *settings, axes=AXES):
@@ -113,12 +113,12 @@ class HalfDone(Study):
 
     def assert_afresh(self, half):
         self.assertEqual(self.starts().count(half), 2)
-        self.assertFalse((self.out / "runs" / half / "left.txt").exists())
+        self.assertFalse((self.out / "runs" / half / "detached.csv").exists())
 
     def test_it_goes_on_from_its_checkpoint(self):
         half = self.go_on("fluid.checkpoints=1")
         self.assertEqual(self.starts("restarts"), [half])
-        self.assertTrue((self.out / "runs" / half / "left.txt").exists())
+        self.assertTrue((self.out / "runs" / half / "detached.csv").exists())
         self.assertEqual(len(self.table()), 2)
         self.assertEqual(list(self.out.glob("runs/*.1")), [])
 
@@ -136,7 +136,7 @@ class HalfDone(Study):
         half = self.go_on("fluid.checkpoints=1", "fluid.refuses=1")
         self.assertEqual(self.starts("restarts"), [half])
         self.assertEqual(self.starts().count(half), 3)
-        self.assertFalse((self.out / "runs" / half / "left.txt").exists())
+        self.assertFalse((self.out / "runs" / half / "detached.csv").exists())
         self.assertEqual({row["exit_code"] for row in self.table()}, {"0"})
 
 

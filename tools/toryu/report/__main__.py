@@ -6,12 +6,13 @@
 import argparse
 import html
 import json
+import os
 import pathlib
-import re
 import string
 import sys
 
 from toryu import PROGRAMS, program, results, surface
+from toryu.case import BadCase, resolve
 from toryu.processes import DONE, INTERRUPTED
 from toryu.report import along, data, frames, scene, tables
 
@@ -19,40 +20,48 @@ HERE = pathlib.Path(__file__).resolve().parent
 SCRIPTS = ("chart.js", "particles.js", "stage.js", "along.js", "page.js")  # in this order
 
 
-def comparisons_of(case, content, out):
+def name_of(path, out, coupler):
+    """The case's name; that of the results if the case is there no more."""
     try:
-        return results.compare(case, content, out)
-    except (OSError, KeyError) as error:
-        print(f"report: the references cannot be read: {error!r}", file=sys.stderr)
-        return []
+        return resolve(path, coupler).name
+    except BadCase:
+        return pathlib.Path(os.path.abspath(out)).name
 
 
 def page(case_path, out, coupler, exit_code, words):
-    case, case_text = data.used_case(case_path, out, coupler)
-    summaries = results.read_summaries(out)
-    comparisons = comparisons_of(case_path, case, out)
-    bodies, boxes, step = frames.collect(out, case)
+    faults = []  # of the files: those that are damaged are left out, and the page says so
+    used, case_text = data.used_case(case_path, out, coupler)
+    case, name = used.content, name_of(case_path, out, coupler)
+    summaries = results.read_summaries(out, faults)
+    comparisons = results.compare(used.references, out)
+    faults += results.faults_of(used.references)
+    found = frames.read_bodies(out, faults)
+    bodies, boxes, step = frames.collect(found, case)
     end = scene.end_of(case, bodies)
     walls = scene.wall_paths(case, end)
-    file = along.read(out)
+    file = along.read(out, faults)
     contours = surface.contours(file) if file else []
     times = sorted({time for body in bodies for time in body["times"]})
     view = scene.view_of(boxes)
-    compared, others = data.charts(out, comparisons)
-    state = data.state(summaries, exit_code, words)
-    title = case.get("case", {}).get("title") or results.case_name(case_path)
+    compared, others = data.charts(out, comparisons, faults)
+    state = data.state(out, summaries, exit_code, words)
+    for fault in faults:
+        print(f"report: {fault}", file=sys.stderr)
     content = {
         "view": view, "near": scene.near_view(view, walls, bodies, contours), "walls": walls, "bodies": bodies,
         "motions": scene.motion_charts(walls, end), "end": end,
-        "along": along.collect(file, contours, times, frames.start_of(out, "solid")) if file else {},
-        "compared": compared, "others": others, "failed": state["code"] not in (DONE, INTERRUPTED),
+        "along": along.collect(file, contours, times, frames.start_of(found, "solid")) if file else {},
+        "compared": compared, "others": others, "failed": state["code"] not in (DONE, INTERRUPTED, None),
     }
+    title = data.table(case, "case").get("title") or name
     return string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
-        title=html.escape(title), name=html.escape(results.case_name(case_path)),
+        title=html.escape(str(title)), name=html.escape(name),
         style=(HERE / "style.css").read_text(encoding="utf-8"),
         script="\n".join((HERE / f).read_text(encoding="utf-8") for f in SCRIPTS),
-        data=re.sub("</", r"<\\/", json.dumps(content, separators=(",", ":"), allow_nan=False)),
-        state=tables.state(state) + tables.warnings(out), figures=tables.figures(out, summaries, comparisons, state),
+        # no < in it: a name may not end the script, nor begin a comment in it
+        data=json.dumps(data.finite(content), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        state=tables.state(state) + tables.damage(faults) + tables.warnings(out),
+        figures=tables.figures(out, summaries, comparisons, state),
         frames_note=f"every {step}th frame is shown" if step > 1 else "",
         times=tables.times(summaries), terms=tables.terms(summaries), particles=tables.particles(summaries),
         numbers=tables.numbers(summaries), provenance=tables.provenance(summaries), case=html.escape(case_text),

@@ -4,7 +4,7 @@
 import h5py
 import numpy as np
 
-from toryu import results
+from toryu import results, surface
 from toryu.report import data, frames
 
 # What can be drawn: label, dataset, unit, and how it is taken over the time between two frames.
@@ -18,18 +18,24 @@ QUANTITIES = [
 ]
 
 
-def read(out):
-    """The open surface.h5 of a run, or None."""
+def read(out, faults=None):
+    """The open surface.h5 of a run, or None if there is none that is sound."""
     path = results.newest(out / "surface.h5")
+    if path is None:
+        return None
     try:
-        return path and h5py.File(path)
-    except OSError:  # of a run that was killed
+        file = h5py.File(path)
+        surface.check(file)
+        return file
+    except frames.DAMAGED as error:
+        results.note(faults, path, f"cannot be read: {error}")
         return None
 
 
 def collect(file, contours, times, start):
-    """All that the page draws along the surface at the frames' `times`; {} if there is nothing. `start`: where the
-    solid's particles were, or None."""
+    """All that the page draws along the surface at the frames' `times`; {} if there is nothing. A contour of one point
+    has no length to draw along. `start`: where the solid's particles were, or None."""
+    contours = [contour for contour in contours if contour.arc_length[-1] > 0]
     if not contours or not times or not len(file["time"]):
         return {}
     rows = np.concatenate([contour.rows for contour in contours])

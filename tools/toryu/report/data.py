@@ -1,10 +1,13 @@
 """What the page shows beside the particles: state, figures, charts, times; taken from the files of the run."""
 
+import contextlib
 import math
+import pathlib
 import re
-import tomllib
 
 from toryu import results
+from toryu.case import BadCase, Case, resolve
+from toryu.folder_lock import is_held
 from toryu.processes import BAD_INPUT, BUG, DONE, INTERRUPTED, MACHINE, PEER_LOST, PHYSICS_FAILED
 
 MEANING = {DONE: "Done", BUG: "Ended by a bug", BAD_INPUT: "Bad input", PHYSICS_FAILED: "Physics failed",
@@ -14,29 +17,66 @@ CAUSE_FIRST = (BAD_INPUT, PHYSICS_FAILED, MACHINE, BUG, INTERRUPTED, PEER_LOST, 
 MOST_POINTS = 1500  # of a line in a chart: more than it has pixels
 
 
-def used_case(case, out, coupler):
-    """Content and text of the case as it was run, else as it is written."""
-    used, written = out / "used_case.toml", results.case_file(case)
-    if used.is_file():
-        text = used.read_text(encoding="utf-8")
-        return tomllib.loads(text), text
-    text = written.read_text(encoding="utf-8") if written.is_file() else ""
-    try:
-        return results.case_content(case, coupler), text
-    except (OSError, results.BadCase):
-        return {}, text
+def used_case(path, out, coupler):
+    """The case as it was run, else as it is written, and its text."""
+    for file in (out / "used_case.toml", path):
+        with contextlib.suppress(BadCase):
+            case = resolve(file, coupler)
+            return case, case.file.read_text(encoding="utf-8", errors="replace")
+    return Case("empty", pathlib.Path(path), "", [], {}), ""
 
 
-def state(summaries, exit_code, words):
-    """Exit code of the run and its reason: as the launcher saw them, else as the participants left them."""
-    if exit_code is None:
-        left = [s["exit_code"] for s in summaries.values()]
-        exit_code = min(left, key=lambda c: CAUSE_FIRST.index(c) if c in CAUSE_FIRST else 0) if left else BUG
-        words = words or "; ".join(dict.fromkeys(s["end_reason"] for s in summaries.values()
-                                                 if s["exit_code"] == exit_code and s.get("end_reason")))
-        if not left:
-            words = "no participant left a summary"
-    return {"code": exit_code, "meaning": MEANING.get(exit_code, f"Exit code {exit_code}"), "words": words}
+def state(out, summaries, exit_code, words):
+    """Exit code of the run and its reason: as the launcher saw them, else as the participants left them; a run without an
+    end has no code."""
+    if exit_code is not None:
+        return {"code": exit_code, "meaning": MEANING.get(exit_code, f"Exit code {exit_code}"), "words": words}
+    if any(is_held(out, name) for name in ("run.lock", "launch.lock")):
+        return {"code": None, "meaning": "Still running", "words": words}
+    if not summaries:
+        words = words or "No participant left a sound summary: the run was killed, or never began."
+        return {"code": None, "meaning": "Without an end", "words": words}
+    left = [s["exit_code"] for s in summaries.values()]
+    code = min(left, key=lambda c: CAUSE_FIRST.index(c) if c in CAUSE_FIRST else 0)
+    words = words or "; ".join(dict.fromkeys(s["end_reason"] for s in summaries.values()
+                                             if s["exit_code"] == code and s["end_reason"]))
+    return {"code": code, "meaning": MEANING.get(code, f"Exit code {code}"), "words": words}
+
+
+# What a case says, which may be damaged ------------------------------------------------------------------------------
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e300
+
+
+def numbers(value, count):
+    """Whether `value` is a list of so many numbers."""
+    return isinstance(value, list) and len(value) == count and all(map(is_number, value))
+
+
+def table(content, key):
+    value = content.get(key)
+    return value if isinstance(value, dict) else {}
+
+
+def tables_of(content, key):
+    value = content.get(key)
+    return [item for item in value if isinstance(item, dict)] if isinstance(value, list) else []
+
+
+def box_of(box):
+    """[x min, y min, x max, y max] of a box, None if it has none."""
+    low, high = box.get("min"), box.get("max")
+    return [*low, *high] if numbers(low, 2) and numbers(high, 2) else None
+
+
+def finite(value):
+    """The same content with None for every number that JSON does not know."""
+    if isinstance(value, dict):
+        return {key: finite(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(inner) for inner in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 # Units ---------------------------------------------------------------------------------------------------------------
@@ -114,9 +154,9 @@ def group_of(column):
     return re.sub(r" [xy]$", "", results.readable(column))
 
 
-def charts(out, comparisons):
+def charts(out, comparisons, faults=None):
     """Charts of the comparisons with references, and of all other columns by participant."""
-    series = {name: results.read_series(out, name) for name in results.PARTICIPANTS}
+    series = {name: results.read_series(out, name, faults) for name in results.PARTICIPANTS}
     compared, shown = [], set()
     for comparison in comparisons:
         key = (comparison.series, comparison.column)

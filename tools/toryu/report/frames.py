@@ -2,13 +2,13 @@
 
 import base64
 import json
-import pathlib
 import zlib
 from dataclasses import dataclass
 
 import h5py
 import numpy as np
 
+from toryu import results
 from toryu.report import data
 
 SIZE_LIMIT = 12e6  # bytes of all frames of all bodies in the page
@@ -16,6 +16,7 @@ SHARE_LEFT = 0.7  # what compression typically leaves of the codes
 NOT_SHOWN = {"particle"}  # a name, not a quantity
 NO_VALUE = 65535  # code of what is not finite; values take 0 to 65534
 SAMPLED_FRAMES = 12  # enough to find the range of a field
+DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError, IndexError)  # of h5py and json
 OUTERMOST = 1.0  # per cent of the values, at either end, that do not count for it: shocks, corners
 
 
@@ -43,27 +44,53 @@ class Quantity:
 
 
 class Body:
-    """The frames of one participant."""
+    """The frames of one participant, but for those that are damaged."""
 
-    def __init__(self, out, name):
-        series = json.loads((out / f"{name}.hdf.series").read_text(encoding="utf-8"))
+    def __init__(self, out, name, faults=None):
         self.name = name
-        self.files = [(entry["time"], out / entry["name"]) for entry in series["files"]
-                      if (out / entry["name"]).is_file()]
+        self.quantities = []
         self.count = 0
         self.typical_displacement = 0.0  # [m], of 95 % of the particles, at the time when it is largest
-        if self.files:
-            with h5py.File(self.files[0][1]) as file:
-                self.count = len(file["VTKHDF/Points"])
-                self.quantities = quantities(file["VTKHDF/PointData"])
+        self.files = [(time, path) for time, path in listed(out, name, faults) if self.takes(path, faults)]
+
+    def takes(self, path, faults):
+        """Whether the frame can be read; the first one that can says what there is to draw."""
+        try:
+            with h5py.File(path) as file:
+                points, fields = file["VTKHDF/Points"][:], file["VTKHDF/PointData"]
+                found = self.quantities or quantities(fields)
+                shapes = [np.isfinite(points[:, :2]).shape, *(np.isfinite(q.values(fields)).shape for q in found)]
+            if shapes[0][1] != 2 or any(shape != (len(points),) for shape in shapes[1:]):
+                raise ValueError("its fields are of unequal sizes")
+        except DAMAGED as error:
+            results.note(faults, path, f"cannot be read: {error}")
+            return False
+        self.quantities, self.count = found, self.count or len(points)
+        return len(points) > 0
 
     def bytes_per_frame(self):
         return self.count * (4 + 2 * len(self.quantities)) * SHARE_LEFT * 4 / 3
 
 
-def read_bodies(out):
-    bodies = [Body(out, path.name.removesuffix(".hdf.series")) for path in sorted(out.glob("*.hdf.series"))]
-    return [body for body in bodies if body.count]
+def listed(out, name, faults):
+    """(time, path) of the frames that NAME.hdf.series lists and that are there, in the order of time."""
+    path = out / f"{name}.hdf.series"
+    try:
+        entries = json.loads(path.read_text(encoding="utf-8"))["files"]
+        found = [(float(entry["time"]), out / entry["name"]) for entry in entries]
+    except (*DAMAGED, RecursionError) as error:
+        results.note(faults, path, f"cannot be read: {error}")
+        return []
+    missing = sum(not path.is_file() for _, path in found)
+    if missing:
+        results.note(faults, path, f"lists {missing} frames that are not there")
+    return sorted((time, path) for time, path in found if path.is_file() and np.isfinite(time))
+
+
+def read_bodies(out, faults=None):
+    names = [path.name.removesuffix(".hdf.series") for path in sorted(out.glob("*.hdf.series"))]
+    bodies = [Body(out, name, faults) for name in names]
+    return [body for body in bodies if body.files]
 
 
 def quantities(point_data):
@@ -115,7 +142,8 @@ def measure(body, domain):
                     sample.append(quantity.values(file["VTKHDF/PointData"]))
     for sample, quantity in zip(samples, body.quantities):
         if quantity.field == "displacement" and quantity.component == -1:
-            body.typical_displacement = max(float(np.nanpercentile(values, 95)) for values in sample)
+            finite = [values[np.isfinite(values)] for values in sample]
+            body.typical_displacement = max((float(np.percentile(v, 95)) for v in finite if len(v)), default=0.0)
         values = np.concatenate(sample)
         values = values[np.isfinite(values)]
         if len(values):
@@ -164,22 +192,20 @@ def displacement_of(body):
             "typical": body.typical_displacement} if found else None
 
 
-def start_of(out, name):
+def start_of(bodies, name):
     """Undeformed positions of a participant's particles, None without frames or displacement."""
-    body = next((body for body in read_bodies(out) if body.name == name), None)
-    if body is None:
+    body = next((body for body in bodies if body.name == name), None)
+    if body is None or not any(q.field == "displacement" for q in body.quantities):
         return None
     with h5py.File(body.files[0][1]) as file:
         points = file["VTKHDF/Points"][:, :2]
-        displacement = file["VTKHDF/PointData"].get("displacement")
-        return None if displacement is None else points - displacement[:, :2]
+        return points - file["VTKHDF/PointData/displacement"][:, :2]
 
 
-def collect(out: pathlib.Path, case):
+def collect(bodies, case):
     """All that the page's player needs: (bodies, view box, every how many frames)."""
-    domain = case.get("case", {}).get("domain", {})
-    domain = (np.array(domain.get("min", [-1e9, -1e9])), np.array(domain.get("max", [1e9, 1e9])))
-    bodies = read_bodies(out)
+    domain = data.box_of(data.table(data.table(case, "case"), "domain")) or [-1e9, -1e9, 1e9, 1e9]
+    domain = (np.array(domain[:2]), np.array(domain[2:]))
     step = chosen_frames(bodies) if bodies else 1
     collected, boxes = [], []
     for body in bodies:
@@ -188,9 +214,10 @@ def collect(out: pathlib.Path, case):
         boxes.append(box)
         with h5py.File(body.files[0][1]) as file:
             points = file["VTKHDF/Points"][:, :2]
+        spacing = data.table(case, body.name).get("spacing")
         collected.append({
             "name": body.name,
-            "spacing": case.get(body.name, {}).get("spacing") or spacing_of(points),
+            "spacing": spacing if data.is_number(spacing) and spacing > 0 else spacing_of(points),
             "box": [*map(float, box[0]), *map(float, box[1])],
             "times": [time for time, _ in body.files],
             "quantities": [q.described() for q in body.quantities],

@@ -45,11 +45,11 @@ def wall_paths(case, end):
     """Boxes of the rigid walls with how they move until `end` [s]: rows of time, displacement, velocity (x, y of
     each); the displacement is the integral of the velocity."""
     walls = []
-    for wall in case.get("wall", []):
-        motion = wall.get("motion") or {}
-        speed, time = motion.get("speed", 1), motion.get("time", 1)
-        rows = np.array(motion.get("velocity", []), float).reshape(-1, 3) * [time, speed, speed]
-        path = []
+    for wall in data.tables_of(case, "wall"):
+        box, path = data.box_of(data.table(wall, "box")), []
+        if box is None:
+            continue
+        rows = rows_of(data.table(wall, "motion"))
         if len(rows):
             times = np.union1d(rows[:, 0], np.linspace(0, end, 201))
             velocity = np.column_stack([np.interp(times, rows[:, 0], rows[:, axis]) for axis in (1, 2)])
@@ -57,9 +57,18 @@ def wall_paths(case, end):
             moved = np.vstack([[0, 0], np.cumsum(steps, axis=0)])
             moved -= moved[np.searchsorted(times, 0)]
             path = np.column_stack([times, moved, velocity]).tolist()
-        walls.append({"name": wall.get("name", ""), "box": [*wall["box"]["min"], *wall["box"]["max"]], "path": path,
-                      "work_piece": wall.get("work_piece", False)})
+        walls.append({"name": str(wall.get("name", "")), "box": box, "round": wall["box"].get("round") is True,
+                      "path": path, "work_piece": wall.get("work_piece") is True})
     return walls
+
+
+def rows_of(motion):
+    """Rows of time, velocity x, y of a prescribed motion; none if it cannot be read."""
+    speed, time = motion.get("speed", 1), motion.get("time", 1)
+    rows = motion.get("velocity", [])
+    if not isinstance(rows, list) or not all(data.numbers(row, 3) for row in rows) or not data.numbers([speed, time], 2):
+        return np.empty((0, 3))
+    return np.array(rows, float).reshape(-1, 3) * [time, speed, speed]
 
 
 def motion_charts(walls, end):
@@ -88,6 +97,6 @@ def joined(names):
 
 def end_of(case, bodies):
     """The end of the case, of an endless one the time that was reached [s]."""
-    end = case.get("case", {}).get("end_time", math.inf)
+    end = data.table(case, "case").get("end_time", math.inf)
     reached = max((body["times"][-1] for body in bodies), default=0.0)
-    return end if math.isfinite(end) else reached
+    return end if data.is_number(end) else reached

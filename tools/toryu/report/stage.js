@@ -65,11 +65,17 @@ class Stage {
   }
 
   drawWalls(time) {
-    for (const {box, path, work_piece} of this.walls) {
+    for (const {box, round, path, work_piece} of this.walls) {
       const [dx, dy] = displacement(path, time);
       const [x0, y0] = this.toPixel(box[0] + dx, box[3] + dy), [x1, y1] = this.toPixel(box[2] + dx, box[1] + dy);
       this.context.fillStyle = cssColour(path.length ? "--moving" : work_piece ? "--piece" : "--wall");
-      this.context.fillRect(x0, y0, x1 - x0, y1 - y0);
+      if (!round) {
+        this.context.fillRect(x0, y0, x1 - x0, y1 - y0);
+        continue;
+      }
+      this.context.beginPath();
+      this.context.ellipse((x0 + x1) / 2, (y0 + y1) / 2, (x1 - x0) / 2, (y1 - y0) / 2, 0, 0, 2 * Math.PI);
+      this.context.fill();
     }
   }
 

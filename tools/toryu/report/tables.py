@@ -8,6 +8,7 @@ from toryu import results
 from toryu.processes import DONE, INTERRUPTED
 from toryu.report import data
 
+MOST_FAULTS = 12  # told of files that are damaged
 MOST_PARTS = 7  # named in a bar; the rest is summed
 
 
@@ -48,12 +49,20 @@ def number(value):
 
 
 def state(run):
-    kind = "good" if run["code"] == DONE else "stopped" if run["code"] == INTERRUPTED else "bad"
+    kind = "good" if run["code"] == DONE else "stopped" if run["code"] in (INTERRUPTED, None) else "bad"
     badge = f'<span class="badge {kind}">{html.escape(run["meaning"])}</span>'
     if run["code"] == DONE:
         return badge
+    code = "" if run["code"] is None else f"<p>Exit code {run['code']}.</p>"
     words = "".join(f"<p>{html.escape(line)}</p>" for line in run["words"].splitlines())
-    return f'{badge}<div class="words {kind}"><p>Exit code {run["code"]}.</p>{words}</div>'
+    return f'{badge}<div class="words {kind}">{code}{words}</div>'
+
+
+def damage(faults):
+    """What could not be shown."""
+    lines = "".join(f"<p>{html.escape(fault)}</p>" for fault in faults[:MOST_FAULTS])
+    more = f"<p>and {len(faults) - MOST_FAULTS} more</p>" if len(faults) > MOST_FAULTS else ""
+    return f'<div class="words stopped"><p>Left out of this page:</p>{lines}{more}</div>' if faults else ""
 
 
 def warnings(out, most=20):
@@ -133,7 +142,7 @@ def times(summaries):
             colour = f"{kind} p{i}" if kind == "part" else kind
             pieces.append(f'<span class="{colour}" style="width:{share:.4%}" title="{html.escape(label)}">'
                           f"{html.escape(name) if share > 0.08 else ''}</span>")
-        share = f"{100 * summary['waiting_time'] / wall:.0f} % waiting" if summary["waiting_time"] > 0 else ""
+        share = f"{100 * summary['waiting_time'] / wall:.0f} % waiting" if summary["waiting_time"] > 0 and wall > 0 else ""
         bars.append(f'<div class="process"><div class="who">{html.escape(program(participant))}</div>'
                     f'<div class="bar">{"".join(pieces)}</div>'
                     f'<div class="sum">{wall:.1f} s<br><small>{share}</small></div></div>')

@@ -84,7 +84,7 @@ def run(options):
         print(f"{study.path}: no errors; {number_of_runs(study, make, known)} runs, {len(done)} of them done")
         return DONE
     begin = time.monotonic()
-    with runner.hold(out):
+    with runner.hold(study, out):
         records = search(study, make, runs) if study.bisects else all_runs(study, known, runs)
         finish(study, records, out, len(done), time.monotonic() - begin, checks.versions(programs))
     return BUG if any(record.exit_code == runner.HUNG for record in records) else DONE

@@ -111,7 +111,7 @@ def _speed_accuracy(table, study, extra):
 
 
 def _mark(table):
-    mark = Mark(table.get("label", str), table.get("value", float), table.get("time", float, None),
+    mark = Mark(table.label("label"), table.get("value", float), table.get("time", float, None),
                 table.get("source", str))
     for key, value in (("value", mark.value), ("time", mark.time)):
         if value is not None and not value > 0:

@@ -8,16 +8,18 @@ import re
 import shutil
 import subprocess
 
+from toryu.case import PROGRAMS_OF
 from toryu.processes import DONE
 from toryu.study import timing
 from toryu.study.document import BadStudy
 
 
+LONGEST_FAULT = 1000  # characters
+
+
 def programs(study, bin_folder):
     """The executables that the case needs."""
-    names = [f"{side}_solver" for side in ("fluid", "solid") if study.content.get(side, False) is not False]
-    if len(names) == 2:
-        names.insert(0, "coupler")
+    names = PROGRAMS_OF[study.kind]
     for name in names:
         if not shutil.which(bin_folder / name):
             raise BadStudy(f"{bin_folder / name}: error: no such program, needed as {name}")
@@ -45,7 +47,10 @@ def settings(study, runs, waiting, extra):
             seen |= values
 
     def fault(setting):
-        done = subprocess.run(runs.command(setting, "--check"), capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        try:
+            done = subprocess.run(runs.command(setting, "--check"), capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        except OSError as error:  # more than a command line takes
+            return f"{study.path}: error: the run with {setting}: {error.strerror}"[:LONGEST_FAULT]
         return "" if done.returncode == DONE else done.stdout + done.stderr
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

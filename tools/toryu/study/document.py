@@ -1,11 +1,12 @@
-"""A TOML file read with its faults: each is told with its line, what was found, and what is allowed."""
+"""A study file with its faults: each is told with its line, what was found, and what is allowed."""
 
 import difflib
-import re
-import tomllib
+import math
+
+from toryu.case import BadCase, resolve
 
 REQUIRED = object()
-KINDS = {str: "text", bool: "true or false", float: "a number", int: "an integer", list: "a list", dict: "a table"}
+KINDS = {str: "text", bool: "true or false", float: "a finite number", int: "an integer", list: "a list", dict: "a table"}
 
 
 class BadStudy(Exception):
@@ -22,51 +23,34 @@ def one_of(allowed):
 
 
 def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def found(value):
-    if isinstance(value, str):
-        return f"'{value}'"
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    text = f"'{value}'" if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
+    return text if len(text) <= 100 else f"{text[:97]}..."
 
 
-def lines_of_keys(text):
-    """(table path, key) -> line, for every `[table]`, `[[item]]` (key "") and `key = ...` that starts a line."""
-    lines, counts, path = {}, {}, ()
-    for number, line in enumerate(text.splitlines(), 1):
-        if header := re.match(r"\s*(\[\[?)\s*([\w.\s-]+?)\s*\]", line):
-            parts = tuple(part.strip() for part in header[2].split("."))
-            path = ()
-            for depth, part in enumerate(parts):
-                last = depth == len(parts) - 1
-                here = (*path, part)
-                if last and header[1] == "[[":
-                    counts[here] = counts.get(here, -1) + 1
-                path = (*here, counts[here]) if here in counts else here
-            lines.setdefault((path, ""), number)
-        elif key := re.match(r"""\s*["']?([\w-]+)["']?\s*[.=]""", line):
-            lines.setdefault((path, key[1]), number)
-    return lines
+def is_label(value):
+    """Whether `value` can stand in a table, a chart and a file name."""
+    return bool(value.strip()) and value.isprintable()
 
 
 class Document:
-    """The file; its tables collect faults, `end` raises them all at once."""
+    """The file as the coupler reads it; its tables collect faults, `end` raises them all at once."""
 
-    def __init__(self, path):
-        self.path, self.faults = path, []
+    def __init__(self, path, coupler):
+        self.faults = []
         try:
-            self.text = path.read_text(encoding="utf-8")
-            self.content = tomllib.loads(self.text)
-        except OSError as error:
-            raise BadStudy(f"{path}: error: cannot be read: {error.strerror}") from None
-        except UnicodeDecodeError:
-            raise BadStudy(f"{path}: error: is no text in UTF-8") from None
-        except tomllib.TOMLDecodeError as error:
-            place = re.search(r" \(at line (\d+), column (\d+)\)", str(error))
-            where = f":{place[1]}:{place[2]}" if place else ""
-            raise BadStudy(f"{path}{where}: error: {str(error).replace(place[0] if place else '', '')}") from None
-        self.lines = lines_of_keys(self.text)
+            case = resolve(path, coupler)
+        except BadCase as error:
+            raise BadStudy(str(error)) from None
+        self.path, self.name, self.content = case.file, case.name, case.content
+        self.text = case.file.read_text(encoding="utf-8", errors="replace")
+        # (path of a table, key) -> line; the key of a table itself is ""
+        self.lines = {}
+        for parts, line, _ in case.places:
+            self.lines[tuple(parts), ""] = self.lines[tuple(parts[:-1]), parts[-1]] = line
 
     def root(self):
         return Table(self, self.content, (), "the file")
@@ -120,6 +104,14 @@ class Table:
             self.fault(f"'{key}' must be one of {one_of(allowed)}, found {found(value)}{did_you_mean(value, allowed)}",
                        key)
             return substitute
+        return value
+
+    def label(self, key="name"):
+        """A text that names something in tables and charts."""
+        value = self.get(key, str)
+        if value is not None and not is_label(value):
+            self.fault(f"'{key}' must be a text of printable characters on one line, not empty, found {value!r:.100}", key)
+            return None
         return value
 
     def texts(self, key, default=REQUIRED, allowed=None):

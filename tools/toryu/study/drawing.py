@@ -22,6 +22,7 @@ WIDTH, HEIGHT = 6.2, 3.6  # [inch] of a single panel; several share twice the wi
 
 matplotlib.rcdefaults()  # not what the user has set for other charts
 matplotlib.rcParams.update({
+    "text.parse_math": False,  # a name may hold a dollar
     "svg.fonttype": "none", "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 9.5,
     "axes.titlesize": 10, "axes.titlelocation": "left", "axes.edgecolor": PALETTE["soft"],
     "axes.labelcolor": PALETTE["ink"],

@@ -4,7 +4,7 @@ import ast
 import math
 import operator
 
-from toryu.study.document import did_you_mean, one_of
+from toryu.study.document import did_you_mean, found, one_of
 
 OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
              ast.Pow: operator.pow, ast.USub: operator.neg, ast.UAdd: operator.pos}
@@ -26,10 +26,13 @@ class Formula:
         self.text = text
         try:
             self.tree = ast.parse(text, mode="eval").body
-        except (SyntaxError, ValueError, RecursionError) as error:
-            raise BadFormula(f"'{text}' is no formula: {getattr(error, 'msg', error)}") from None
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            raise BadFormula(f"{found(text)} is no formula: {getattr(error, 'msg', error)}") from None
         self.names = set()
-        self._check(self.tree, names)
+        try:
+            self._check(self.tree, names)
+        except RecursionError:
+            raise BadFormula(f"{found(text)} goes too deep") from None
 
     def _check(self, node, names):
         if isinstance(node, ast.Constant) and type(node.value) in (int, float):

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, field
 
 from toryu.study import map_charts, map_results, study_file, verdicts
-from toryu.study.document import is_number, one_of
+from toryu.study.document import found, is_number, one_of
 from toryu.study.formula import Formula, read_formula
 
 TIME_LIMIT = 600.0  # [s]
@@ -89,12 +89,15 @@ def add_axes(table, study):
         return
     inner = table.table("y")
     line = table.document.line(inner.path, "")
-    name, unit, rule = inner.get("name", str), inner.get("unit", str, ""), study_file.read_rule(inner)
+    name, unit, rule = inner.label(), inner.get("unit", str, ""), study_file.read_rule(inner)
     stable, unstable = inner.get("stable", float), inner.get("unstable", float)
     resolution, grid = inner.get("resolution", float, 0.05), inner.get("grid", list, [])
     given = [v for v in (stable, unstable) if v is not None]
     study_file.check_values(inner, rule, given, "stable")
-    if not study_file.check_values(inner, rule, grid, "grid") or not all(map(is_number, grid)):
+    if not all(map(is_number, grid)):
+        inner.fault(f"'grid' must be finite numbers, found {found(grid)}", "grid")
+        grid = []
+    elif not study_file.check_values(inner, rule, grid, "grid"):
         grid = []
     if len(given) == 2 and stable == unstable:
         inner.fault(f"'stable' and 'unstable' must differ, both are {stable}", "unstable")
@@ -155,7 +158,7 @@ def _theory(table, made, axes):
     for name, value in constants.items():
         if not is_number(value):
             table.fault(f"'constants' must be numbers, found {name} = {value}", "constants")
-    label, source = table.get("label", str), table.get("source", str, "")
+    label, source = table.label("label"), table.get("source", str, "")
     text = read_formula(table, "y", ["x", *constants])
     edge = None
     if table.has("edge"):

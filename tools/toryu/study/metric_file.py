@@ -42,7 +42,7 @@ class Metric:
 
 def read(table, study, earlier):
     """`earlier`: the metrics before this one, which a formula may name."""
-    name, scale = table.get("name", str), table.get("scale", float, 1.0)
+    name, scale = table.label(), table.get("scale", float, 1.0)
     given = [source for source in SOURCES if table.has(source)]
     if len(given) != 1:
         table.fault(f"{table.name} needs one of {one_of(SOURCES)}, found {one_of(given) if given else 'none'}")

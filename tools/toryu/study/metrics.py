@@ -82,7 +82,7 @@ def take(metric, study, row):
     if metric.summary:
         return of_summary(metric.summary, row["summaries"])
     if metric.reference:
-        compared = results.compare(study.case, row["record"].folder)
+        compared = results.compare(study.references, row["record"].folder)
         return next((c.distance for c in compared if c.label == metric.reference and
                      metric.of in (None, f"{c.series}.csv:{c.column}")), math.nan)
     if metric.formula:

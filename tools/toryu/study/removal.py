@@ -1,14 +1,14 @@
 """Abrasive removal of each run: depth along the work pieces a cycle, evenness, the pressure that the pistons need."""
 
 import math
-import tomllib
 from dataclasses import dataclass, field
 
-import h5py
 import numpy as np
 
 from toryu import results, surface
+from toryu.case import resolve
 from toryu.processes import DONE
+from toryu.report import along
 from toryu.study import removal_charts
 from toryu.study.answer import Answer
 from toryu.study.removal_answer import Wanted, answer_of
@@ -64,10 +64,10 @@ class Removal:
     def units(self):
         return UNITS | (ANSWER_UNITS if self.wanted else {})
 
-    def figures(self, _, row):
+    def figures(self, study, row):
         """Name -> value; empty if the run failed or holds fewer than two whole cycles."""
         record = row["record"]
-        removed = read_run(self, record.folder) if record.exit_code == DONE else None
+        removed = read_run(self, study, record.folder) if record.exit_code == DONE else None
         if removed is None:
             return {}
         self.runs[record.folder.name] = removed
@@ -99,20 +99,22 @@ def read(table, study):
     return Removal(pistons, area, cycle, wanted)
 
 
-def read_run(view, folder):
+def read_run(view, study, folder):
     """What came off in the run, or None if it has no work piece or holds fewer than two whole cycles."""
-    path = folder / "surface.h5"
-    if not path.is_file():
+    file = along.read(folder)
+    if file is None:
         return None
-    case = tomllib.loads((folder / "used_case.toml").read_text(encoding="utf-8"))
-    period = view.cycle * time_factor(case, view.pistons)
-    with h5py.File(path) as file:
+    with file:
+        case = resolve(folder / "used_case.toml", study.coupler).content
+        period = view.cycle * time_factor(case, view.pistons)
         time = file["time"][:]
         ends = period * np.arange(1, math.floor(time[-1] / period + 1e-3) + 1) if len(time) else []
         if len(ends) < 2:
             return None
         contours = surface.contours(file)
-        law = next(name for name in DEPTHS if name in file)
+        law = next((name for name in DEPTHS if name in file), None)
+        if law is None or not contours:
+            return None
         depth = file[law][:][:, np.concatenate([c.rows for c in contours])]
     at_ends = np.column_stack([np.interp(ends, time, column) for column in depth.T])
     return Removed(contours, at_ends, period, case.get("fluid", {}).get("removal", {}).get("roughness"))

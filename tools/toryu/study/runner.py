@@ -5,7 +5,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import signal
 import sys
 import time
@@ -15,11 +14,14 @@ from toryu import program, results
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import (BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, own_pause, pauses,
                              requests_to_end, start)
-from toryu.results_folder import newest_checkpoint
+from toryu.results_folder import newest_checkpoint, remove_former
 from toryu.study import timing
 
 RECORD = "run.json"  # in the folder of a run that is done: without it the run goes on or starts afresh
-KEPT = ("exit_code", "cause", "elapsed", "threads", "jobs", "loops")  # of a Record, in its file
+# of a Record, in its file
+KEPT = {"exit_code": int, "cause": str, "elapsed": (int, float), "threads": int, "jobs": int, "loops": list, "files": dict}
+LOCK = "study.lock"
+WRITTEN = ("table.csv", "study.html", "edges.csv", "terms.csv", "table.md", "charts", "runs")  # by studies
 OUTPUT = "output.txt"  # what the run printed
 POLL = 0.05  # [s]
 HUNG = 124  # in the place of an exit code: the run was ended because it took longer than it may
@@ -45,29 +47,57 @@ class Record:
     threads: int
     jobs: int  # that were allowed beside each other, itself included
     loops: list[dict] = field(default_factory=list)  # the reference loop before and after it, as timing.Loop
+    files: dict[str, int] = field(default_factory=dict)  # that it left, with their sizes
+
+
+def files_of(folder):
+    """Name -> size of the files that the figures of a run are taken from."""
+    patterns = ("*.csv", "*_summary.toml", "surface.h5", "used_case.toml")
+    return {path.name: path.stat().st_size for pattern in patterns for path in sorted(folder.glob(pattern))}
 
 
 def read_record(folder, setting):
-    """The record of the run in `folder`, or None."""
+    """The record of the run in `folder`, or None if there is none, or if the run's files are not as it left them."""
     try:
         content = json.loads((folder / RECORD).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        record = Record(setting, folder, **{name: content[name] for name in KEPT})
+        whole = all(isinstance(content[name], kind) for name, kind in KEPT.items()) and record.files == files_of(folder)
+        loops = [timing.Loop(**loop) for loop in record.loops]
+    except (OSError, ValueError, RecursionError, KeyError, TypeError, AttributeError):
         return None
-    return Record(setting, folder, **{name: content[name] for name in KEPT if name in content})
+    faults = []
+    results.read_summaries(folder, faults)
+    for name in results.PARTICIPANTS:
+        results.read_series(folder, name, faults)
+    return record if whole and not faults and len(loops) == len(record.loops) else None
 
 
 def write_record(record):
     setting = record.setting
+    record.files = files_of(record.folder)
     content = {"values": setting.values, "set": setting.overrides} | {
         name: getattr(record, name) for name in KEPT}
     program.write_whole(record.folder / RECORD, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
 
 
-def hold(out):
+def refuse_others(study, out):
+    """The folder of a study holds nothing of these names but what a study wrote."""
+    for name in WRITTEN if out.is_dir() and not (out / LOCK).exists() else ():
+        if (out / name).exists():
+            raise Ended(BAD_INPUT, f"--out {out}: error: holds '{name}', which no study wrote, and a study would write over "
+                                   "it; give another folder")
+    for path in study.inputs:
+        if path.resolve() in [(out / name).resolve() for name in WRITTEN]:
+            raise Ended(BAD_INPUT, f"--out {out}: error: the study would write over its own input {path}; give another "
+                                   "folder")
+
+
+def hold(study, out):
     """Holds the study's folder: the same study is not run twice at once."""
     held = contextlib.ExitStack()
     try:
-        if why := held.enter_context(lock_folder(out, "study.lock")):
+        refuse_others(study, out)
+        if why := held.enter_context(lock_folder(out, LOCK)):
             print(f"warning: the file system of {out} has no locks ({why}): nothing keeps the same study from being run "
                   "there twice at once", file=sys.stderr)
         (out / "runs").mkdir(exist_ok=True)
@@ -86,10 +116,12 @@ def prepare(folder, may_go_on):
         with lock_folder(folder, "launch.lock", patience), lock_folder(folder, "run.lock", patience):
             if may_go_on and newest_checkpoint(folder):
                 return True
-            shutil.rmtree(folder, ignore_errors=True)
+            if (folder / RECORD).exists():
+                print(f"{folder}: the files of the run are not as it left them: it runs again", file=sys.stderr)
+            remove_former(folder)
+            (folder / RECORD).unlink(missing_ok=True)
     except FolderTaken:
         raise Ended(BAD_INPUT, f"{folder}: error: another run writes its results here")
-    folder.mkdir()
     return False
 
 

@@ -29,6 +29,8 @@ def toml(value):
         return "[" + ", ".join(map(toml, value)) + "]"
     if isinstance(value, float):
         return repr(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     return json.dumps(value, ensure_ascii=False) if isinstance(value, (str, bool, int)) else str(value)
 
 

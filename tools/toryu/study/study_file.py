@@ -1,15 +1,19 @@
 """What a study file says: the case, the axes, what is taken and drawn. README.md describes the keys."""
 
 import math
+import os
 import pathlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from toryu import results
+from toryu.case import BadCase, resolve
 from toryu.study import chart_file, metric_file, timing
-from toryu.study.document import BadStudy, Document, did_you_mean, is_number, one_of
+from toryu.study.document import BadStudy, Document, did_you_mean, found, is_label, is_number, one_of
 from toryu.study.metric_file import OF_RUN
 from toryu.study.timing import Timing
+
+
+MOST_RUNS = 100_000  # of a study
 
 
 @dataclass(frozen=True)
@@ -32,10 +36,15 @@ class Axis:
 @dataclass
 class Study:
     path: pathlib.Path
+    file_name: str  # what its results are called by
     text: str
     title: str
     case: pathlib.Path
-    content: dict  # of the case
+    kind: str  # of the case, as
+    content: dict  # what it says
+    references: list[dict]  # and its references are resolved
+    inputs: list[pathlib.Path]  # files that were read
+    coupler: pathlib.Path  # what reads a case
     overrides: dict[str, object]
     set_line: int | None  # where the file gives them
     keep_frames: bool
@@ -51,12 +60,13 @@ class Study:
 
     @property
     def name(self):
-        return results.case_name(self.path) + ("_small" if self.small else "")
+        return self.file_name + ("_small" if self.small else "")
 
     def names_in_case(self, table, key):
         """What the [[table]] of the case have under `key`."""
         items = self.content.get(table, [])
-        return [item[key] for item in items if key in item] if isinstance(items, list) else []
+        tables = [item for item in items if isinstance(item, dict)] if isinstance(items, list) else []
+        return [item[key] for item in tables if isinstance(item.get(key), str)]
 
     def of_run(self):
         """Name -> unit of the times that every run has."""
@@ -71,19 +81,10 @@ class Study:
         return {thing.name: thing.unit for thing in [*self.axes, *self.metrics]} | self.of_run()
 
 
-def content_of(case, coupler):
-    try:
-        return results.case_content(case, coupler)
-    except results.BadCase as error:
-        raise BadStudy(str(error)) from None
-    except OSError as error:
-        raise BadStudy(f"{coupler}: error: cannot be started: {error.strerror}") from None
-
-
 def flat(content, prefix=""):
-    """{"a": {"b": 1}} and {"a.b": 1} -> {"a.b": 1}: a dotted key may be quoted or not."""
+    """{"a": {"b": 1}} and {"a.b": 1} -> {"a.b": 1}: a dotted key may be quoted or not. None, of a fault, is empty."""
     pairs = {}
-    for key, value in content.items():
+    for key, value in (content or {}).items():
         if isinstance(value, dict) and value:
             pairs |= flat(value, f"{prefix}{key}.")
         else:
@@ -102,18 +103,49 @@ class View:
 
 
 def read(path, coupler, views=(), small=False):
-    """The study in `path`, or its small version; `coupler` prints its case."""
-    document = Document(path)
-    root = document.root()
+    """The study in `path`, or its small version; `coupler` reads it and its case."""
+    document = Document(path, coupler)
+    try:
+        study = _read(document, coupler, views, small)
+    except Exception:
+        document.end()  # a fault that is told may leave what follows without sense
+        raise
+    document.end()
+    return study
+
+
+def _read_case(head, folder, coupler):
+    """The case of the study, None after a fault."""
+    name = head.get("case", str)
+    if name is None:
+        return None
+    case = folder / name
+    if not os.path.isfile(case):
+        head.fault(f"'case' must be a case file beside the study, found '{case}', which is no file", "case")
+        return None
+    try:
+        resolved = resolve(case, coupler)
+    except BadCase as error:
+        raise BadStudy(str(error)) from None
+    if resolved.kind in ("study", "empty"):
+        head.fault(f"'case' must be a case file beside the study, found '{case}', which " + (
+            "is a study" if resolved.kind == "study" else "has no section [fluid] and no section [solid]"), "case")
+        return None
+    return resolved
+
+
+def _read(document, coupler, views, small):
+    root, path = document.root(), document.path
     head = root.table("study")
     if head is None:
-        raise BadStudy(f"{path}: error: no table [study]")
-    case = path.parent / (head.get("case", str) or "")
-    if head.has("case") and not case.is_file():
-        head.fault(f"'case' must be a case file beside the study, found '{case}', which is no file", "case")
-    content = content_of(case, coupler) if case.is_file() else {}
-    study = Study(path, document.text, head.get("title", str), case, content, flat(head.get("set", dict, {})),
-                  document.line(head.path, "set"), head.get("keep_frames", bool, False), [], [], [], small=small)
+        root.fault("'study' must be a table, [study]", "study")
+        document.end()
+    case = _read_case(head, path.parent, coupler)
+    told = (case.file, case.kind, case.content, case.references, case.inputs) if case else (path, "empty", {}, [], [])
+    study = Study(path, document.name, document.text, head.get("title", str), *told, coupler,
+                  flat(head.get("set", dict, {})), document.line(head.path, "set"), head.get("keep_frames", bool, False),
+                  [], [], [], small=small)
+    study.inputs = [path, *study.inputs]
     head.close()
     study.axes = [_axis(table) for table in root.tables("axis")]
     study.leave_out = [_leave_out(table, study.axes) for table in root.tables("leave_out")]
@@ -135,13 +167,13 @@ def read(path, coupler, views=(), small=False):
     study.charts = [chart_file.read(table, study, extra) for table in root.tables("chart")]
     _read_small(root.table("small"), study)
     root.close()
-    document.end()
+    _check_size(document, study)
     return study
 
 
 def _axis(table):
     line = table.document.line(table.path, "")
-    name, unit = table.get("name", str), table.get("unit", str, "")
+    name, unit = table.label(), table.get("unit", str, "")
     value_of = None
     if table.has("choice"):
         values = [_choice(choice) for choice in table.tables("choice")]
@@ -175,7 +207,7 @@ def _leave_out(table, axes):
 
 
 def _choice(table):
-    value = Value(table.get("name", str), flat(table.get("set", dict, {})))
+    value = Value(table.label(), flat(table.get("set", dict, {})))
     table.close()
     return value
 
@@ -192,6 +224,14 @@ class Rule:
                      {key: scale * value ** power for inner, scale, power in self.derived for key in inner})
 
 
+    def reaches(self, value):
+        """Whether all that derives from the value is finite."""
+        try:
+            return all(map(math.isfinite, (scale * value ** power for _, scale, power in self.derived)))
+        except ArithmeticError:
+            return False
+
+
 def read_rule(table):
     keys, derived = table.texts("keys", []), []
     for rule in table.tables("derived"):
@@ -205,20 +245,33 @@ def check_values(table, rule, values, key="values"):
     if values and not (rule.keys or rule.derived):
         table.fault(f"{table.name} needs 'keys', the keys of the case that take its values")
     for value in values:
-        if not (is_number(value) and math.isfinite(value)) and (rule.derived or not isinstance(value, str)):
-            table.fault(f"'{key}' must be {'' if rule.derived else 'texts or '}finite numbers, found {value}", key)
+        text = isinstance(value, str) and is_label(value) and not rule.derived
+        if not is_number(value) and not text:
+            table.fault(f"'{key}' must be {'' if rule.derived else 'texts or '}finite numbers, found {found(value)}", key)
             return False
         if rule.derived and not value > 0:
             table.fault(f"'{key}' must be above 0 where other keys derive from them, found {value}", key)
             return False
+        if not rule.reaches(value):
+            table.fault(f"the keys that derive from '{key}' get no finite number from {value}", key)
+            return False
     return True
+
+
+def _check_size(document, study):
+    """Each key can be given to a program, and the runs can be counted."""
+    keys = set(study.overrides).union(*(value.overrides for axis in study.axes for value in axis.values))
+    for key in sorted(keys):
+        if not is_label(key) or "=" in key:
+            document.fault(f"{key!r:.100} is no key of a case")
+    runs = math.prod([study.timing.repeat if study.timing else 1, *(len(axis.values) for axis in study.axes)])
+    if runs > MOST_RUNS:
+        document.fault(f"the axes give {runs} runs; at most {MOST_RUNS} can be done")
 
 
 def _check_names(document, study):
     names = [thing.name for thing in [*study.axes, *study.metrics] if thing.name is not None]
     of_run = study.of_run()
-    if "" in names:
-        document.fault("the name of an axis or metric must not be empty")
     for name in sorted({n for n in names if names.count(n) > 1 or n in of_run}):
         document.fault(f"the name '{name}' is taken twice by axes and metrics ({one_of(of_run)} are always there)")
     taken = {}
@@ -244,6 +297,10 @@ def _read_small(table, study):
     axes = {axis.name: axis for axis in study.axes}
     overrides, chosen = flat(table.get("set", dict, {})), table.get("values", dict, {})
     repeat, resolution = table.get("repeat", int, None), table.get("resolution", float, None)
+    if repeat is not None and repeat < 1:
+        table.fault(f"'repeat' must be at least 1, found {repeat}", "repeat")
+    if resolution is not None and not 0 < resolution < 1:
+        table.fault(f"'resolution' must be between 0 and 1, found {resolution}", "resolution")
     for name, values in chosen.items():
         if name not in axes:
             table.fault(f"'values' names no axis '{name}'{did_you_mean(name, axes)}; there are {one_of(axes)}", "values")

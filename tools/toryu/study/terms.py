@@ -40,16 +40,17 @@ def add_axes(table, study):
         table.fault("[terms] needs [terms.discretisation], a run at another spacing")
         study.terms = Terms("", math.nan, 1.0, adds)
         return
-    name = other.get("name", str, "at another spacing")
+    name = other.label() if other.has("name") else "at another spacing"
     values.append(study_file.Value(name, study_file.flat(other.get("set", dict))))
     ratio, order = other.get("ratio", float), other.get("order", float, 1.0)
     if ratio is not None and (not ratio > 0 or ratio == 1):
         other.fault(f"'ratio' is that run's spacing over the shipped one: above 0 and not 1, found {ratio}", "ratio")
+    other.known.append("name")
     if not order > 0:
         other.fault(f"'order' must be above 0, found {order}", "order")
     other.close()
     for inner in table.tables("term"):
-        value = study_file.Value(inner.get("name", str), study_file.flat(inner.get("set", dict)))
+        value = study_file.Value(inner.label(), study_file.flat(inner.get("set", dict)))
         if inner.get("adds", bool, False):
             adds.add(value.name)
         values.append(value)

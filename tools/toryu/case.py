@@ -1,0 +1,49 @@
+"""A case or a study as a program reads it: no Python here reads such a file itself."""
+
+import functools
+import json
+import pathlib
+import subprocess
+from dataclasses import dataclass, field
+
+from toryu.processes import DONE
+
+PROGRAMS_OF = {"coupled": ["coupler", "fluid_solver", "solid_solver"], "fluid": ["fluid_solver"],
+               "solid": ["solid_solver"]}  # of each kind of case, the lead first
+
+
+class BadCase(Exception):
+    """What the program says is wrong with a file, a line each."""
+
+
+@dataclass
+class Case:
+    """A file as `--resolved` tells it."""
+
+    kind: str  # "study", "coupled", "fluid", "solid", or "empty" if there is nothing to compute
+    file: pathlib.Path
+    name: str  # of its results
+    inputs: list[pathlib.Path]  # the files that were read: its own, its base, its references
+    content: dict  # what it says, with its base merged and overrides applied
+    references: list[dict] = field(default_factory=list)  # what is said of each, and its "points" or its "fault"
+    places: list = field(default_factory=list)  # (path of a key, line, column)
+
+
+@functools.cache
+def resolve(path, program, overrides=()):
+    """The file that `path` means, with `overrides` ("key=value") applied, as `program` reads it. Raises BadCase."""
+    try:
+        done = subprocess.run([program, path, "--resolved", *(f"--set={pair}" for pair in overrides)],
+                              capture_output=True, encoding="utf-8", errors="surrogateescape", stdin=subprocess.DEVNULL)
+    except (OSError, ValueError) as error:
+        raise BadCase(f"{program}: error: cannot be started: {getattr(error, 'strerror', error)}") from None
+    if done.returncode != DONE:
+        raise BadCase((done.stdout + done.stderr).strip() or f"{program} --resolved ended with {done.returncode}")
+    try:
+        told = json.loads(done.stdout)
+        case, references = told["case"], told["references"]
+    except (ValueError, RecursionError, KeyError, TypeError) as error:
+        raise BadCase(f"{program}: error: --resolved gave no case: {error!r}") from None
+    file = pathlib.Path(case["file"])
+    inputs = [*map(pathlib.Path, case["inputs"]), *(file.parent / r["file"] for r in references)]
+    return Case(case["kind"], file, case["name"], inputs, case["content"], references, case["places"])
