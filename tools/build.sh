@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
-# Builds quietly what is out of date: tools/build.sh PRESET [-DOPTION=VALUE ...] [TARGET ...]. On a terminal one line
-# shows how far it is; the compiler's output is shown if it fails, and stays in build/PRESET/build.log. Ends with 1 if a
-# file cannot be compiled, with 5 if the machine does not let it build.
+# Builds quietly what is out of date: tools/build.sh PRESET [-DOPTION=VALUE ...] [-DOPTION?=VALUE ...] [TARGET ...].
+# OPTION?=VALUE is for a folder that is configured for the first time. On a terminal one line shows how far it is; the
+# compiler's output is shown if it fails, and stays in build/PRESET/build.log. Ends with 1 if a file cannot be compiled,
+# with 5 if the machine does not let it build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=$1
 shift
-options=() targets=()
+options=() first_options=() targets=()
 for argument in "$@"; do
   case $argument in
+    -D*\?=*) first_options+=("${argument/\?=/=}") ;;
     -D*) options+=("$argument") ;;
     *) targets+=("$argument") ;;
   esac
@@ -33,10 +35,15 @@ fail() {
   exit 1
 }
 
+# Whether it is, and here: a copy of the sources with its build folder must be configured anew.
+is_configured() {
+  local home
+  home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt" 2>/dev/null) || true
+  [ -f "$folder/build.ninja" ] && [ "$home" -ef "$PWD" ]
+}
 # Without options, what was configured before stays: run.sh and test.sh share a folder, and neither undoes the other.
-is_configured() { [ -f "$folder/build.ninja" ] && [ ${#options[@]} -eq 0 ]; }
 is_built() {
-  is_configured && [ ${#targets[@]} -gt 0 ] &&
+  is_configured && [ ${#options[@]} -eq 0 ] && [ ${#targets[@]} -gt 0 ] &&
     [[ $(ninja -C "$folder" -n "${targets[@]}" 2>&1) == *"ninja: no work to do."* ]]
 }
 has_programs() {
@@ -49,7 +56,10 @@ write_commit() {
   cmake -DSOURCE="$PWD" -DFOLDER="$PWD/$folder/bin" -P common/run/write_commit.cmake >/dev/null 2>&1 || true
 }
 build() {
-  is_configured || cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || fail "configuring $folder"
+  local anew=()
+  is_configured || anew=(--fresh "${first_options[@]}")
+  [ ${#anew[@]} -eq 0 ] && [ ${#options[@]} -eq 0 ] ||
+    cmake --preset "$preset" "${anew[@]}" "${options[@]}" >"$log" 2>&1 || fail "configuring $folder"
   local command=(cmake --build "$folder" --parallel "$(nproc)") start=$SECONDS
   [ ${#targets[@]} -eq 0 ] || command+=(--target "${targets[@]}")
   "${command[@]}" 2>&1 | tee "$log" | show_progress || fail "building $folder"

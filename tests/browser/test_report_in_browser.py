@@ -36,15 +36,15 @@ class ReportInBrowser(unittest.TestCase):
         cls.browser = start_browser(cls.folder)
         cls.addClassCleanup(cls.browser.quit)
 
-    def open(self, name, sides=("fluid", "solid")):
+    def open(self, name, sides=("fluid", "solid"), exit_code=0, frame=0):
         case, out = self.folder / name / "gate", self.folder / name / "out"
         if not out.exists():
             made_up_run.make_case(case, sides)
             made_up_run.make_results(out, sides, frames=11)
-            subprocess.run([sys.executable, "-m", "toryu.report", out, "--case", case], check=True,
-                           stdout=subprocess.DEVNULL)
+            subprocess.run([sys.executable, "-m", "toryu.report", out, "--case", case, f"--exit-code={exit_code}"],
+                           check=True, stdout=subprocess.DEVNULL)
         self.browser.get((out / "report.html").as_uri())
-        self.wait_for_frame(0)
+        self.wait_for_frame(frame)
 
     def open_channel(self, elastic=False):
         name = "elastic" if elastic else "rigid"
@@ -81,6 +81,10 @@ class ReportInBrowser(unittest.TestCase):
         self.assertGreater(self.picture()["opaque"], 0.2)
         self.assertLess(self.picture()["opaque"], 0.9)
         self.assertGreater(len(self.browser.find_elements(By.CSS_SELECTOR, "figure svg path.line")), 6)
+
+    def test_a_failure_opens_at_its_end(self):
+        self.open("failed", exit_code=3, frame=10)
+        self.assertEqual(self.browser.find_element(By.ID, "now").text, "0.4000 s")
 
     def test_the_slider_moves_the_picture(self):
         self.open("coupled")

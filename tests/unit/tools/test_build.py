@@ -93,6 +93,27 @@ class Build(unittest.TestCase):
         self.assertIn("warning: the sources are newer than the programs", words)
         self.assertEqual(self.times_built(), 1)
 
+    def test_a_copy_is_built_of_its_own_sources(self):
+        self.build()
+        copy = self.root.with_name(self.root.name + "_copy")
+        self.addCleanup(shutil.rmtree, copy)
+        shutil.copytree(self.root, copy)
+        (copy / "source").write_text("#!/bin/sh\necho copy\n")
+        done = subprocess.run([copy / "tools/build.sh", "release", "program"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("echo copy", (copy / "build/release/bin/program").read_text())
+        self.assertEqual(self.times_built(), 1)
+
+    def test_an_option_with_a_question_mark_is_for_the_first_time(self):
+        def configured(*options):
+            done = subprocess.run([*self.command(), *options], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return "TORYU_TESTS:UNINITIALIZED=ON" in (self.folder / "CMakeCache.txt").read_text()
+
+        self.assertTrue(configured("-DTORYU_TESTS?=ON"))
+        self.assertFalse(configured("-DTORYU_TESTS=OFF"))
+        self.assertFalse(configured("-DTORYU_TESTS?=ON"))
+
     def test_a_commit_is_noted_and_builds_nothing(self):
         git = ["git", "-C", self.root, "-c", "user.name=a", "-c", "user.email=a", "-c", "init.defaultBranch=main"]
         commits = []
