@@ -8,4 +8,11 @@ import runpy
 import sys
 
 sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])  # in the place of this folder
-runpy.run_module(f"toryu.{sys.argv.pop(1)}", run_name="__main__", alter_sys=True)
+try:
+    runpy.run_module(f"toryu.{sys.argv.pop(1)}", run_name="__main__", alter_sys=True)
+except (ImportError, MemoryError) as error:
+    if "toryu" in (getattr(error, "name", None) or ""):
+        raise
+    print(f"error: the machine: a package of Python cannot be loaded: {error or 'not enough memory'}; 'tools/install.sh run study' installs what "
+          "is missing", file=sys.stderr)
+    sys.exit(5)  # as in processes.py

@@ -7,6 +7,7 @@ import subprocess
 from dataclasses import dataclass, field
 
 from toryu.processes import DONE
+from toryu.program import SHORTAGES
 
 PROGRAMS_OF = {"coupled": ["coupler", "fluid_solver", "solid_solver"], "fluid": ["fluid_solver"],
                "solid": ["solid_solver"]}  # of each kind of case, the lead first
@@ -36,6 +37,8 @@ def resolve(path, program, overrides=()):
         done = subprocess.run([program, path, "--resolved", *(f"--set={pair}" for pair in overrides)],
                               capture_output=True, encoding="utf-8", errors="surrogateescape", stdin=subprocess.DEVNULL)
     except (OSError, ValueError) as error:
+        if getattr(error, "errno", None) in SHORTAGES:
+            raise
         raise BadCase(f"{program}: error: cannot be started: {getattr(error, 'strerror', error)}") from None
     if done.returncode != DONE:
         raise BadCase((done.stdout + done.stderr).strip() or f"{program} --resolved ended with {done.returncode}")

@@ -6,7 +6,6 @@ closes with the report and a summary; a study it hands on to toryu.study.
 
 import argparse
 import contextlib
-import errno
 import importlib.util
 import os
 import pathlib
@@ -22,7 +21,6 @@ from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED, Run, says_yes
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
-OUT_OF_SUPPLIES = {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.EIO}  # no fault of --out
 MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
 ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
@@ -104,7 +102,9 @@ def is_study(argument, coupler):
 def run_study(arguments):
     """Goes on as toryu.study, which needs a package more."""
     if importlib.util.find_spec("matplotlib") is None:
-        subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "study"], check=True)
+        installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "study"]).returncode
+        if installed != DONE:
+            raise SystemExit(installed)
     os.execv(sys.executable, program.python("study", *arguments))
 
 
@@ -199,7 +199,7 @@ def hold(out, name):
         raise SystemExit(complain(f"{out}: error: another run writes its results here; wait for it or give --out "
                                   "another folder"))
     except OSError as error:
-        if error.errno in OUT_OF_SUPPLIES:
+        if error.errno in program.SHORTAGES:
             raise
         raise SystemExit(complain(f"--out {out}: error: no results can be written there: {error.strerror}"))
     return held

@@ -33,6 +33,10 @@ REMEDIES = {
 }
 
 
+# What the machine is short of, whatever path was given.
+SHORTAGES = {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.EIO, errno.EAGAIN, errno.ENOMEM}
+
+
 def python(part, *arguments):
     """The command that starts toryu.PART, untouched by PYTHONPATH, PYTHONIOENCODING, the locale and the like."""
     return [sys.executable, "-I", "-X", "utf8", str(PACKAGE), part, *map(str, arguments)]

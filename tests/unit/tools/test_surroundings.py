@@ -4,8 +4,10 @@ Python, file systems without locks."""
 import os
 import pathlib
 import pty
+import shutil
 import signal
 import subprocess
+import sys
 import termios
 import unittest
 
@@ -189,6 +191,14 @@ class Faults(Surroundings):
         done = self.launch()
         self.assertEqual(done.returncode, 5)
         self.assertRegex(done.stderr, "^error: the machine: .*report.html.part: No space left on device; make room.*\n$")
+
+    def test_a_package_that_cannot_be_loaded(self):
+        package = self.folder / "toryu"
+        shutil.copytree(program.PACKAGE, package)
+        (package / "part.py").write_text("import absent_package\n")
+        done = subprocess.run([sys.executable, "-I", "-X", "utf8", package, "part"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertRegex(done.stderr, "^error: the machine: .*No module named 'absent_package'; .*\n$")
 
     def test_a_path_that_cannot_be_one_is_refused(self):
         longest = "a" * 300

@@ -104,6 +104,8 @@ def hold(study, out):
     except FolderTaken:
         raise Ended(BAD_INPUT, f"{out}: error: this study is being run already; wait for it or give --out another folder")
     except OSError as error:
+        if error.errno in program.SHORTAGES:
+            raise
         raise Ended(BAD_INPUT, f"--out {out}: error: no results can be written there: {error.strerror}")
     return held
 
