@@ -215,8 +215,8 @@ TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
 }
 
 TEST(Node, NamesThePortsThatAreTaken) {
-  const auto place =
-      dds::rendezvous(std::filesystem::temp_directory_path() / fmt::format("toryu_ports_{}", getpid()));
+  const auto out = std::filesystem::temp_directory_path() / fmt::format("toryu_ports_{}", getpid());
+  const auto place = dds::rendezvous(out);
   std::vector<int> held;
   for (unsigned port = 7400 + 250 * place.domain; port < 7650 + 250 * place.domain; ++port) {
     sockaddr_in self{};
@@ -233,6 +233,7 @@ TEST(Node, NamesThePortsThatAreTaken) {
                                  HasSubstr(fmt::format("of {} to {} on 127.0.0.1", 7400 + 250 * place.domain,
                                                        7649 + 250 * place.domain)))));
   for (const int each : held) close(each);
+  std::filesystem::remove_all(out);
 }
 
 TEST_F(LinkTest, HandshakeCarriesTheInterface) {
