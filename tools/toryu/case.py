@@ -2,6 +2,7 @@
 
 import functools
 import json
+import os
 import pathlib
 import subprocess
 from dataclasses import dataclass, field
@@ -47,6 +48,7 @@ def resolve(path, program, overrides=()):
         case, references = told["case"], told["references"]
     except (ValueError, RecursionError, KeyError, TypeError) as error:
         raise BadCase(f"{program}: error: --resolved gave no case: {error!r}") from None
-    file = pathlib.Path(case["file"])
+    # as it was given: JSON does not carry a name that is no text
+    file = pathlib.Path(path) / "case.toml" if os.path.isdir(path) else pathlib.Path(path)
     inputs = [*map(pathlib.Path, case["inputs"]), *(file.parent / r["file"] for r in references)]
     return Case(case["kind"], file, case["name"], inputs, case["content"], references, case["places"])
