@@ -36,6 +36,8 @@ HdfHandle growing_dataset(hid_t file, const std::string& name, const HdfSeriesFi
   size.insert(size.begin(), 0);
   limit.insert(limit.begin(), H5S_UNLIMITED);
   chunk.insert(chunk.begin(), rows_per_chunk);
+  for (auto* shape : {&limit, &chunk})  // HDF5 knows no chunk of nothing, which rows without a point would be
+    for (auto& length : *shape) length = std::max<hsize_t>(length, 1);
   const HdfHandle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), limit.data()), H5Sclose,
                         name);
   const HdfHandle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);

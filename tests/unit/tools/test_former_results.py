@@ -1,11 +1,12 @@
 """What becomes of results that are in the folder of a new run: kept beside it, or removed."""
 
 import subprocess
+import sys
 import unittest
 
 from launch_case import Launch
 
-from toryu import results_folder
+from toryu import PROGRAMS, results_folder
 
 OURS = ["fluid.csv", "solid.csv.part", "frames/fluid_000003.hdf", "fluid.hdf.series", "report.html", "log.txt",
         "coupler_summary.toml", "checkpoint/000001/fluid.h5", "checkpoint/000001/manifest.toml"]
@@ -62,6 +63,25 @@ class FormerResults(Launch):
         for name in OTHERS:
             self.assertEqual((self.out / name).read_text(), "old")
         self.assertNotIn("--overwrite", (self.out / "fluid_solver.arguments").read_text())
+
+    def test_a_case_that_a_run_would_write_over_is_refused(self):
+        used = self.out / "used_case.toml"
+        used.write_text("[case]\n[fluid]\n")
+        self.case = used
+        for path in self.bin.glob("*_solver"):  # the real one judges
+            path.write_text(f'#!/bin/sh\nexec "{PROGRAMS}/{path.name}" "$@"\n')
+        done = self.launch()
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"{used}: error: a run with its results in '{self.out}' would write over this file", done.stderr)
+        self.assertEqual(used.read_text(), "[case]\n[fluid]\n")
+
+    def test_a_case_in_a_linked_folder_has_results_of_its_own(self):
+        (self.folder / "link").symlink_to(self.case)
+        for name in ("gate", "link"):
+            done = subprocess.run([sys.executable, "-m", "toryu.launch", name, "--bin", self.bin], cwd=self.folder,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue((self.folder / "out" / name / "coupler.pid").exists())
 
     def test_a_check_leaves_them_alone(self):
         self.leave_results()

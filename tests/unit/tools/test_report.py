@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 
 from toryu import PROGRAMS
+from toryu.folder_lock import lock_folder
 from toryu.report import data, frames, scene, tables
 from toryu.report.__main__ import page as make_page
 from toryu_testing import made_up_run
@@ -110,6 +111,52 @@ class Page(unittest.TestCase):
         page = self.page("--exit-code=4", "--words=solid_solver was killed")
         self.assertIn('<span class="badge bad">A process was lost</span>', page)
         self.assertIn("<p>solid_solver was killed</p>", page)
+
+    def test_damaged_files_are_passed_over_and_told(self):
+        self.make(frames=3)
+        frame = self.out / "frames/fluid_000001.hdf"
+        frame.write_bytes(frame.read_bytes()[:4000])
+        (self.out / "frames/solid_000002.hdf").write_bytes(b"")
+        (self.out / "frames/solid_000001.hdf").unlink()
+        (self.out / "solid.csv").write_text("")
+        (self.out / "solid_summary.toml").write_text("")
+        page = self.page()
+        fluid, solid = self.content(page)["bodies"]
+        self.assertEqual((fluid["times"], solid["times"]), ([0, 0.4], [0]))
+        for words in ("fluid_000001.hdf cannot be read", "solid_000002.hdf cannot be read", "lists 1 frames that are not there",
+                      "solid.csv is empty", "solid_summary.toml is damaged"):
+            self.assertIn(words, page)
+
+    def test_a_run_that_goes_on_is_no_bug(self):
+        self.make(frames=2)
+        for summary in self.out.glob("*_summary.toml"):
+            summary.unlink()
+        self.assertIn('<span class="badge stopped">Without an end</span>', self.page())
+        with lock_folder(self.out, "run.lock"):
+            self.assertIn('<span class="badge stopped">Still running</span>', self.page())
+
+    def test_a_bad_reference_does_not_cost_the_good_one(self):
+        self.make(frames=2)
+        with open(self.out / "used_case.toml", "a") as case:
+            case.write('[[reference]]\nlabel = "computed"\nfile = "other.csv"\nseries = "solid.csv:a"\ncolumn = "x"\n')
+        (self.out / "other.csv").write_text("t;x\n0;1\n")
+        page = self.page()
+        self.assertEqual(len(self.content(page)["compared"]), 1)
+        self.assertIn("reference &#x27;computed&#x27;: no column &#x27;x&#x27; in &#x27;other.csv&#x27;", page)
+
+    def test_a_name_cannot_end_or_hide_the_script(self):
+        self.make(frames=2)
+        used = self.out / "used_case.toml"
+        used.write_text(used.read_text().replace('"piston"', '"<!--<script></script>"'))
+        page = self.page()
+        self.assertEqual(page.count("<!--<script>"), 0)
+        self.assertEqual(self.content(page)["walls"][1]["name"], "<!--<script></script>")
+
+    def test_a_round_wall_is_told_as_such(self):
+        self.make(frames=2)
+        used = self.out / "used_case.toml"
+        used.write_text(used.read_text().replace("max = [0.0, 0.16] }", "max = [0.0, 0.16], round = true }"))
+        self.assertEqual([wall["round"] for wall in self.content(self.page())["walls"]], [False, True])
 
     def test_runs_of_one_side(self):
         for side in ("fluid", "solid"):

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -29,6 +30,41 @@ class Runs(Study):
         ended = self.done()
         self.assertEqual(len(self.starts()), 6)
         self.assertIn("6 were done before", ended.stdout)
+
+    def test_a_run_whose_files_are_damaged_runs_again(self):
+        self.write(TWO_AXES)
+        self.done()
+        for damage in ({"fluid.csv": ""}, {"fluid_summary.toml": ""}, {"run.json": "[]"}, {"run.json": "{"},
+                       {"fluid.csv": "time[s],speed[m/s]\n0,1\n"}):
+            folder, *_ = sorted((self.out / "runs").iterdir())
+            for name, text in damage.items():
+                (folder / name).write_text(text)
+            (folder / "notes.txt").write_text("mine")
+            before = len(self.starts())
+            self.done()
+            self.assertEqual(len(self.starts()), before + 1, damage)
+            self.assertEqual((folder / "notes.txt").read_text(), "mine")
+
+    def test_a_name_may_hold_what_others_take_for_mathematics(self):
+        self.write("""[[axis]]
+name = "price"
+[[axis.choice]]
+name = "cost $1^ per hour, $2"
+[[axis.choice]]
+name = "$x_$"
+[[axis.choice]]
+name = "_hidden"
+[[metric]]
+name = "end"
+series = "fluid.csv:speed[m/s]"
+[[chart]]
+x = "price"
+y = "end"
+""")
+        self.done()
+        page = (self.out / "study.html").read_text()
+        for name in ("cost $1^ per hour, $2", "$x_$", "_hidden"):
+            self.assertRegex(page, "<text[^>]*>" + re.escape(name) + "</text>")
 
     def test_a_change_runs_what_it_touches(self):
         self.write(TWO_AXES)

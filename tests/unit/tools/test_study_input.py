@@ -89,6 +89,52 @@ answer = { wanted_depth = 1e-6, pressure_at_most = -1 }
         self.assertEqual(faults, ["window.toml: error: 'fluid.x' is set by the axes 'x' and 'wait': a run can have one "
                                   "value only"])
 
+    def test_what_is_a_study_is_told_by_its_table_alone(self):
+        text = TWO_AXES
+        for head in ("[ study ]\n" + HEAD.split("\n", 1)[1], "\ufeff" + HEAD,
+                     'study.title = "dotted"\nstudy.case = "case.toml"\n', 'study = { title = "inline", case = "case.toml" }\n'):
+            self.write(text, head)
+            ended = self.study("--check")
+            self.assertEqual((ended.returncode, ended.stdout), (0, f"{self.case}/window.toml: no errors; 6 runs, 0 of them "
+                                                                   "done\n"), ended.stderr)
+        self.write('[case]\ntitle = """\n[study]\n"""\n', "")
+        self.assertIn("no section [fluid] and no section [solid]", self.study("--check").stderr)
+
+    def test_wrong_kinds_of_what_is_needed(self):
+        self.assertEqual(self.faults("", "study = 1\n"), ["window.toml:1: error: 'study' must be a table, found 1"])
+        self.assertEqual(self.faults("[timing]\n[terms]\nquantities = []\n[terms.discretisation]\nratio = 2\n"
+                                     '[[terms.term]]\nname = "a"\n')[:2],
+                         ["window.toml:6: error: 'quantities' needs at least one metric",
+                          "window.toml:7: error: [discretisation] needs 'set', a table"])
+        self.assertIn("window.toml:9: error: [[term]] 1 needs 'set', a table",
+                      self.faults("[timing]\n[terms]\nquantities = []\n[terms.discretisation]\nratio = 2\n"
+                                  '[[terms.term]]\nname = "a"\n'))
+        self.assertEqual(self.faults(TWO_AXES, HEAD.replace('"case.toml"', '"window.toml"')),
+                         [f"window.toml:3: error: 'case' must be a case file beside the study, found '{self.case}/window.toml', "
+                          "which is a study".replace(str(self.case) + "/", "")])
+        self.assertEqual(self.faults(TWO_AXES.replace("[1, 2, 4]", "[1, nan]")),
+                         ["window.toml:8: error: 'values' must be finite numbers, found nan"])
+
+    def test_names_that_no_table_or_chart_can_hold(self):
+        for name in ("", " ", "a\\nb", "\\u001b[31m"):
+            fault, *_ = self.faults(TWO_AXES.replace('"wait"', f'"{name}"'))
+            self.assertRegex(fault, r"window.toml:16: error: 'name' must be a text of printable characters on one line")
+            self.assertTrue(fault.isprintable())
+
+    def test_more_runs_than_can_be_done(self):
+        many = "[" + ", ".join(map(str, range(1, 1001))) + "]"
+        self.assertEqual(self.faults(TWO_AXES.replace("[1, 2, 4]", many).replace("[0.0, 0.001]", many)),
+                         ["window.toml: error: the axes give 1000000 runs; at most 100000 can be done"])
+
+    def test_a_folder_with_files_of_others(self):
+        self.write(TWO_AXES)
+        self.out.mkdir()
+        (self.out / "table.csv").write_text("mine")
+        ended = self.study()
+        self.assertEqual((ended.returncode, ended.stderr), (2, f"--out {self.out}: error: holds 'table.csv', which no study "
+                                                               "wrote, and a study would write over it; give another folder\n"))
+        self.assertEqual((self.out / "table.csv").read_text(), "mine")
+
     def test_options(self):
         self.write(TWO_AXES)
         self.assertEqual(self.study("--jobs", "0").stderr, "--jobs 0: error: must be an integer of at least 1\n")

@@ -131,9 +131,29 @@ class Fit(unittest.TestCase):
         self.assertEqual([(p.time, p.error) for p in speed_accuracy.front(points)],
                          [(0.5, 0.9), (1, 0.5), (3, 0.2), (5, 0.1)])
 
+    def test_times_that_differ_by_less_than_the_repetitions_do_decide_nothing(self):
+        def point(time, error, spread):
+            return speed_accuracy.Point(time, error, {"time_spread": spread})
+        both = [point(1.0, 0.2, 0.1), point(1.05, 0.1, 0.0)]
+        self.assertEqual([p.error for p in speed_accuracy.front(both)], [0.1])
+        self.assertEqual([p.error for p in speed_accuracy.front([point(1.0, 0.2, 0.01), both[1]])], [0.2, 0.1])
+
+    def test_what_is_to_be_said_of_an_exponent(self):
+        def remark(k, points, factor):
+            return speed_accuracy.remark(speed_accuracy.Line("", [None] * points, k, factor))
+        self.assertEqual(remark(-2.6, 3, 1.1), "the error does not fall with time")
+        self.assertEqual(remark(1.0, 2, 1.0), "two points: any power law fits")
+        self.assertEqual(remark(1.0, 3, 2.0), "no power law: the points lie far from it")
+        self.assertEqual((remark(1.0, 3, 1.1), remark(math.nan, 1, math.nan)), ("", ""))
+
+    def test_an_error_beside_one_of_the_other_sign(self):
+        points = [speed_accuracy.Point(t, abs(e), {"error": e}) for t, e in ((1, -0.3), (2, -0.01), (3, 0.02), (4, 0.01))]
+        line = speed_accuracy.Line("", points, 1.0, 1.0)
+        self.assertEqual([speed_accuracy.changes_sign(line, p, "error") for p in points], [False, True, True, False])
+
     def test_an_error_that_passes_through_zero_is_no_recommendation(self):
-        rows = [{"spacing": s} for s in (0.4, 0.2, 0.1)]
-        chart = SimpleNamespace(lines=[], along="spacing", time="processor_time")
+        rows = [{"spacing": s, "error": 0.1} for s in (0.4, 0.2, 0.1)]
+        chart = SimpleNamespace(lines=[], along="spacing", time="processor_time", error="error")
         study = SimpleNamespace(axes=[SimpleNamespace(name="spacing", unit="m")], units=lambda: {"processor_time": "s"})
 
         def answer(*errors):

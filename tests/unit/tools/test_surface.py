@@ -95,5 +95,11 @@ class Contours(unittest.TestCase):
         self.assertEqual(len(set(contour.rows)), len(points))
 
 
+class Alone(unittest.TestCase):
+    def test_the_spacing_of_a_point_alone_is_its_face(self):
+        self.assertEqual(surface.typical_spacing(np.zeros((1, 2)), np.array([0.25])), 0.25)
+        self.assertEqual(surface.typical_spacing(np.zeros((2, 2)), np.array([0.25, 0.25])), 0.25)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -133,7 +133,7 @@ def scale(chart, study, panel):
     for which in chart.log:
         drawing.logarithmic(panel, which)
     if axis and len(axis.values) <= 8:
-        panel.set_xticks([v.name for v in axis.values], [value_text(v.name, "") for v in axis.values])
+        drawing.ticks(panel, [v.name for v in axis.values], [value_text(v.name, "") for v in axis.values])
 
 
 def heat_map(chart, study, table):

@@ -31,6 +31,11 @@ def found(value):
     return text if len(text) <= 100 else f"{text[:97]}..."
 
 
+def printable(text):
+    """The text on one line, what a terminal would obey as an escape."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
 def is_label(value):
     """Whether `value` can stand in a table, a chart and a file name."""
     return bool(value.strip()) and value.isprintable()
@@ -69,7 +74,7 @@ class Document:
 
     def end(self):
         if self.faults:
-            raise BadStudy("\n".join(f"{self.path}{f':{line}' if line else ''}: error: {text}"
+            raise BadStudy("\n".join(f"{self.path}{f':{line}' if line else ''}: error: {printable(text)}"
                                      for line, text in sorted(self.faults)))
 
 

@@ -1,6 +1,7 @@
 """How charts look: matplotlib in the colours of the pages, saved as PNG and SVG, and as SVG for a page."""
 
 import io
+import math
 import pathlib
 import re
 
@@ -18,6 +19,7 @@ PALETTE = {name: colour for name, colour in re.findall(r"--(\w+): (#[0-9a-f]{6})
            if name != "accent"}  # the same as c0
 LINES = [PALETTE[f"c{i}"] for i in range(7)]
 MARKERS = "osD^vPX"
+WIDTH_OF_AXES, LETTER = 0.6, 0.085  # of the picture, beside legend and labels; [inch] of a digit of the labels
 WIDTH, HEIGHT = 6.2, 3.6  # [inch] of a single panel; several share twice the width, that of the page
 
 matplotlib.rcdefaults()  # not what the user has set for other charts
@@ -69,6 +71,20 @@ def logarithmic(panel, which):
     axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
     axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
+
+
+def ticks(panel, values, texts):
+    """Marks at the values; a text that would run into the one before is left out."""
+    log = panel.get_xscale() == "log" and min(values) > 0
+    places = [math.log(v) if log else v for v in values]
+    span = (max(places) - min(places)) or 1
+    width = panel.figure.get_figwidth() / panel.get_subplotspec().get_gridspec().ncols * WIDTH_OF_AXES
+    end, shown = -math.inf, {}
+    for place, value, text in sorted(zip(places, values, texts)):
+        centre, half = (place - min(places)) / span * width, len(text) * LETTER / 2
+        shown[value] = text if centre - half > end else ""
+        end = centre + half + LETTER if shown[value] else end
+    panel.set_xticks(values, [shown[value] for value in values])
 
 
 def readable(name, unit):

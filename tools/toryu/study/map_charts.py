@@ -76,9 +76,15 @@ def draw_run(panel, column, row, value):
 
 
 def draw_edge(panel, study, mine, colour, label, marker=None):
-    """The middle of each bracket with the bracket as a bar; columns without an edge leave a gap."""
+    """The middle of each bracket with the bracket as a bar; columns without an edge leave a gap. One column alone is a
+    mark, none nothing."""
     y = study.map.y
     middles = [column.edge(y) for column in mine]
+    drawn = sum(map(math.isfinite, middles))
+    if not drawn:
+        return
+    if drawn == 1:
+        marker = marker or drawing.MARKERS[0]
     below = [abs(m - min(c.stable, c.unstable)) if math.isfinite(m) else 0 for m, c in zip(middles, mine)]
     above = [abs(max(c.stable, c.unstable) - m) if math.isfinite(m) else 0 for m, c in zip(middles, mine)]
     panel.errorbar([column.x for column in mine], middles, [below, above], color=colour, label=label, marker=marker,
@@ -88,10 +94,12 @@ def draw_edge(panel, study, mine, colour, label, marker=None):
 def draw_theories(panel, study, every, colour, theories):
     """The theory's curves, on a fine grid of x."""
     xs = sorted({column.x for column in every})
-    fine = between(xs[0], xs[-1], "x" in study.map.log)
+    fine = between(xs[0], xs[-1], "x" in study.map.log) if len(xs) > 1 else xs
     for number, theory in enumerate(theories):
-        panel.plot(fine, [theory(x) for x in fine], DASHES[number % 3], color=colour, linewidth=1.4, zorder=1,
-                   label=theory.label)
+        values = [theory(x) for x in fine]
+        if any(map(math.isfinite, values)):
+            panel.plot(fine, values, DASHES[number % 3], color=colour, linewidth=1.4, zorder=1, label=theory.label,
+                       marker="_" if len(xs) == 1 else None, markersize=14)
 
 
 def between(first, last, log, count=80):
@@ -112,7 +120,7 @@ def finish(panel, study, every):
         panel.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
     xs = sorted({column.x for column in every})
     if len(xs) <= 8:
-        panel.set_xticks(xs, [f"{x:g}" for x in xs])
+        drawing.ticks(panel, xs, [f"{x:g}" for x in xs])
     axis = charts.axis_of(study, made.x_name)
     panel.set_xlabel(drawing.readable(axis.name, axis.unit))
 

@@ -111,7 +111,7 @@ def runs(study, table):
     for row in table.rows:
         record = row["record"]
         cells = [cell(row.get(name, math.nan), factor) for name, factor in zip(table.units, factors)]
-        cells += [tables.cell(row["cause"], class_="cause")] * failed
+        cells += [tables.cell(row["cause"], class_="cause", title=html.escape(row["cause"]))] * failed
         place = f"runs/{record.folder.name}/" + ("report.html" if study.keep_frames else "")
         cells.append(f'<td><a href="{place}">{record.folder.name}</a></td>')
         rows.append((record.folder.name, "failed" if row["cause"] else "", cells))

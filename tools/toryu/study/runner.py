@@ -8,7 +8,7 @@ import re
 import signal
 import sys
 import time
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 
 from toryu import program, results
 from toryu.folder_lock import FolderTaken, lock_folder
@@ -176,7 +176,7 @@ class Runner:
     def __call__(self, settings):
         """All records, in the order of the settings; raises Ended if a run shows that the study cannot go on."""
         records = self.done(settings)
-        waiting = [s for s in settings if s.key not in records]
+        waiting = list({s.key: s for s in settings if s.key not in records}.values())  # what sets the same runs once
         self.progress.begin(len(settings), [r.elapsed for r in records.values()], self.jobs)
         old = {n: signal.signal(n, self._interrupted) for n in requests_to_end()}
         old |= {n: signal.signal(n, self._pause) for n in pauses()}
@@ -199,7 +199,7 @@ class Runner:
         if self.interruptions:
             raise Ended(INTERRUPTED, f"interrupted; {len(records)} of {len(settings)} runs are done and kept: the same "
                                      "command goes on from there")
-        return [records[s.key] for s in settings]
+        return [replace(records[s.key], setting=s) for s in settings]
 
     def command(self, setting, *options):
         return program.python("launch", self.study.case, f"--bin={self.bin}", *setting.options(), *options)

@@ -11,6 +11,9 @@ from toryu.study.progress import duration
 from toryu.study.table import readable_size
 
 
+FAR = 1.5  # from the power law, as a factor: beyond it there is none
+
+
 @dataclass
 class Point:
     """A setting that has an error and a time."""
@@ -61,13 +64,20 @@ def power_law(points):
 
 
 def front(points):
-    """The points that no other beats in both time and error, the fastest first."""
+    """The points that no other beats in both time and error, the fastest first. Times that differ by less than the
+    repetitions of a setting do are the same."""
     best, found = math.inf, []
     for point in sorted(points, key=lambda p: (p.time, p.error)):
         if point.error < best:
             best = point.error
             found.append(point)
-    return found
+    return [p for p, after in zip(found, [*found[1:], None]) if after is None or after.time > p.time * (1 + spread(p, after))]
+
+
+def spread(*points):
+    """How far the repetitions of these settings differ in time, as a share."""
+    shares = [point.row.get("time_spread", 0.0) for point in points]
+    return max((share for share in shares if math.isfinite(share)), default=0.0)
 
 
 def answer(chart, study, table):
@@ -114,6 +124,8 @@ def sentence(chart, study, lines, wanted):
         return (f"For an error of {wanted:g} take {said(cheapest)}, but at greater cost its error is larger again: it passes "
                 "through zero.")
     passing = "" if best is cheapest else f" (Cheaper only in passing through zero: {said(cheapest)}.)"
+    if any(changes_sign(line, best, chart.error) for line in lines):
+        passing += " Beside it on its line the error has the other sign: it is small there by passing through zero."
     return f"For an error of {wanted:g} take {said(best)}.{passing}"
 
 
@@ -122,14 +134,31 @@ def stays(line, point, wanted):
     return all(p.error <= wanted for p in line.points if p.time >= point.time)
 
 
+def changes_sign(line, point, error):
+    """Whether the error of a neighbour of the point on its line has the other sign."""
+    ordered = sorted(line.points, key=lambda p: p.time)
+    return any(point in pair and pair[0].row[error] * pair[1].row[error] < 0 for pair in zip(ordered, ordered[1:]))
+
+
+def remark(line):
+    """What is to be said of an exponent."""
+    if not math.isfinite(line.exponent):
+        return ""
+    if line.exponent <= 0:
+        return "the error does not fall with time"
+    if len(line.points) == 2:
+        return "two points: any power law fits"
+    return "no power law: the points lie far from it" if line.factor > FAR else ""
+
+
 def exponents(lines):
     rows = []
     for line in lines:
         k = f"{line.exponent:.2f}" if math.isfinite(line.exponent) else "–"
         near = f"{line.factor:.2f}" if len(line.points) > 2 else "–"
-        rows.append([line.name or "all", k, str(len(line.points)), near])
+        rows.append([line.name or "all", k, str(len(line.points)), near, remark(line)])
     return ("<h3>How the error falls with time: error ~ time<sup>−k</sup></h3>" +
-            tables.table(["choice", "k", "rests on points", "farthest point, as a factor"], rows, (1, 2, 3)))
+            tables.table(["choice", "k", "rests on points", "farthest point, as a factor", ""], rows, (1, 2, 3)))
 
 
 def front_table(chart, study, points):

@@ -30,6 +30,8 @@ def legend_of(line):
     words = line.name or "all"
     if not math.isfinite(line.exponent):
         return words
+    if line.exponent <= 0:
+        return f"{words}  (does not fall)"
     return f"{words}  (k = {line.exponent:.2f}, {len(line.points)} points)"
 
 

@@ -138,8 +138,8 @@ def _read(document, coupler, views, small):
     root, path = document.root(), document.path
     head = root.table("study")
     if head is None:
-        root.fault("'study' must be a table, [study]", "study")
         document.end()
+        raise BadStudy(f"{path}: error: no table [study]")
     case = _read_case(head, path.parent, coupler)
     told = (case.file, case.kind, case.content, case.references, case.inputs) if case else (path, "empty", {}, [], [])
     study = Study(path, document.name, document.text, head.get("title", str), *told, coupler,
