@@ -174,13 +174,13 @@ def _read(document, coupler, views, small):
 def _axis(table):
     line = table.document.line(table.path, "")
     name, unit = table.label(), table.get("unit", str, "")
-    value_of = None
+    value_of, given = None, []
     if table.has("choice"):
         values = [_choice(choice) for choice in table.tables("choice")]
     else:
         value_of, given = read_rule(table), table.get("values", list, [])
         values = [value_of(v) for v in given] if check_values(table, value_of, given) else []
-    if not values:
+    if not values and not given:
         table.fault(f"{table.name} needs 'values' with 'keys', or [[axis.choice]]")
     names = [value.name for value in values]
     for twice in {n for n in names if names.count(n) > 1}:
