@@ -128,6 +128,13 @@ TEST_F(ExampleProgram, RefusesLessThanNoThread) {
   EXPECT_EQ(run("room --threads 1x").error, "--threads 1x: error: must be an integer of at least 0\n");
 }
 
+TEST_F(ExampleProgram, TellsANameWithoutWhatATerminalWouldObey) {
+  EXPECT_EQ(run("room --set 'medium.density=\x1b[2J' --check").error,
+            "--set medium.density=\\x1b[2J: error: 'density' in [medium] must be a number [kg/m3] above 0, "
+            "found the "
+            "text \"\\x1b[2J\"\n");
+}
+
 TEST_F(ExampleProgram, WantsACase) {
   EXPECT_EQ(run("").error, "example_program: error: no CASE given; see --help\n");
   EXPECT_EQ(run("").code, 2);

@@ -3,6 +3,7 @@ said so where that is wanted."""
 
 import bisect
 import csv
+import difflib
 import math
 import re
 import tomllib
@@ -150,9 +151,16 @@ def compare(references, out):
     return [_compare(out, reference) for reference in references if "points" in reference]
 
 
-def faults_of(references):
-    """What is wrong with the references of a case, a sentence each."""
-    return [f"reference '{r['label']}': {r['fault']}" for r in references if "fault" in r]
+def faults_of(references, out):
+    """What is wrong with the references of a case, or with what they are drawn over, a sentence each."""
+    found = [f"reference '{r['label']}': {r['fault']}" for r in references if "fault" in r]
+    for comparison in compare(references, out):
+        columns = read_series(out, comparison.series)
+        if columns and comparison.column not in columns:
+            near = difflib.get_close_matches(comparison.column, columns, n=1)
+            hint = f"; did you mean '{near[0]}'?" if near else ""
+            found.append(f"reference '{comparison.label}': {comparison.series}.csv has no column '{comparison.column}'{hint}")
+    return found
 
 
 def _compare(out, reference):

@@ -144,6 +144,13 @@ class Page(unittest.TestCase):
         self.assertEqual(len(self.content(page)["compared"]), 1)
         self.assertIn("reference &#x27;computed&#x27;: no column &#x27;x&#x27; in &#x27;other.csv&#x27;", page)
 
+    def test_a_reference_to_a_series_that_is_not_there_is_told(self):
+        self.make(frames=2)
+        used = self.out / "used_case.toml"
+        used.write_text(used.read_text().replace("tip_displacement_x", "tip_displacment_x"))
+        self.assertIn("reference &#x27;Somebody 2007&#x27;: solid.csv has no column &#x27;tip_displacment_x[m]&#x27;; did you "
+                      "mean &#x27;tip_displacement_x[m]&#x27;?", self.page())
+
     def test_a_name_cannot_end_or_hide_the_script(self):
         self.make(frames=2)
         used = self.out / "used_case.toml"

@@ -34,7 +34,7 @@ def page(case_path, out, coupler, exit_code, words):
     case, name = used.content, name_of(case_path, out, coupler)
     summaries = results.read_summaries(out, faults)
     comparisons = results.compare(used.references, out)
-    faults += results.faults_of(used.references)
+    faults += results.faults_of(used.references, out)
     found = frames.read_bodies(out, faults)
     bodies, boxes, step = frames.collect(found, case)
     end = scene.end_of(case, bodies)

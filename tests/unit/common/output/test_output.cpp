@@ -256,6 +256,16 @@ TEST_F(FullDisk, CostsNoRowsWhereTheFileOfThemFindsNoRoom) {
   EXPECT_FALSE(fs::exists(fs::symlink_status(out / "a.h5.part"))) << "it is of no use";
 }
 
+TEST_F(Output, RowsOfNoPointAtAllAreWritten) {
+  HdfSeriesFile file(out / "a.h5");
+  file.series("time", "s", {});
+  file.series("depth", "m", {0});
+  const double time = 0.5;
+  file.append({&time, &time});
+  EXPECT_NO_THROW(file.complete());
+  EXPECT_TRUE(fs::exists(out / "a.h5"));
+}
+
 TEST_F(Output, AFolderThatWasRemovedIsTheCauseAndNoSilentLoss) {
   SeriesWriter series(out, "fluid");
   series.write(0, {{"a", "m", 1.0}});
