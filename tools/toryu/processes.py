@@ -137,9 +137,9 @@ def weight(process):
 
 
 def cause_of(failed, processes, lead):
-    """The process whose failure brought the others', of those that failed, in this order. Where several end alike, one of
-    them failed and told the others, who give its reason after its name; what the lead says goes to the terminal, but it
-    is the one if they give no name."""
+    """The process whose failure brought the others', of those that failed, in this order. Where several end alike, one
+    of them failed and told the others, who give its reason after its name. What the lead says goes to the terminal: it is
+    the one if all others give the same reason."""
     least = min(map(weight, failed))
     alike = [process for process in failed if weight(process) == least]
 
@@ -147,7 +147,10 @@ def cause_of(failed, processes, lead):
         return any(line.endswith(f": {reason}") for reason in process.reasons()
                    for other in processes if other is not process for line in map(without_kind, other.held_lines))
 
-    return [*filter(is_passed_on, alike), *(process for process in alike if process.name == lead), *alike][0]
+    others = [process for process in alike if process.name != lead]
+    if len({tuple(process.reasons()) for process in others}) <= 1:
+        others = []
+    return [*filter(is_passed_on, alike), *others, *(process for process in alike if process.name == lead), *alike][0]
 
 
 def without_kind(line):

@@ -177,6 +177,12 @@ class Faults(Surroundings):
         self.plan(coupler="wait 0.3; end 3", solid=f"say solid_solver: {words}; end 3", fluid=f"say fluid_solver: {words}; end 3")
         self.assertIn("coupler ended with exit code 3", self.launch().stderr)
 
+    def test_of_two_causes_one_is_named(self):
+        words = "error: the machine: cannot write '{}'"
+        self.plan(coupler="end 5", solid=f"say solid_solver: {words.format('solid.csv')}; end 5",
+                  fluid=f"say fluid_solver: {words.format('fluid.csv')}; end 5")
+        self.assertRegex(self.launch().stderr, "(fluid|solid)_solver ended with exit code 5")
+
     def test_a_fault_of_the_machine_has_its_code(self):
         self.plan(fluid="say fluid_solver: error: the machine: no room; end 5", coupler="end 5",
                   solid="say solid_solver: error: the machine: fluid_solver: no room; end 5")
