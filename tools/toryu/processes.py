@@ -139,7 +139,7 @@ def weight(process):
 def cause_of(failed, processes, lead):
     """The process whose failure brought the others', of those that failed, in this order. Where several end alike, one
     of them failed and told the others, who give its reason after its name. What the lead says goes to the terminal: it is
-    the one if all others give the same reason."""
+    the one if both others give the same reason."""
     least = min(map(weight, failed))
     alike = [process for process in failed if weight(process) == least]
 
@@ -148,7 +148,7 @@ def cause_of(failed, processes, lead):
                    for other in processes if other is not process for line in map(without_kind, other.held_lines))
 
     others = [process for process in alike if process.name != lead]
-    if len({tuple(process.reasons()) for process in others}) <= 1:
+    if len(others) > 1 and len({tuple(process.reasons()) for process in others}) == 1:
         others = []
     return [*filter(is_passed_on, alike), *others, *(process for process in alike if process.name == lead), *alike][0]
 
