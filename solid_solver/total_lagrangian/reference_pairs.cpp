@@ -1,40 +1,96 @@
 #include "solid_solver/total_lagrangian/reference_pairs.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
-
-#include "common/sph/renormalisation.hpp"
+#include <vector>
 
 namespace toryu::solid {
 
+namespace {
+
+/// A held particle beside a corner may have one free neighbour, or several in a row: it then has a gradient
+/// along them alone. What the moment has of its larger eigenvalue across is nothing below this share.
+constexpr double least_moment = 1e-3;
+
+/// L of a lane, where the moment may be singular.
+Tensor<double> pseudo_inverse(const Tensor<Lanes>& adjugate, std::size_t lane) {
+  Mat M;
+  M << adjugate[3][lane], -adjugate[1][lane], -adjugate[2][lane], adjugate[0][lane];
+  Eigen::SelfAdjointEigenSolver<Mat> solver;
+  solver.computeDirect(M);
+  const Vec eigenvalues = solver.eigenvalues();
+  Vec inverse = Vec::Zero();
+  for (int a = 0; a < dim; ++a)
+    if (eigenvalues[a] > least_moment * eigenvalues[dim - 1]) inverse[a] = 1.0 / eigenvalues[a];
+  const Mat L = solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+  return {L(0, 0), L(0, 1), L(1, 0), L(1, 1)};
+}
+
+}  // namespace
+
 ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h,
-                               double strip_width)
+                               double strip_width, const std::optional<Held>& held)
     : X_(X) {
   StripOrder strips(strip_width);
   strips.index(X[0], count);
   const CubicSpline W(h);
   list_.build(X, count, X, strips, W.support());
+  share_start_.assign(list_.clusters(), none);
+  std::optional<ClampFaces> faces;
+  if (held) faces.emplace(X, count, *held, list_, W.support());
   resize(L_, X[0].size());
 
   weight_.resize(list_.pairs() * lane_count);
-  double* w = weight_.data();
   for (std::size_t c = 0; c < list_.clusters(); ++c) {
-    start_.push_back(static_cast<std::size_t>(w - weight_.data()));
-    const std::size_t i = c * lane_count;
-    Moment moment;
-    over_sources(list_.sources(c), load(X, i), pointers(X),
-                 [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
-                   const Lanes R = square_root(dot(X_ij, X_ij));
-                   Lanes weight = volume[j] * W.gradient_over_r(R, inverse(max(R, Lanes(1e-6 * h))));
-                   weight = select(R < 1e-6 * h, 0.0, weight);
-                   store(weight, w);
-                   w += lane_count;
-                   moment.add(product(weight, X_ij), X_ij);  // (w X) X rather than X (w X): other last bits
-                 });
+    start_.push_back(c == 0 ? 0 : start_.back() + lane_count * list_.sources(c - 1).size());
+    if (faces) find_shares(*faces, c, count);
+    const Moment moment = find_weights(volume, W, c);
     const Lanes inverse_determinant = 1.0 / moment.determinant();
-    Tensor<Lanes> L = moment.adjugate();
-    for (Lanes& component : L) component *= inverse_determinant;
-    store(L, L_, i);
+    const Tensor<Lanes> adjugate = moment.adjugate();
+    for (std::size_t n = 0; n < adjugate.size(); ++n)
+      store(adjugate[n] * inverse_determinant, L_[n], c * lane_count);
+    for (std::size_t lane = 0; faces && lane < lane_count; ++lane) {
+      const std::size_t i = c * lane_count + lane;
+      if (!faces->holds(i)) continue;
+      const Tensor<double> L = pseudo_inverse(adjugate, lane);
+      for (std::size_t n = 0; n < L.size(); ++n) L_[n][i] = L[n];
+    }
   }
+}
+
+void ReferencePairs::find_shares(const ClampFaces& faces, std::size_t cluster, std::size_t count) {
+  std::vector<double> shares;
+  bool beside_held = false;
+  for (const std::uint32_t j : list_.sources(cluster))
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const auto s = faces.share(std::min(cluster * lane_count + lane, count - 1), j);
+      beside_held |= s.has_value();
+      shares.push_back(s.value_or(1.0));
+    }
+  if (!beside_held) return;
+  share_start_[cluster] = share_.size();
+  share_.insert(share_.end(), shares.begin(), shares.end());
+}
+
+Moment ReferencePairs::find_weights(const Field& volume, const CubicSpline& W, std::size_t cluster) {
+  Moment moment;
+  double* w = weight_.data() + start_[cluster];
+  const double* s = share_start_[cluster] == none ? nullptr : share_.data() + share_start_[cluster];
+  const double smallest = 1e-6 * W.h();
+  over_sources(list_.sources(cluster), load(X_, cluster * lane_count), pointers(X_),
+               [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
+                 const Lanes R = square_root(dot(X_ij, X_ij)), share = s ? load(s) : Lanes(1.0);
+                 Lanes weight = volume[j] * W.gradient_over_r(R, inverse(max(R, smallest)));
+                 weight = select(R < smallest, 0.0, weight);
+                 weight = select(share > 0.0, weight / max(share * share, 1e-12), 0.0);
+                 store(weight, w);
+                 w += lane_count;
+                 if (s) s += lane_count;
+                 const VecLanes sX_ij = product(share, X_ij);
+                 moment.add(product(weight, sX_ij), sX_ij);  // (w X) X rather than X (w X): other last bits
+               });
+  return moment;
 }
 
 Tensor<Lanes> ReferencePairs::shape(std::size_t cluster) const {
@@ -73,11 +129,10 @@ VecLanes ReferencePairs::force_density(const VecField& u, const Tensor<Field>& T
           f[1] + load(T[2], i) * wX_sum[0] + load(T[3], i) * wX_sum[1] + k * penalty[1]};
 }
 
-Lanes ReferencePairs::unseen_motion(const VecField& u, const Tensor<Field>& H, std::size_t cluster) const {
+Lanes ReferencePairs::unseen_motion(const VecField& u, const Tensor<Lanes>& H_i, std::size_t cluster) const {
   const std::size_t i = cluster * lane_count;
   const VecLanes u_i = load(u, i);
   const Positions u_of = pointers(u);
-  const Tensor<Lanes> H_i = load(H, i);
   Lanes sum = 0.0;
   over_pairs(cluster, [&](std::uint32_t j, const Lanes& weight, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
     const VecLanes u_ij = difference(u_i, u_of, j);

@@ -6,7 +6,9 @@
 #include "common/sph/kernel.hpp"
 #include "common/sph/neighbour_loop.hpp"
 #include "common/sph/points.hpp"
+#include "common/sph/renormalisation.hpp"
 #include "common/sph/tensor.hpp"
+#include "solid_solver/total_lagrangian/clamp_faces.hpp"
 
 namespace toryu::solid {
 
@@ -14,8 +16,10 @@ static_assert(dim == 2, "the sums and the inverse have the components of the pla
 
 class ReferencePairs {
  public:
-  /// X [m] in strip order of strips `strip_width` [m] wide, volume [m2]; both padded to whole lanes.
-  ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h, double strip_width);
+  /// X [m] in strip order of strips `strip_width` [m] wide, volume [m2]; both padded to whole lanes, as is
+  /// what is `held`: clamp_faces.hpp says how that changes X_ij and gradW_ij of its pairs.
+  ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h, double strip_width,
+                 const std::optional<Held>& held = std::nullopt);
 
   /// Displacement gradient, renormalised, so that it is exact for linear u (Randles & Libersky 1996):
   ///
@@ -32,7 +36,7 @@ class ReferencePairs {
                                  Central&& g) const;
 
   /// sum_j V_j |u_ij - H_i X_ij|^2 (-W'_ij/R_ij) [1]: what H_i does not see.
-  Lanes unseen_motion(const VecField& u, const Tensor<Field>& H, std::size_t cluster) const;
+  Lanes unseen_motion(const VecField& u, const Tensor<Lanes>& H, std::size_t cluster) const;
 
   Tensor<Lanes> shape(std::size_t cluster) const;  ///< L
 
@@ -41,18 +45,35 @@ class ReferencePairs {
   template <class Add>
   TORYU_INLINE void over_pairs(std::size_t cluster, Add&& add) const {
     const double* w = weight_.data() + start_[cluster];
-    over_sources(list_.sources(cluster), load(X_, cluster * lane_count), pointers(X_),
-                 [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
-                   const Lanes weight = load(w);  // once, before w moves: else each use reads it anew
-                   w += lane_count;
-                   add(j, weight, X_ij);
-                 });
+    const auto next = [](const double*& value) TORYU_INLINE_LAMBDA {
+      const Lanes lanes = load(value);  // once, before it moves: else each use reads it anew
+      value += lane_count;
+      return lanes;
+    };
+    const VecLanes X_i = load(X_, cluster * lane_count);
+    const auto& sources = list_.sources(cluster);
+    if (share_start_[cluster] == none)
+      over_sources(sources, X_i, pointers(X_),
+                   [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA { add(j, next(w), X_ij); });
+    else {
+      const double* s = share_.data() + share_start_[cluster];
+      over_sources(sources, X_i, pointers(X_),
+                   [&](std::uint32_t j, const VecLanes& X_ij)
+                       TORYU_INLINE_LAMBDA { add(j, next(w), product(next(s), X_ij)); });
+    }
   }
+  /// Puts the shares of X_ij into `share_` where a particle of the cluster, or a source, is held.
+  void find_shares(const ClampFaces& faces, std::size_t cluster, std::size_t count);
+  /// V_j W'_ij/R_ij, and the moment of the pairs.
+  Moment find_weights(const Field& volume, const CubicSpline& W, std::size_t cluster);
 
   const VecField& X_;
   ClusterList list_;
-  std::vector<std::size_t> start_;  ///< of a cluster's weights
-  Field weight_;                    ///< V_j W'_ij/R_ij in lanes i, source by source [1/m2]; 0 for i = j
+  static constexpr std::size_t none = -1;
+  std::vector<std::size_t> start_;        ///< of a cluster's weights
+  std::vector<std::size_t> share_start_;  ///< of its shares; none where nothing is held
+  Field share_;                           ///< of X_ij, likewise [1]
+  Field weight_;                          ///< V_j W'_ij/R_ij in lanes i, source by source [1/m2]; 0 for i = j
   Tensor<Field> L_;
 };
 
@@ -60,12 +81,11 @@ template <class Central>
 VecLanes ReferencePairs::central_force_density(const VecField& u, const VecField& v, std::size_t cluster,
                                                Central&& g) const {
   const std::size_t i = cluster * lane_count;
-  const VecLanes u_i = load(u, i), v_i = load(v, i), X_i = load(X_, i);
-  const VecLanes x_i{X_i[0] + u_i[0], X_i[1] + u_i[1]};
-  const Positions X_of = pointers(X_), u_of = pointers(u), v_of = pointers(v);
+  const VecLanes u_i = load(u, i), v_i = load(v, i);
+  const Positions u_of = pointers(u), v_of = pointers(v);
   VecLanes f = zero_vector();
-  over_pairs(cluster, [&](std::uint32_t j, const Lanes& weight, const VecLanes&) TORYU_INLINE_LAMBDA {
-    const VecLanes x_ij{x_i[0] - (X_of[0][j] + u_of[0][j]), x_i[1] - (X_of[1][j] + u_of[1][j])};
+  over_pairs(cluster, [&](std::uint32_t j, const Lanes& weight, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
+    const VecLanes u_ij = difference(u_i, u_of, j), x_ij{X_ij[0] + u_ij[0], X_ij[1] + u_ij[1]};
     add_product(f, weight * g(dot(difference(v_i, v_of, j), x_ij), dot(x_ij, x_ij)), x_ij);
   });
   return f;

@@ -11,13 +11,18 @@ namespace toryu::solid {
 TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
       law_(law_of(parameters)),
-      penalty_(parameters.hourglass ? parameters.hourglass->stiffness(parameters.material) : 0.0),
-      held_factor_(parameters.hourglass ? parameters.hourglass->held_factor : 1.0) {
+      penalty_(parameters.hourglass ? parameters.hourglass->stiffness(parameters.material) : 0.0) {
   const std::size_t size = padded(particle_count());
   volume_.resize(size);
-  for (std::size_t k = 0; k < size; ++k)
-    volume_[k] = body_.volume(state_.number[std::min(k, particle_count() - 1)]);
-  pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width());
+  VecField cells;
+  resize(cells, size);
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::uint32_t i = state_.number[std::min(k, particle_count() - 1)];
+    volume_[k] = body_.volume(i);
+    set(cells, k, body_.cell[i]);
+  }
+  pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
+                                            Held{mobile_, cells});
   resize_fields(form_, size);
   resize(T_, size);
   highest_frequency_ = find_highest_frequency();
@@ -121,11 +126,12 @@ void TotalLagrangian::find_stresses() {
           const std::size_t i = c * lane_count;
           Tensor<Lanes> H;
           pairs_->displacement_gradient(state_.u, c, H);
-          if (!all_of(volume_change(H) > -1.0)) record_inverted(H, i);
-          const Tensor<Lanes> T = product(law.stress(H), pairs_->shape(c));
-          const Lanes factor = held_factor_ + (1.0 - held_factor_) * load(mobile_, i);
-          store(H, form_.H, i);
-          for (std::size_t n = 0; n < H.size(); ++n) store(factor * T[n] - 0.5 * penalty_ * H[n], T_[n], i);
+          Tensor<Lanes> strained = H;  // what is held bears no stress
+          for (Lanes& component : strained) component *= load(mobile_, i);
+          if (!all_of(volume_change(strained) > -1.0)) record_inverted(strained, i);
+          const Tensor<Lanes> T = product(law.stress(strained), pairs_->shape(c));
+          store(strained, form_.H, i);
+          for (std::size_t n = 0; n < H.size(); ++n) store(T[n] - 0.5 * penalty_ * H[n], T_[n], i);
         }
       },
       law_);
@@ -270,12 +276,12 @@ Stress TotalLagrangian::stress(std::size_t particle) const {
 std::vector<Observation> TotalLagrangian::internal_energies() const {
   double elastic = 0, penalty = 0;
   for (std::size_t c = 0; c < clusters(); ++c) {
-    const Lanes unseen = pairs_->unseen_motion(state_.u, form_.H, c);
+    Tensor<Lanes> H;  // of the held particles too, whose pairs it fits
+    pairs_->displacement_gradient(state_.u, c, H);
+    const Lanes unseen = pairs_->unseen_motion(state_.u, H, c);
     for (std::size_t lane = 0; lane < lane_count && c * lane_count + lane < particle_count(); ++lane) {
       const std::size_t k = c * lane_count + lane;
-      const double factor = mobile_[k] > 0 ? 1.0 : held_factor_;
-      elastic +=
-          factor * volume_[k] * std::visit([&](const auto& law) { return law.energy(gradient(k)); }, law_);
+      elastic += volume_[k] * std::visit([&](const auto& law) { return law.energy(gradient(k)); }, law_);
       penalty += volume_[k] * 0.25 * penalty_ * unseen[lane];
     }
   }
@@ -293,8 +299,7 @@ std::vector<ActiveTerm> TotalLagrangian::active_terms() const {
     terms.push_back({"hourglass penalty",
                      "f_i = -(k/2) V_i sum_j V_j w_ij (2 x_ij - (F_i + F_j) X_ij), w_ij = -W'/R_ij",
                      "after Ganzenmueller 2015",
-                     fmt::format("alpha {:g}: k {:.4g} Pa; stress of held particles times {:g}",
-                                 parameters_.hourglass->coefficient, penalty_, held_factor_)});
+                     fmt::format("alpha {:g}: k {:.4g} Pa", parameters_.hourglass->coefficient, penalty_)});
   for (auto& term : SolidModel::active_terms()) terms.push_back(std::move(term));
   return terms;
 }

@@ -81,7 +81,6 @@ class TotalLagrangian final : public SolidModel {
   std::unique_ptr<ReferencePairs> pairs_;
   Law law_;
   double penalty_;                ///< k of the hourglass penalty [Pa]
-  double held_factor_;            ///< of the stress of held particles
   Tensor<Field> T_;               ///< P L - (k/2) H: what a particle brings to the pairs [Pa]
   VecField x_;                    ///< present positions, if walls or other bodies act on the solid [m]
   double highest_frequency_ = 0;  ///< of the unloaded body [1/s]

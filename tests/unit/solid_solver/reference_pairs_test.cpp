@@ -109,11 +109,6 @@ TEST(ReferencePairs, GradientOfALinearDisplacementIsExact) {
 TEST(ReferencePairs, UnseenMotionIsWhatTheGradientLeaves) {
   const Five five;
   const ReferencePairs pairs(five.X, five.volume, Five::count, h, strip_width);
-  Tensor<Field> H;
-  resize(H, padded(Five::count));
-  for (std::size_t i = 0; i < Five::count; ++i)
-    for (std::size_t n = 0; n < 4; ++n)
-      H[n][i] = five.H(i)(static_cast<long>(n / 2), static_cast<long>(n % 2));
   for (std::size_t i = 0; i < Five::count; ++i) {
     double expected = 0;
     for (std::size_t j = 0; j < Five::count; ++j) {
@@ -121,8 +116,82 @@ TEST(ReferencePairs, UnseenMotionIsWhatTheGradientLeaves) {
       const Vec unseen = at(five.u, i) - at(five.u, j) - five.H(i) * (at(five.X, i) - at(five.X, j));
       expected -= five.volume[j] * five.gradW(i, j)[0] / (five.X[0][i] - five.X[0][j]) * unseen.squaredNorm();
     }
+    Tensor<Lanes> H;
+    pairs.displacement_gradient(five.u, i / lane_count, H);
     EXPECT_NEAR(pairs.unseen_motion(five.u, H, i / lane_count)[i % lane_count], expected, 1e-15);
   }
+}
+
+/// Four columns of five rows, spacing 1, of which the first two are held: nothing moves at x = 0.
+struct HalfHeld {
+  static constexpr std::size_t count = 20;
+  VecField X, cells, u;
+  Field mobile, volume;
+  HalfHeld() {
+    for (VecField* field : {&X, &cells, &u}) resize(*field, padded(count));
+    mobile.resize(padded(count));
+    volume.assign(padded(count), 1.0);
+    for (std::size_t k = 0; k < padded(count); ++k) {
+      const std::size_t n = std::min(k, count - 1);
+      set(X, k, Vec(-1.5 + static_cast<double>(n / 5), static_cast<double>(n % 5)));
+      set(cells, k, Vec(1, 1));
+      mobile[k] = n < 10 ? 0.0 : 1.0;
+    }
+  }
+  ReferencePairs pairs() const { return {X, volume, count, 1.3, strip_width, Held{mobile, cells}}; }
+};
+
+TEST(ClampFaces, WhatVanishesAtTheFaceIsSeenExactly) {
+  HalfHeld half;
+  for (std::size_t k = 0; k < padded(HalfHeld::count); ++k)
+    set(half.u, k, half.mobile[k] * half.X[0][k] * Vec(0.01, -0.02));
+  const ReferencePairs pairs = half.pairs();
+  for (std::size_t i = 10; i < HalfHeld::count; ++i) {
+    Tensor<Lanes> H;
+    pairs.displacement_gradient(half.u, i / lane_count, H);
+    const std::array<double, 4> expected{0.01, 0.0, -0.02, 0.0};
+    for (std::size_t n = 0; n < 4; ++n) EXPECT_NEAR(H[n][i % lane_count], expected[n], 1e-15) << i;
+    EXPECT_NEAR(pairs.unseen_motion(half.u, H, i / lane_count)[i % lane_count], 0.0, 1e-15) << i;
+  }
+}
+
+TEST(ClampFaces, PairsPushEachOtherEquallyAndHeldOnesNotAtAll) {
+  HalfHeld half;
+  Tensor<Field> T;
+  resize(T, padded(HalfHeld::count));
+  for (std::size_t k = 0; k < HalfHeld::count; ++k) {
+    const double n = static_cast<double>(k);
+    set(half.u, k, half.mobile[k] * Vec(0.01 * std::sin(n), 0.02 * std::cos(3 * n)));
+    for (std::size_t c = 0; c < 4; ++c) T[c][k] = std::sin(n + static_cast<double>(c));
+  }
+  const ReferencePairs pairs = half.pairs();
+  Vec sum = Vec::Zero(), on_held = Vec::Zero();
+  for (std::size_t i = 0; i < HalfHeld::count; ++i) {
+    const VecLanes f = pairs.force_density(half.u, T, 7.0, i / lane_count);
+    const Vec f_i(f[0][i % lane_count], f[1][i % lane_count]);
+    sum += f_i;
+    if (i < 10) on_held += f_i;
+  }
+  EXPECT_NEAR(sum.norm(), 0.0, 1e-13);
+  EXPECT_GT(on_held.norm(), 0.1) << "what the clamp takes is on the held particles";
+}
+
+TEST(ClampFaces, LieWhereTheWayEntersTheHeldCells) {
+  HalfHeld half;
+  half.mobile[9] = 1.0;  // the topmost of the second column is free: the face has a corner
+  StripOrder strips(strip_width);
+  strips.index(half.X[0], HalfHeld::count);
+  ClusterList list;
+  list.build(half.X, HalfHeld::count, half.X, strips, 2.6);
+  const ClampFaces faces(half.X, HalfHeld::count, {half.mobile, half.cells}, list, 2.6);
+  EXPECT_FALSE(faces.share(10, 15)) << "both are free";
+  EXPECT_EQ(faces.share(0, 1), 0.0) << "both are held";
+  EXPECT_NEAR(*faces.share(10, 5), 0.5, 1e-8);
+  EXPECT_NEAR(*faces.share(10, 0), 0.25, 1e-8) << "half a spacing of two";
+  EXPECT_NEAR(*faces.share(0, 10), 0.25, 1e-8) << "the same from the other side";
+  EXPECT_NEAR(*faces.share(14, 8), 0.5, 1e-8) << "along the diagonal";
+  EXPECT_NEAR(*faces.share(14, 4), 0.75, 1e-8) << "over the free one";
+  EXPECT_NEAR(*faces.share(9, 8), 0.5, 1e-8);
 }
 
 TEST(SaintVenantKirchhoff, PassesThePatchTests) {
