@@ -52,7 +52,7 @@ void SolidModel::observe_bonds(std::vector<Observation>& row) const {
 void SolidModel::observe_detachment(std::vector<Observation>& row) const {
   double count = 0, sum = 0, largest = 0;
   for (std::size_t i = 0; i < particle_count(); ++i) {
-    largest = std::max(largest, stress(i).von_mises());
+    largest = std::max(largest, recovered_stress(i).von_mises());
     if (!state_.detachment.detached[i]) continue;
     count += 1;
     sum += mass(i);
@@ -68,22 +68,27 @@ Health SolidModel::health() const {
   return {.kinetic_energy = kinetic_energy(), .potential_energy = stored, .momentum = momentum()};
 }
 
+Stress SolidModel::stress_at(std::size_t observer) const {
+  const MaterialPoint& point = observers_[observer].second;
+  const auto mean = [&](double Stress::*part) {
+    return point.value([&](std::size_t i) { return stress(i).*part; });
+  };
+  return {mean(&Stress::xx), mean(&Stress::yy), mean(&Stress::zz), mean(&Stress::xy)};
+}
+
 std::vector<Observation> SolidModel::observe() const {
   std::vector<Observation> row;
-  for (const auto& observer : observers_) {
-    const auto& asked = observer.first;
-    const auto& point = observer.second;
+  for (std::size_t n = 0; n < observers_.size(); ++n) {
+    const auto& asked = observers_[n].first;
+    const auto& point = observers_[n].second;
     const Vec u = point.value([&](std::size_t i) { return displacement(i); });
     row.push_back({asked.name + "_displacement_x", "m", u[0]});
     row.push_back({asked.name + "_displacement_y", "m", u[1]});
     if (!asked.stress) continue;
-    const auto append = [&](const char* component, double Stress::*part) {
-      row.push_back({asked.name + "_stress_" + component, "Pa",
-                     point.value([&](std::size_t i) { return stress(i).*part; })});
-    };
-    append("xx", &Stress::xx);
-    append("yy", &Stress::yy);
-    append("xy", &Stress::xy);
+    const Stress sigma = stress_at(n);
+    row.push_back({asked.name + "_stress_xx", "Pa", sigma.xx});
+    row.push_back({asked.name + "_stress_yy", "Pa", sigma.yy});
+    row.push_back({asked.name + "_stress_xy", "Pa", sigma.xy});
   }
   observe_regions(row);
   const double kinetic = kinetic_energy(), potential = potential_energy(), work = interface_work();
@@ -127,7 +132,7 @@ Frame SolidModel::frame() const {
     values.insert(values.end(), value.begin(), value.end());
   };
   for (std::size_t i = 0; i < particle_count(); ++i) {
-    const Stress sigma = stress(i);
+    const Stress sigma = recovered_stress(i);
     append(frame.positions, body_.X[i] + displacement(i));
     append(displacement_field.values, displacement(i));
     append(velocity_field.values, velocity(i));

@@ -98,7 +98,9 @@ class SolidModel : public Solver {
   Vec acceleration(std::size_t particle) const;                                           ///< [m/s2]
   double mass(std::size_t particle) const { return parameters_.material.density * body_.volume(particle); }
   double total_mass() const { return parameters_.material.density * body_.total_volume(); }  ///< [kg/m]
-  virtual Stress stress(std::size_t particle) const = 0;                                     ///< Cauchy
+  virtual Stress stress(std::size_t particle) const = 0;  ///< Cauchy, as it drives the particles
+  /// Cauchy, as near to that of the body as the particles tell: what frames show.
+  virtual Stress recovered_stress(std::size_t particle) const { return stress(particle); }
   /// Energies that the deformation holds [J per metre depth].
   virtual std::vector<Observation> internal_energies() const = 0;
   const Timers& timers() const { return timers_; }
@@ -148,6 +150,8 @@ class SolidModel : public Solver {
   /// that damping is stable for any z, and its impulse is z (w_c dt - du). `kept` is what other damping
   /// leaves of the velocity in the first kick.
   void brake_by_impedance(double dt, double kept = 1.0);
+  /// Cauchy's at the point of an observer.
+  virtual Stress stress_at(std::size_t observer) const;
   /// Throws if the strain of a particle is beyond its limit.
   virtual void check_strain(double time) const = 0;
   [[noreturn]] void fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/state/serialize.hpp"
@@ -25,6 +26,7 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
                                             Held{mobile_, cells});
   resize_fields(form_, size);
   resize(T_, size);
+  find_recovered_points();
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
     bodies_.emplace(X_, volume_, particle_count(), *parameters_.body_contact, parameters_.material,
@@ -262,7 +264,20 @@ void TotalLagrangian::check_strain(double time) const {
 }
 
 Stress TotalLagrangian::stress(std::size_t particle) const {
-  const Tensor<double> H = gradient(slot_[particle]);
+  return stress_of(gradient(slot_[particle]));
+}
+
+Stress TotalLagrangian::recovered_stress(std::size_t particle) const {
+  const std::size_t index = surface_index_[particle];
+  return index < of_surface_.size() ? recovered(of_surface_[index]) : stress(particle);
+}
+
+Stress TotalLagrangian::stress_at(std::size_t observer) const {
+  const RecoveredPoint& point = of_observers_[observer];
+  return point.fit.found() ? recovered(point) : SolidModel::stress_at(observer);
+}
+
+Stress TotalLagrangian::stress_of(const Tensor<double>& H) const {
   const Tensor<double> F_T{1.0 + H[0], H[2], H[1], 1.0 + H[3]};
   const double J = 1.0 + volume_change(H);
   return std::visit(
@@ -271,6 +286,44 @@ Stress TotalLagrangian::stress(std::size_t particle) const {
         return {sigma[0] / J, sigma[3] / J, law.stress_across(H) / J, sigma[1] / J};
       },
       law_);
+}
+
+void TotalLagrangian::find_recovered_points() {
+  const BodyIndex index(body_);
+  for (const auto& observer : parameters_.observers) of_observers_.emplace_back(index, observer.point);
+  surface_index_.assign(particle_count(), particle_count());
+  for (std::size_t i = 0; i < particle_count(); ++i) {
+    if (body_.held[i] || body_.area_vector[i].isZero()) continue;
+    RecoveredPoint point(index, body_.X[i]);
+    if (!point.fit.found() || !point.surface) continue;
+    surface_index_[i] = of_surface_.size();
+    of_surface_.push_back(std::move(point));
+  }
+}
+
+bool TotalLagrangian::is_free(const FreeSurface& surface) const {
+  if (bodies_) return false;
+  return std::all_of(surface.faces.begin(), surface.faces.end(), [&](std::uint32_t i) {
+    const bool pushed = walls_ && !at(state_.push, slot_[i]).isZero();
+    return !pushed && at(state_.external, slot_[i]) == gravity_;
+  });
+}
+
+Stress TotalLagrangian::recovered(const RecoveredPoint& point) const {
+  const auto u = [&](std::uint32_t i) { return displacement(i); };
+  Tensor<double> H = point.fit.gradient(u);
+  if (point.surface && is_free(*point.surface)) {
+    const auto& [normal, share, faces, deeper] = *point.surface;
+    std::visit(
+        [&](const auto& law) {
+          const auto P = [&](const Tensor<double>& gradient) { return law.stress(gradient); };
+          const Tensor<double> T = P(deeper.gradient(u));
+          const Vec t = share * Vec(T[0] * normal[0] + T[1] * normal[1], T[2] * normal[0] + T[3] * normal[1]);
+          H = with_traction(P, H, normal, t);
+        },
+        law_);
+  }
+  return stress_of(H);
 }
 
 std::vector<Observation> TotalLagrangian::internal_energies() const {

@@ -15,6 +15,7 @@
 #include "solid_solver/solid_model.hpp"
 #include "solid_solver/total_lagrangian/laws.hpp"
 #include "solid_solver/total_lagrangian/reference_pairs.hpp"
+#include "solid_solver/total_lagrangian/stress_recovery.hpp"
 
 namespace toryu::solid {
 
@@ -34,6 +35,8 @@ class TotalLagrangian final : public SolidModel {
   void read_state(std::istream& stream) override;
   std::vector<ActiveTerm> active_terms() const override;
   Stress stress(std::size_t particle) const override;
+  /// Of a particle of the surface by stress_recovery.hpp, as at an observer's point.
+  Stress recovered_stress(std::size_t particle) const override;
   std::vector<Observation> internal_energies() const override;
 
   /// Highest angular frequency of small motions about the present state [1/s].
@@ -41,6 +44,7 @@ class TotalLagrangian final : public SolidModel {
 
  protected:
   void check_strain(double time) const override;
+  Stress stress_at(std::size_t observer) const override;
 
  private:
   void kick_and_drift(double dt);
@@ -52,6 +56,10 @@ class TotalLagrangian final : public SolidModel {
   /// Largest longitudinal modulus of a particle over that of the unloaded solid, at least 1.
   double stiffening() const;
   Tensor<double> gradient(std::size_t slot) const;
+  void find_recovered_points();
+  Stress recovered(const RecoveredPoint& point) const;
+  Stress stress_of(const Tensor<double>& H) const;
+  bool is_free(const FreeSurface& surface) const;  ///< nothing but gravity acts on its particles at present
   void touch();
   void record_inverted(const Tensor<Lanes>& H, std::size_t first_slot);
 
@@ -77,6 +85,8 @@ class TotalLagrangian final : public SolidModel {
   };
 
   FormState form_, saved_form_;
+  std::vector<RecoveredPoint> of_observers_, of_surface_;
+  std::vector<std::size_t> surface_index_;  ///< of a particle in `of_surface_`; its size where it has none
   Field volume_;
   std::unique_ptr<ReferencePairs> pairs_;
   Law law_;

@@ -192,11 +192,42 @@ TEST_P(Clamped, GivesWayAsFiniteElements) {
   const double g = 1e-4 * length / plate.finite_elements * 0.1;  // small strains
   scene.gravity = g * (plate.across ? Vec(0, -1) : Vec(1, 0));
   const auto model = model_of(p, scene);
-  run_to(*model, 16 / omega);
+  run_to(*model, 10 / omega);
   const double found =
       std::abs(observed(*model, plate.across ? "middle_displacement_y" : "middle_displacement_x"));
   std::printf("%+.2f %% from finite elements\n", 100 * (found / (g * plate.finite_elements) - 1));
   EXPECT_NEAR(found / (g * plate.finite_elements), 1.0, plate.tolerance);
+}
+
+/// A plate 0.2 m long, 0.02 m thick, held at x = 0, with a load near its end; at x = 0.1 m beam theory's
+/// stress is exact.
+class BentPlate : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Rows, BentPlate, testing::Values(4, 8));
+
+TEST_P(BentPlate, TellsTheStressAtItsSurfaceAndAtTheNeutralAxis) {
+  const int rows = GetParam();
+  const double height = 0.02, force = 0.05, arm = 0.095;
+  Parameters p;
+  p.material = {.density = 1000, .youngs_modulus = 2e6, .poissons_ratio = 0.3};
+  p.spacing = height / rows;
+  p.hourglass = HourglassPenalty{};
+  p.regions = {{"plate", {Vec(0, -0.01), Vec(0.2, 0.01)}}, {"root", {Vec(-0.02, -0.01), Vec(0, 0.01)}}};
+  p.clamps = {{"root", p.regions[1].box}};
+  p.loads = {{"end", {Vec(0.19, -1), Vec(1, 1)}, Vec(0, -force)}};
+  p.damping = Damping{.rate = 47};
+  p.observers = {{"top", Vec(0.1, 0.01), true}, {"neutral", Vec(0.1, 0), true}};
+  const auto model = model_of(p);
+  run_to(*model, 1.06);
+  const double bending = 6 * force * arm / (height * height), largest_shear = 1.5 * force / height;
+  EXPECT_NEAR(observed(*model, "top_stress_xx") / bending, 1.0, 0.03);
+  EXPECT_NEAR(observed(*model, "top_stress_yy") / bending, 0.0, 0.001) << "the surface is free";
+  EXPECT_NEAR(std::abs(observed(*model, "neutral_stress_xy")) / largest_shear, 1.0, rows == 8 ? 0.05 : 0.2);
+  for (std::size_t i = 0; i < model->particle_count(); ++i) {  // the outermost row, half a spacing deeper
+    const Vec X = model->body().X[i];
+    if (std::abs(X[0] - 0.1) > p.spacing || X[1] < 0.01 - p.spacing) continue;
+    const double at_row = force * (0.195 - X[0]) * 12 / std::pow(height, 3) * X[1];
+    EXPECT_NEAR(model->recovered_stress(i).xx / at_row, 1.0, 0.03);
+  }
 }
 
 }  // namespace
