@@ -116,7 +116,9 @@ void FluidModel::update_neighbours(double dt) {
 
 void FluidModel::record_surface(const std::filesystem::path& out) {
   if (!parameters_.removal) return;
-  state_.surface_record.emplace(*parameters_.removal);
+  const bool sticks = parameters_.wall_model.slip == WallSlip::no_slip;
+  state_.surface_record.emplace(*parameters_.removal,
+                                sticks ? std::optional(parameters_.spacing) : std::nullopt);
   state_.surface_record->attach(state_.boundaries);
   state_.surface_record->open(out);
 }

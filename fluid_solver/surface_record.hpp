@@ -4,7 +4,10 @@
 /// Of the fluid within the kernel's reach, at each surface particle s of area A_s and outward normal n_s:
 ///
 ///     p_s = sum_f V_f max(p_f, 0) W_sf / sum_f V_f W_sf                         contact pressure
-///     v_s = |mean of v_f - v_s, less its part along n_s|                        sliding speed
+///     v_s = |mean of v_f - v_s, less its part along n_s|                        sliding speed under free
+///     slip v_s = gdot_s l                                            and under no slip: the medium sticks,
+///     and at
+///                the wall's rate of shear a grain that stands off by the length l rubs the surface so fast
 ///     tau_s = F_s/A_s, F_s the friction force (33); dw/dt = tau_s . (mean of v_f - v_s)      friction work
 ///     dh/dt = k p_s v_s (Preston 1927), (K/H) p_s v_s (Archard 1953)            removed depth
 ///
@@ -14,6 +17,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "common/output/hdf5_series.hpp"
 #include "common/run/solver.hpp"
@@ -24,12 +28,15 @@ namespace toryu::fluid {
 
 class SurfaceRecord {
  public:
-  explicit SurfaceRecord(const Removal& removal) : removal_(removal) {}
+  /// `sticks`: the spacing of the fluid [m], if walls have no slip.
+  explicit SurfaceRecord(const Removal& removal, std::optional<double> sticks = {})
+      : removal_(removal), sticks_(sticks) {}
 
   /// Takes the particles with a face (area > 0) of the work pieces among `boundaries`, as they stand.
   void attach(const std::vector<Boundary>& boundaries);
-  /// Adds a step of `dt` [s] with the fluid and friction forces of its last evaluation.
-  void add(const std::vector<Boundary>& boundaries, const Particles& fluid, const Kernel& kernel, double dt);
+  /// Adds a step of `dt` [s] with the fluid, its `neighbours` and the friction forces of its last evaluation.
+  void add(const std::vector<Boundary>& boundaries, const Particles& fluid, const ClusterList& neighbours,
+           const Kernel& kernel, double dt);
   /// Makes `out`/surface.h5.
   void open(const std::filesystem::path& out);
   /// Appends a row: means since the last one, and the sums so far.
@@ -53,6 +60,7 @@ class SurfaceRecord {
   }
 
   Removal removal_;
+  std::optional<double> sticks_;
   std::string names_;  ///< of the work pieces, joined by ";"
   std::vector<std::uint32_t> work_piece_;
   std::vector<std::vector<std::uint32_t>> place_;  ///< by boundary: id -> place here, or `none`

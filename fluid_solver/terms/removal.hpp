@@ -50,10 +50,17 @@ struct Removal {
   double preston_coefficient = 0;  ///< k of dh/dt = k p v (Preston 1927) [1/Pa]; 0: not used
   std::optional<Archard> archard;
   std::optional<Roughness> roughness;
+  double grain_length = 1e-4;  ///< where the medium sticks, v is the wall's shear rate times this [m]
 };
 inline void describe(ParameterTable& table, Removal& removal) {
   table.number("preston_coefficient", removal.preston_coefficient,
                {.unit = "1/Pa", .minimum = 0, .help = "k of dh/dt = k p v (Preston 1927); 0: not used"});
+  table.number("grain_length", removal.grain_length,
+               {.unit = "m",
+                .minimum = 0,
+                .above_minimum = true,
+                .help = "under no slip the sliding speed v is the shear rate at the wall times this, as of a "
+                        "grain that stands off the wall by so much; free slip has a speed of its own"});
   table.optional("archard", removal.archard, "Archard's law beside or instead of Preston's");
   table.optional("roughness", removal.roughness, "decay of the roughness with the removed depth");
   table.require(removal.preston_coefficient > 0 || removal.archard, "preston_coefficient",

@@ -1,5 +1,7 @@
 #include "fluid_solver/weakly_compressible/shifting.hpp"
 
+#include <algorithm>
+
 #include "common/sph/neighbour_loop.hpp"
 #include "common/sph/renormalisation.hpp"
 
@@ -39,6 +41,7 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
                      double largest_speed, double dt) {
   const double factor = -strength_ * kernel_.h() * largest_speed * dt, longest = 0.5 * largest_speed * dt;
   moved_.resize(fluid.clusters());
+  resize(dx_, padded(fluid.count));
   kernel_.visit([&](const auto& W) {
     const double inverse_W_d0 = 1.0 / W.value(spacing_);
 #pragma omp parallel for schedule(dynamic, 8)
@@ -56,18 +59,45 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
       const Lanes share = load(fluid.off_surface, first) * min(1.0, longest * inverse(max(length, 1e-300)));
       for (auto& component : dx) component *= share;
       sums.moment.invert();
-      moved_[c] = {{x_i[0] + dx[0], x_i[1] + dx[1]},
-                   {v_i[0] + dot(dx, sums.moment.renormalised(sums.v[0])),
+      moved_[c] = {{v_i[0] + dot(dx, sums.moment.renormalised(sums.v[0])),
                     v_i[1] + dot(dx, sums.moment.renormalised(sums.v[1]))},
                    rho_i + dot(dx, sums.moment.renormalised(sums.rho))};
+      store(dx, dx_, first);
     }
+#pragma omp parallel for schedule(dynamic, 8)
+    for (std::size_t c = 0; c < fluid.clusters(); ++c)
+      if (std::any_of(boundaries.begin(), boundaries.end(),
+                      [&](const auto& wall) { return wall.acts_on(c); }))
+        moved_[c].rho = density_beside_walls(fluid, neighbours, boundaries, W, c);
   });
   for (std::size_t c = 0; c < fluid.clusters(); ++c) {
     const std::size_t first = c * lane_count;
-    store(moved_[c].x, fluid.x, first);
+    for (int a = 0; a < dim; ++a) store(load(fluid.x[a], first) + load(dx_[a], first), fluid.x[a], first);
     store(moved_[c].v, fluid.v, first);
     store(moved_[c].rho, fluid.rho, first);
   }
+}
+
+template <class W>
+Lanes Shifting::density_beside_walls(const Particles& fluid, const ClusterList& neighbours,
+                                     const std::vector<Boundary>& boundaries, const W& kernel,
+                                     std::size_t cluster) const {
+  const std::size_t first = cluster * lane_count;
+  const VecLanes x_i = load(fluid.x, first), dx_i = load(dx_, first);
+  const Lanes rho_i = load(fluid.rho, first);
+  const Positions dx = pointers(dx_);
+  Lanes compression = 0.0, beside = 0.0;
+  over_neighbours(kernel, neighbours.near(cluster), x_i, pointers(fluid.x),
+                  [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    compression += dot(difference(dx_i, dx, j), n.gradient(fluid.V[j]));
+                  });
+  for (const auto& wall : boundaries)
+    over_neighbours(kernel, wall.list_for_fluid.near(cluster), x_i, pointers(wall.x),
+                    [&](std::uint32_t w, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                      compression += dot(dx_i, n.gradient(wall.V[w]));
+                      beside = select(n.r < kernel.support(), 1.0, beside);
+                    });
+  return select(beside > 0.0, rho_i + rho_i * compression, moved_[cluster].rho);
 }
 
 }  // namespace toryu::fluid

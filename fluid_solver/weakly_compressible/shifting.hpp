@@ -5,7 +5,16 @@
 ///
 /// over fluid and walls, so that streamlines do not comb them into rows with gaps between. What is carried
 /// stays in its place to first order: v_i += dx_i . grad v, rho_i += dx_i . grad rho with renormalised
-/// gradients. ShiftedNeighbours a free surface the sum would push particles out: they are left alone there.
+/// gradients. Near a free surface the sum would push particles out: they are left alone there.
+///
+/// Where a wall is in reach the density follows the particles instead, as in any other motion,
+///
+///     rho_i += rho_i sum_j V_j (dx_i - dx_j) . gradW_ij,      dx = 0 of walls.
+///
+/// Else it would drift: continuity counts how the flow crowds particles against a wall, and a shift that
+/// spreads them again uncounted lets it count the same crowding at every step. In
+/// `cases/abrasive_flow/rigid.toml` it was 15 % too high after 0.6 s. Inside, where nothing holds one side,
+/// the carried field is better: the density does not feel the disorder.
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
@@ -24,15 +33,21 @@ class Shifting {
              double largest_speed, double dt);
 
  private:
-  /// What the particles of one cluster become.
+  /// What is carried to the new places of one cluster.
   struct Moved {
-    VecLanes x, v;
+    VecLanes v;
     Lanes rho;
   };
+  template <class W>
+  Lanes density_beside_walls(const Particles& fluid, const ClusterList& neighbours,
+                             const std::vector<Boundary>& boundaries, const W& kernel,
+                             std::size_t cluster) const;
 
   double strength_, spacing_;
   Kernel kernel_;
-  std::vector<Moved> moved_;  // kept from step to step for its memory
+  // kept from step to step for their memory
+  std::vector<Moved> moved_;
+  VecField dx_;
 };
 
 }  // namespace toryu::fluid

@@ -156,7 +156,7 @@ void WeaklyCompressible::note_surface(double dt) {
   const auto timer = timers_.measure("surface of the work pieces");
   for (Boundary& boundary : state_.boundaries)
     if (!boundary.is_interface()) dynamics_.react_by_friction(state_.fluid, boundary);
-  state_.surface_record->add(state_.boundaries, state_.fluid, kernel_, dt);
+  state_.surface_record->add(state_.boundaries, state_.fluid, state_.neighbours.of_fluid(), kernel_, dt);
 }
 
 void WeaklyCompressible::shift(double dt) {

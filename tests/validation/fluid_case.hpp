@@ -22,6 +22,7 @@ struct FluidCase {
 
  private:
   explicit FluidCase(CaseFile file) : scene(read_scene(file)) {
+    file.ignore_sections({"solid", "coupling"});
     file.read("fluid", parameters, "");
     file.throw_if_faulty();
   }

@@ -159,5 +159,38 @@ TEST(FreeSurface, IsNoBetterThanAWallForWhatKeepsOffBoth) {
               i != 7 && (at(s.fluid.x, i) - Vec(0, 0.35)).norm() >= kernel.support());
 }
 
+TEST(Shifting, BesideAWallTheDensityFollowsTheParticles) {
+  const WendlandC2 kernel(1.5 * d_0);
+  Sorted s = sorted(kernel);
+  s.fluid.off_surface.assign(padded(s.fluid.count), 1.0);
+  std::vector<Vec> floor;  // three rows
+  for (int row = 0; row < 3; ++row)
+    for (int column = -5; column <= 20; ++column) floor.emplace_back(column * d_0, -(0.5 + row) * d_0);
+  std::vector<Boundary> walls(1);
+  walls[0].place(floor, std::vector<double>(floor.size(), d_0 * d_0), 1000, 0.3);
+  walls[0].list_for_fluid.build(s.fluid.x, s.fluid.count, walls[0].x, walls[0].strips, kernel.support());
+  for (std::size_t i = 0; i < s.fluid.count; ++i) s.fluid.rho[i] = 1000;
+  const Particles before = s.fluid;
+  Shifting(ParticleShifting{1.7}, d_0, kernel).shift(s.fluid, s.lists.of_fluid(), walls, 0.3, 1e-3);
+  const auto moved = [&](std::size_t i) { return Vec(at(s.fluid.x, i) - at(before.x, i)); };
+  int beside = 0;
+  for (std::size_t i = 0; i < s.fluid.count; ++i) {
+    const Vec x_i = at(before.x, i);
+    double sum = 0, walls_near = 0;
+    const auto add = [&](const Vec& x_j, const Vec& dx_j) {
+      const Vec x_ij = x_i - x_j;
+      const double r = x_ij.norm();
+      if (r == 0 || r >= kernel.support()) return 0.0;
+      sum += d_0 * d_0 * kernel.gradient_over_r(r, 1 / r) * x_ij.dot(moved(i) - dx_j);
+      return 1.0;
+    };
+    for (std::size_t j = 0; j < s.fluid.count; ++j) add(at(before.x, j), moved(j));
+    for (const Vec& x_w : floor) walls_near += add(x_w, Vec::Zero());
+    beside += walls_near > 0;
+    EXPECT_NEAR(s.fluid.rho[i], walls_near > 0 ? 1000 * (1 + sum) : 1000, 1e-8) << x_i.transpose();
+  }
+  EXPECT_GT(beside, 10);
+}
+
 }  // namespace
 }  // namespace toryu::fluid

@@ -47,18 +47,21 @@ struct Contacting {
     StripOrder strips(10);
     strips.index(fluid.x[0], fluid.count);
     body.list_for_wall.build(body.x, body.count, fluid.x, strips, 2 * h);
+    neighbours.build(fluid.x, fluid.count, fluid.x, strips, 2 * h);
   }
-  std::map<std::string, double> after(const Removal& removal, int steps = 1) {
-    SurfaceRecord record(removal);
+  std::map<std::string, double> after(const Removal& removal, int steps = 1,
+                                      std::optional<double> sticks = {}) {
+    SurfaceRecord record(removal, sticks);
     record.attach(boundaries);
     EXPECT_EQ(record.size(), 1u);  // the particle inside has no face
-    for (int n = 0; n < steps; ++n) record.add(boundaries, fluid, kernel, dt);
+    for (int n = 0; n < steps; ++n) record.add(boundaries, fluid, neighbours, kernel, dt);
     std::map<std::string, double> values;
     for (const auto& observation : record.observe()) values[observation.name] = observation.value;
     return values;
   }
   std::vector<Boundary> boundaries;
   Particles fluid;
+  ClusterList neighbours;
 };
 
 const Removal preston{.preston_coefficient = 1e-6, .archard = {}, .roughness = {}};
@@ -69,6 +72,27 @@ TEST(SurfaceRecord, PrestonTakesPressureTimesSlidingSpeed) {
               1e-15);  // 0.7 is along the normal
   EXPECT_NEAR(one.after(preston, 4)["removed_depth_largest"], 4 * 1e-6 * 50 * 3 * dt, 1e-15);
   EXPECT_NEAR(one.after(preston)["removed_area"], d_0 * 1e-6 * 50 * 3 * dt, 1e-16);
+}
+
+TEST(SurfaceRecord, WhereTheMediumSticksTheShearAtTheWallCountsWhateverTheRows) {
+  Removal grains = preston;
+  grains.grain_length = 0.02;
+  const auto flow = [](double y) { return Vec(40 * y - 60 * y * y, 0.3 * y); };  // bent, and along the normal
+  const auto medium_at = [&](double y) { return Medium{Vec(0, y + 0.5 * d_0), flow(y), 50, 0.01}; };
+  const double expected = 1e-6 * 50 * 40 * 0.02 * dt;
+  for (const double row : {0.12, 0.15}) {  // the first row is what it may
+    const Medium first{Vec(0, 0.1), Vec(7, 7), 50, 0.01};
+    EXPECT_NEAR(Contacting({first, medium_at(row), medium_at(row + 0.08)})
+                    .after(grains, 1, d_0)["removed_depth_mean"],
+                expected, 1e-12 * expected)
+        << row;
+  }
+  EXPECT_NEAR(Contacting({medium_at(0.05), medium_at(0.07)}).after(grains, 1, d_0)["removed_depth_mean"],
+              expected, 1e-12 * expected)
+      << "a film of one row";
+  EXPECT_NEAR(Contacting({medium_at(0.05)}).after(grains, 1, d_0)["removed_depth_mean"],
+              expected * (40 - 60 * 0.05) / 40, 1e-12 * expected)
+      << "one row tells no bend";
 }
 
 TEST(SurfaceRecord, MeansAreWeightedByVolumeAndKernel) {
@@ -123,9 +147,9 @@ TEST(SurfaceRecord, FileHasMeansSinceTheLastRowAndSumsSinceTheStart) {
     record.attach(one.boundaries);
     record.open(out);
     record.write(0);
-    for (int n = 0; n < 2; ++n) record.add(one.boundaries, one.fluid, kernel, dt);
+    for (int n = 0; n < 2; ++n) record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
     record.write(2 * dt);
-    record.add(one.boundaries, one.fluid, kernel, dt);
+    record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
     record.write(3 * dt);
   }
   const auto path = out / "surface.h5";
@@ -152,7 +176,7 @@ TEST(SurfaceRecord, FileHasTheDepthOfEachLawThatIsGiven) {
     SurfaceRecord record(removal);
     record.attach(one.boundaries);
     record.open(out);
-    record.add(one.boundaries, one.fluid, kernel, dt);
+    record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
     record.write(dt);
   };
   const Archard law{2e-3, 4e8};
