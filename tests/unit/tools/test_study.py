@@ -66,6 +66,12 @@ y = "end"
         for name in ("cost $1^ per hour, $2", "$x_$", "_hidden"):
             self.assertRegex(page, "<text[^>]*>" + re.escape(name) + "</text>")
 
+    def test_a_logarithmic_colour_has_plain_numbers(self):
+        self.write(TWO_AXES + '[[metric]]\nname = "end"\nseries = "fluid.csv:speed[m/s]"\ntake = "largest"\n'
+                   '[[chart]]\nx = "x"\ny = "wait"\ncolour = "end"\nlog = ["colour"]\n')
+        self.done()
+        self.assertNotIn("mathdefault", (self.out / "charts/chart_01.svg").read_text())
+
     def test_a_change_runs_what_it_touches(self):
         self.write(TWO_AXES)
         self.done()

@@ -4,6 +4,7 @@ axes."""
 import math
 
 import matplotlib.colors
+import matplotlib.ticker
 
 from toryu.study import drawing, speed_accuracy
 from toryu.study.table import readable_size, text
@@ -159,7 +160,8 @@ def heat_map(chart, study, table):
         panel.set_yticks(range(len(along.values)), [value_text(v.name, "") for v in along.values])
         panel.set_xlabel(drawing.readable(chart.x, across.unit))
     axes[0].set_ylabel(drawing.readable(chart.y, along.unit))
-    made.colorbar(image, ax=axes, label=label_of_colour)
+    bar = made.colorbar(image, ax=axes, label=label_of_colour, format="%g")
+    bar.minorformatter = matplotlib.ticker.NullFormatter()  # a logarithmic one would write mathematics
     return made
 
 
