@@ -36,7 +36,7 @@ class HydrostaticPlate(unittest.TestCase):
     def test_three_rows_bend_as_far_as_they_are_known_to(self):
         rows, figures, _ = run("hydrostatic_plate", **{"case.end_time": 0.085, "solid.spacing": 0.05 / 3})
         bent = [row["middle_displacement_y[m]"] for row in rows if row["time[s]"] > 0.03]
-        self.assertLess(abs(sum(bent) / len(bent) / -7.063e-5 - 0.963), 0.01)  # 3.7 % short with 3 rows
+        self.assertLess(abs(sum(bent) / len(bent) / -7.063e-5 - 0.987), 0.01)  # 1.3 % short with 3 rows
         self.assertLess(figures["largest_impulse_error"], 1e-12)
 
 
