@@ -70,6 +70,7 @@ void RunRecord::count_steps(long steps, double dt) {
 }
 
 void RunRecord::complete() {
+  frames_.complete();
   series_.complete();
   solver_.complete_records();
 }

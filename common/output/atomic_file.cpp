@@ -33,6 +33,7 @@ std::filesystem::path part_of(const std::filesystem::path& path) {
 }
 
 void give_name(const std::filesystem::path& path) {
+  synchronise(part_of(path));  // else a name may survive a power cut, and what it names not
   std::error_code failure;
   std::filesystem::rename(part_of(path), path, failure);
   if (failure) throw MachineFailure(fmt::format("cannot complete '{}'", path.string()), failure.value());

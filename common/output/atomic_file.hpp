@@ -15,7 +15,7 @@ void synchronise(const std::filesystem::path& path);
 /// `PATH.part`, the name of a file that is not whole yet.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
-/// Renames `PATH.part` to `path`. Throws MachineFailure likewise.
+/// Renames `PATH.part` to `path`, once it is on the disk. Throws MachineFailure likewise.
 void give_name(const std::filesystem::path& path);
 
 /// Throws MachineFailure: `path` cannot be written for the reason `error`, an errno.

@@ -95,25 +95,37 @@ void FrameWriter::write(double time, const Frame& frame) {
   file.group("/VTKHDF/PointData");
   for (const auto& field : frame.fields) write_field(file, field, count);
   write_provenance(file, provenance_, time);
-  file.finish();
+  file.close();
 
+  complete();
   state_.written.emplace_back(path, time);
-  write_list();
+  // To bring a frame to the disk takes some milliseconds, in which the run goes on.
+  naming_ = std::async(std::launch::async, [frame = out_ / path, list = list_path(), text = list_text()] {
+    give_name(frame);
+    write_atomically(list, text);
+  });
 }
 
-void FrameWriter::write_list() const {
+void FrameWriter::complete() {
+  if (naming_.valid()) naming_.get();
+}
+
+std::filesystem::path FrameWriter::list_path() const {
+  return out_ / (name_ + ".hdf.series");
+}
+
+std::string FrameWriter::list_text() const {
   std::string list;
   for (const auto& [written, at] : state_.written)
     list += fmt::format("{}\n  {{ \"name\": \"{}\", \"time\": {} }}", list.empty() ? "" : ",", written, at);
-  write_atomically(out_ / (name_ + ".hdf.series"),
-                   fmt::format("{{ \"file-series-version\": \"1.0\", \"files\": [{}\n] }}\n", list));
+  return fmt::format("{{ \"file-series-version\": \"1.0\", \"files\": [{}\n] }}\n", list);
 }
 
 void FrameWriter::resume(const State& then) {
   state_ = then;
   for (std::size_t k = then.written.size();; ++k)
     if (!std::filesystem::remove(out_ / frame_path(name_, k))) break;
-  if (!state_.written.empty()) write_list();
+  if (!state_.written.empty()) write_atomically(list_path(), list_text());
 }
 
 }  // namespace toryu

@@ -142,12 +142,11 @@ void HdfFile::attribute(const std::string& object, const std::string& name, doub
   write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, &value);
 }
 
-void HdfFile::finish() {
+void HdfFile::close() {
   // A full disk shows when the file is flushed; closing does not always tell of it.
   hdf5_must(H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0, fmt::format("write '{}'", temporary_.string()));
   hdf5_must(H5Fclose(std::exchange(file_, H5I_INVALID_HID)) >= 0,
             fmt::format("complete '{}'", temporary_.string()));
-  give_name(path_);
 }
 
 }  // namespace toryu

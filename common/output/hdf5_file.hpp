@@ -1,6 +1,6 @@
 /// A new HDF5 file: groups, attributes and compressed datasets, with handles that close themselves. The file
-/// is written as `PATH.part` and gets its name when `finish` has closed it, so a half-written file never
-/// bears it.
+/// is written as `PATH.part` and gets its name (`give_name`) once `close` has closed it, so a half-written
+/// file never bears it.
 #pragma once
 
 #include <hdf5.h>
@@ -39,7 +39,7 @@ enum class Stored { float64, float32, int64, uint8 };
 class HdfFile {
  public:
   explicit HdfFile(std::filesystem::path path);
-  /// Without `finish`, the unfinished file is removed.
+  /// Without `close`, the unfinished file is removed.
   ~HdfFile();
   HdfFile(const HdfFile&) = delete;
   HdfFile& operator=(const HdfFile&) = delete;
@@ -55,8 +55,8 @@ class HdfFile {
   void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
   void attribute(const std::string& object, const std::string& name, double value);
 
-  /// Closes the file and gives it its name. Throws MachineFailure if that fails (a full disk).
-  void finish();
+  /// Closes the file, which is whole then. Throws MachineFailure if that fails (a full disk).
+  void close();
 
  private:
   void write(const std::string& name, const void* values, hid_t type, std::size_t count, int columns,

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,19 +25,29 @@ class FrameWriter {
   };
 
   FrameWriter(std::filesystem::path out, std::string name, Provenance provenance);
+  /// The frame has its name soon after; throws MachineFailure for the one before, if it could not be
+  /// completed.
   void write(double time, const Frame& frame);
+  /// Waits until all frames have their names. Throws MachineFailure if one could not be completed.
+  void complete();
 
-  const State& state() const { return state_; }
+  /// All of its frames are on the disk. Throws as `complete` does.
+  const State& state() {
+    complete();
+    return state_;
+  }
   /// Goes on from `then`; later frames are removed.
   void resume(const State& then);
 
  private:
-  void write_list() const;
+  std::filesystem::path list_path() const;
+  std::string list_text() const;
 
   std::filesystem::path out_;
   std::string name_;
   Provenance provenance_;
   State state_;
+  std::future<void> naming_;  // of the frame written last; waited for by its destructor
 };
 
 template <class Archive>

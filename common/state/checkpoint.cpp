@@ -188,14 +188,12 @@ fs::path open_checkpoint(const fs::path& out) {
 void complete_checkpoint(const fs::path& folder, double time, const std::string& case_text,
                          const std::vector<std::string>& parts) {
   write_atomically(folder / "case.toml", case_text);
-  synchronise(folder / "case.toml");
   std::string names;
   for (const auto& part : parts) {
     if (!fs::exists(folder / (part + ".state")))
       throw std::runtime_error(fmt::format("'{}' is missing", (folder / (part + ".state")).string()));
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", part);
   }
-  const fs::path manifest = folder / manifest_name, temporary = folder / "manifest.toml.part";
   const std::string text = fmt::format(
       "time = {}  # s\nparts = [{}]\n",
       [&] {
@@ -203,14 +201,7 @@ void complete_checkpoint(const fs::path& folder, double time, const std::string&
         return number.find_first_of(".e") == std::string::npos ? number + ".0" : number;
       }(),
       names);
-  {
-    std::ofstream file(temporary, std::ios::trunc);
-    file << text;
-    file.close();
-    if (!file) fail_to_write(temporary, errno);
-  }
-  synchronise(temporary);
-  fs::rename(temporary, manifest);
+  write_atomically(folder / manifest_name, text);
   synchronise(folder);
   const auto whole = checkpoints(folder.parent_path().parent_path(), true);
   for (const auto& [number, old] : checkpoints(folder.parent_path().parent_path(), false))
@@ -230,14 +221,13 @@ void write_part(const fs::path& folder, const std::string& name, const std::stri
   std::ostringstream stream(std::ios::binary);
   write(stream);
   const std::string payload = std::move(stream).str();
-  const fs::path path = folder / (name + ".state"), temporary = folder / (name + ".state.part");
+  const fs::path path = folder / (name + ".state"), temporary = part_of(path);
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file << header_of(role) << fmt::format("{} {}\n", payload.size(), checksum(payload));
   file.write(payload.data(), static_cast<std::streamsize>(payload.size()));
   file.close();
   if (!file) fail_to_write(temporary, errno);
-  synchronise(temporary);
-  fs::rename(temporary, path);
+  give_name(path);
 }
 
 void read_part(const fs::path& folder, const std::string& name, const std::string& role,

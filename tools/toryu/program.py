@@ -1,6 +1,7 @@
 """The frame of these programs, as common/run/program.hpp is that of the C++ ones: standard streams that may be closed,
 full or read by nobody; how a program ends; how one starts another."""
 
+import contextlib
 import errno
 import io
 import os
@@ -93,14 +94,24 @@ def must_be_printed():
         raise OSError(error.errno, error.strerror, "standard output")
 
 
-def write_whole(path, text):
-    """Writes a text file that is either there in full or not at all. An OSError names it."""
+@contextlib.contextmanager
+def whole_file(path):
+    """A text file to write that is either there in full or not at all, after a power cut too. An OSError names it."""
     part = path.with_name(path.name + ".part")
     try:
-        part.write_text(text, encoding="utf-8", errors="backslashreplace")  # a path may be no text
+        with open(part, "w", newline="", encoding="utf-8", errors="backslashreplace") as file:  # a path may be no text
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
         os.replace(part, path)
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(part)) from error
+
+
+def write_whole(path, text):
+    """Writes a text file as `whole_file` does."""
+    with whole_file(path) as file:
+        file.write(text)
 
 
 def interrupt(*_):

@@ -3,10 +3,10 @@
 import csv
 import html
 import math
-import os
 from collections import Counter
 from dataclasses import dataclass
 
+from toryu.program import whole_file
 from toryu.report import tables
 from toryu.study import bisection, page, verdicts
 from toryu.study.answer import Answer
@@ -129,8 +129,7 @@ def write_edges(study, every, path):
         f"{name}_stable{unit}", f"{name}_unstable{unit}", f"{name}_edge{unit}", "verdict", "cause", "contradictions"]
     for theory in made.theories:
         header += [f"theory {theory.label}", f"measured over theory {theory.label}"]
-    part = path.with_name(path.name + ".part")
-    with open(part, "w", newline="", encoding="utf-8") as file:
+    with whole_file(path) as file:
         writer = csv.writer(file)
         writer.writerow(header)
         for column in every:
@@ -142,7 +141,6 @@ def write_edges(study, every, path):
                 mine = theory in theories_of(study, column)
                 line += [blank(theory(column.x)), blank(ratio(column, y, theory))] if mine else ["", ""]
             writer.writerow(line)
-    os.replace(part, path)
 
 
 def blank(value):

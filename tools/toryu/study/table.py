@@ -2,10 +2,10 @@
 
 import csv
 import math
-import os
 from dataclasses import dataclass
 
 from toryu import results
+from toryu.program import whole_file
 from toryu.report import data
 from toryu.study import metrics, timing
 
@@ -56,8 +56,7 @@ def text(value):
 
 
 def write(table, path):
-    part = path.with_name(path.name + ".part")
-    with open(part, "w", newline="", encoding="utf-8") as file:
+    with whole_file(path) as file:
         writer = csv.writer(file)
         writer.writerow([f"{name}[{unit}]" if unit else name for name, unit in table.units.items()] +
                         ["exit_code", "cause", "run"])
@@ -65,4 +64,3 @@ def write(table, path):
             record = row["record"]
             writer.writerow([text(row.get(name, math.nan)) for name in table.units] +
                             [record.exit_code, row["cause"], f"runs/{record.folder.name}"])
-    os.replace(part, path)

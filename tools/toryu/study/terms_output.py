@@ -3,8 +3,8 @@
 import csv
 import html
 import math
-import os
 
+from toryu.program import whole_file
 from toryu.report import data, tables
 from toryu.study import drawing
 from toryu.study.answer import Answer
@@ -117,7 +117,5 @@ def plain(study, effects, errors):
 
 
 def write(path, fill):
-    part = path.with_name(path.name + ".part")
-    with open(part, "w", newline="", encoding="utf-8") as file:
+    with whole_file(path) as file:
         fill(file)
-    os.replace(part, path)

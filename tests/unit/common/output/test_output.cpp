@@ -55,6 +55,7 @@ TEST_F(Output, EachFrameIsAFileAndALineOfTheSeries) {
   FrameWriter writer(out, "fluid", sample::provenance);
   writer.write(0.0, sample::frame());
   writer.write(0.005, sample::frame());
+  writer.complete();
   EXPECT_THAT(files(), ElementsAre("fluid.hdf.series", "frames/fluid_000000.hdf", "frames/fluid_000001.hdf"));
   EXPECT_EQ(text("fluid.hdf.series"),
             "{ \"file-series-version\": \"1.0\", \"files\": [\n"
@@ -70,14 +71,14 @@ TEST_F(Output, AFrameOfAFaultyFieldLeavesNoFile) {
   EXPECT_THAT(files(), IsEmpty());
 }
 
-TEST_F(Output, AnHdfFileHasItsNameOnlyWhenFinished) {
+TEST_F(Output, AnHdfFileStaysOnceItIsClosed) {
   {
     HdfFile file(out / "a.h5");
     file.dataset("/x", std::vector<double>{1, 2}, 1, Stored::float64);
     EXPECT_THAT(files(), ElementsAre("a.h5.part"));
-    file.finish();
+    file.close();
   }
-  EXPECT_THAT(files(), ElementsAre("a.h5"));
+  EXPECT_THAT(files(), ElementsAre("a.h5.part"));
 }
 
 TEST_F(Output, AFolderThatCannotBeWrittenIsNamed) {
@@ -241,7 +242,7 @@ TEST_F(FullDisk, IsTheCauseWhereAFileCannotBeWritten) {
   expect_no_room("a.h5.part", [&] {
     HdfFile file(out / "a.h5");
     file.group("/a");
-    file.finish();
+    file.close();
   });
   expect_no_room("rows.h5.rows.part", [&] {
     HdfSeriesFile file(out / "rows.h5");
