@@ -164,7 +164,20 @@ void describe_terms(ParameterTable& table, Parameters& p) {
   table.group("wall_model", p.wall_model, "how walls act on the fluid (Adami, Hu & Adams 2012)");
 }
 
+/// Whether the fluid is one square without holes.
+bool is_square(const Parameters& p) {
+  if (p.regions.size() != 1 || !p.holes.empty() || p.regions.front().box.round) return false;
+  const Vec side = p.regions.front().box.max - p.regions.front().box.min;
+  return std::abs(side[0] - side[1]) < 0.5 * p.spacing;
+}
+
 void require_consistency(ParameterTable& table, const Parameters& p) {
+  table.require(
+      !p.initial_flow || p.initial_flow->profile != FlowProfile::rotation || p.regions.empty() ||
+          is_square(p),
+      "initial_flow",
+      "the pressure of a rotation is known of a square alone: one [[fluid.region]] with equal sides, "
+      "neither round nor with holes");
   table.require(!p.regions.empty(), "region", "a fluid needs at least one [[fluid.region]]");
   table.require(!p.consistent_gradients || p.particle_shifting, "consistent_gradients",
                 "consistent gradients do not drive particles apart: they need [fluid.particle_shifting]");

@@ -119,6 +119,20 @@ INSTANTIATE_TEST_SUITE_P(
               "= 0.025, limit the domain of the case"}),
     [](const auto& one) { return one.param.name; });
 
+TEST(FluidRotation, IsRefusedWhereItsPressureIsNotKnown) {
+  const std::string flow = "fluid.initial_flow={profile=\"rotation\",speed=1.0,length=1.0}";
+  const auto check = [&](const std::string& body) { return run("--check --set '" + flow + "'" + body); };
+  EXPECT_EQ(check("").code, 0) << "a square";
+  for (const char* body :
+       {" --set 'fluid.region.water.box.max=[1.0,0.5]'", " --set fluid.region.water.box.round=true",
+        " --set 'fluid.hole=[{min=[0.4,0.4],max=[0.6,0.6]}]'"}) {
+    const Ending ending = check(body);
+    EXPECT_EQ(ending.code, 2) << body;
+    EXPECT_THAT(ending.last_line, testing::HasSubstr("the pressure of a rotation is known of a square alone"))
+        << body;
+  }
+}
+
 TEST(FluidFailure, NamesParticleTimeValueAndLimit) {
   const auto out =
       std::filesystem::temp_directory_path() / ("toryu_fluid_failure_" + std::to_string(getpid()));
