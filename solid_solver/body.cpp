@@ -114,6 +114,9 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
   boxes.reserve(regions.size());
   for (const auto& region : regions) boxes.push_back(region.box);
   check_size(boxes, parameters.spacing);
+  std::vector<Box> holes;
+  for (const auto& hole : parameters.holes) holes.push_back(hole.box);
+  body.shape = Shape(boxes, holes, parameters.spacing);
   for (std::size_t a = 0; a < regions.size(); ++a) {
     const std::size_t before = body.size();
     fill_region(a, parameters, body, tell_fault);
@@ -135,7 +138,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
     if (body.inside(load.box).empty())
       tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
   for (const auto& observer : parameters.observers) try {
-      MaterialPoint(observer.point, body.X, 2.0 * parameters.h());
+      MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape);
     } catch (const std::invalid_argument& error) {
       tell_fault("solid.observer", fmt::format("observer '{}': {}", observer.name, error.what()));
     }

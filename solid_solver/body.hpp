@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solid_solver/parameters.hpp"
+#include "solid_solver/shape.hpp"
 
 namespace toryu::solid {
 
@@ -22,6 +23,7 @@ struct Body {
   std::vector<std::uint32_t> region;  ///< index of each particle's region
   std::vector<char> held;             ///< by a clamp
   std::vector<Vec> area_vector;       ///< outward faces of the surface [m per metre depth]; zero inside
+  Shape shape;                        ///< where there is material
   std::vector<Vec> outside;           ///< empty lattice sites beyond the surface [m]
   double spacing = 0;                 ///< as stated [m]
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log

@@ -23,7 +23,7 @@ Bonds::Bonds(const Body& body, const BondLimits& limits) : limits_(limits) {
   for (std::uint32_t i = 0; i < body.size(); ++i)
     points.near(body.X[i], reach, [&](std::uint32_t j) {
       const Vec first = body.X[j] - body.X[i];
-      if (i < j) bonds_.push_back({i, j, first, first.norm()});
+      if (i < j && body.shape.joins(body.X[i], body.X[j])) bonds_.push_back({i, j, first, first.norm()});
     });
 }
 

@@ -6,10 +6,10 @@
 
 namespace toryu::solid {
 
-void EnergyWatch::warn_of_gain(double kinetic, double given, double time) {
+void EnergyWatch::warn_of_gain(double kinetic, double given, double rounding, double time) {
   constexpr double gain_to_warn_of = 0.02;
   most = std::max(most, kinetic);
-  if (!(most > 0)) return;
+  if (!(most > rounding)) return;
   const double gain = (kinetic - given) / most;
   largest_gain = std::max(largest_gain, gain);
   if (gain < std::max(gain_to_warn_of, 2 * warned)) return;

@@ -12,8 +12,9 @@ struct EnergyWatch {
 
   /// The body moves with `kinetic` [J per metre depth]; `given` is what it started with and what loads and
   /// the fluid have given it since: all that it could have in motion if it held nothing by deformation. Warns
-  /// in the log when it has more, by 2 % of the most that it has had, and whenever that has doubled.
-  void warn_of_gain(double kinetic, double given, double time);
+  /// in the log when it has more, by 2 % of the most that it has had, and whenever that has doubled. A body
+  /// that never had more than `rounding` is at rest: what it seems to gain is the rounding of its positions.
+  void warn_of_gain(double kinetic, double given, double rounding, double time);
 };
 template <class Archive>
 void serialize(Archive& archive, EnergyWatch& watch) {

@@ -127,6 +127,7 @@ ExitCode solve(const Options& options) {
   omp_set_num_threads(thread_count(options, body.size(), particles_per_thread));
   const auto model = make_model(parameters, body, scene);
   check_start(*model, "[solid]");
+  check_columns(*model, "[solid]");
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
   if (options.check) return ExitCode::done;
   log::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());

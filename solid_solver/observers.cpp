@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <stdexcept>
 
 #include "common/sph/kernel.hpp"
@@ -34,14 +35,17 @@ void describe(ParameterTable& table, BondLimits& p) {
   table.flag("stop", p.stop, "whether a bond that is torn or clumped ends the run as a failure of physics");
 }
 
-MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach) {
+MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach, const Shape& shape) {
   using Basis = Eigen::Matrix<double, dim + 1, 1>;
   const CubicSpline W(0.5 * reach);
   Eigen::Matrix<double, dim + 1, dim + 1> moments = Eigen::Matrix<double, dim + 1, dim + 1>::Zero();
   std::vector<Basis> bases;
+  // a point in a gap belongs to all that surrounds it
+  const bool in_material = std::any_of(
+      X.begin(), X.end(), [&](const Vec& x) { return (x - point).norm() < reach && shape.joins(point, x); });
   for (std::size_t j = 0; j < X.size(); ++j) {
     const Vec r = (X[j] - point) / reach;
-    if (r.norm() >= 1.0) continue;
+    if (r.norm() >= 1.0 || (in_material && !shape.joins(point, X[j]))) continue;
     Basis basis;
     basis << 1.0, r;
     const double weight = W.value(r.norm() * reach) / W.value(0.0);

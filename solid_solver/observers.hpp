@@ -7,6 +7,7 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/sph/points.hpp"
+#include "solid_solver/shape.hpp"
 
 namespace toryu::solid {
 
@@ -42,8 +43,8 @@ class MaterialPoint {
  public:
   /// `X` [m] are the reference positions of the first `count` particles, numbered as they shall be asked for;
   /// `reach` [m] is 2h. Throws std::invalid_argument if fewer than three particles, or only a row of them,
-  /// lie within reach.
-  MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach);
+  /// lie within reach. Those beyond empty space, of another body or behind a slot, have no part in it.
+  MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach, const Shape& shape = {});
 
   /// Value at the point of a field given per particle number.
   template <class FieldOfParticle>

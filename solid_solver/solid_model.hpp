@@ -167,6 +167,7 @@ class SolidModel : public Solver {
   /// Records particles that have come off and checks the bonds, where that is asked for and due.
   void end_step();
   /// From now on checks the bonds now and then.
+  double energy_of_rounding() const;
   void watch_bonds();
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 

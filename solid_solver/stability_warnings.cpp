@@ -57,6 +57,23 @@ void guard_thin_plates(const Parameters& p, std::vector<std::string>& said) {
                     rows, nu));
 }
 
+/// Distance of two boxes [m], 0 where they touch.
+double distance(const Box& a, const Box& b) {
+  return (b.min - a.max).cwiseMax(a.min - b.max).cwiseMax(0.0).norm();
+}
+
+void guard_close_bodies(const Parameters& p, std::vector<std::string>& said) {
+  for (std::size_t a = 0; a < p.regions.size() && !p.body_contact; ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const double gap = distance(p.regions[a].box, p.regions[b].box);
+      if (gap > 1e-6 * p.spacing && gap < p.spacing)
+        said.push_back(fmt::format(
+            "regions '{}' and '{}' stand {:.3g} m apart, {:.2g} spacings: no material joins them there, "
+            "and without [solid.body_contact] they pass through each other",
+            p.regions[b].name, p.regions[a].name, gap, gap / p.spacing));
+    }
+}
+
 }  // namespace
 
 double courant_edge(const Parameters& p) {
@@ -75,6 +92,7 @@ std::vector<std::string> stability_warnings(const Parameters& p) {
   std::vector<std::string> said;
   if (p.formulation == Formulation::total_lagrangian) {
     guard_thin_plates(p, said);
+    guard_close_bodies(p, said);
     return said;
   }
   guard_artificial_stress(p, said);

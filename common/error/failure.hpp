@@ -62,9 +62,15 @@ class PhysicsFailure : public std::runtime_error {
       : std::runtime_error(
             fmt::format("{} {} at t = {:.6g} s: {} = {}, limit {}", body,
                         particle < 0 ? std::string("body") : fmt::format("particle {}", particle), time,
-                        quantity, value, limit)) {}
+                        quantity, readable(value), limit)) {}
   /// As told by another process.
   explicit PhysicsFailure(const std::string& told) : std::runtime_error(told) {}
+
+ private:
+  /// C writes what is not a number as "nan" or "-nan".
+  static std::string readable(const std::string& value) {
+    return value.find("nan") == std::string::npos ? value : "not a number";
+  }
 };
 
 /// Another process died, hung, or never came.

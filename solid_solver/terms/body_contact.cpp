@@ -9,7 +9,7 @@
 namespace toryu::solid {
 
 TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
-                               const ElasticMaterial& material, double spacing, double h)
+                               const ElasticMaterial& material, double spacing, double h, const Shape& shape)
     : V_(volume),
       count_(count),
       W_(h),
@@ -20,7 +20,7 @@ TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size
   // Pressed in by half a spacing. Both sides push, and both move: four times the stiffness at a wall.
   highest_frequency_ =
       2.0 * half_plane(W_, spacing, 0.5 * spacing).slope * std::sqrt(pressure_scale_ * inverse_rho_ / S_0_);
-  find_bodies(points(X));
+  find_bodies(points(X), shape);
 }
 
 std::vector<Vec> TouchingBodies::points(const VecField& x) const {
@@ -29,7 +29,7 @@ std::vector<Vec> TouchingBodies::points(const VecField& x) const {
   return result;
 }
 
-void TouchingBodies::find_bodies(const std::vector<Vec>& X) {
+void TouchingBodies::find_bodies(const std::vector<Vec>& X, const Shape& shape) {
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   const SortedPoints sorted(X, W_.support());
   body_.assign(count_, none);
@@ -42,7 +42,7 @@ void TouchingBodies::find_bodies(const std::vector<Vec>& X) {
       const std::uint32_t i = front.back();
       front.pop_back();
       sorted.near(X[i], W_.support(), [&](std::uint32_t j) {
-        if (body_[j] != none) return;
+        if (body_[j] != none || !shape.joins(X[i], X[j])) return;
         body_[j] = body;
         front.push_back(j);
       });

@@ -16,6 +16,7 @@
 #include "common/sph/kernel.hpp"
 #include "common/sph/points.hpp"
 #include "solid_solver/material.hpp"
+#include "solid_solver/shape.hpp"
 #include "solid_solver/terms/overlap.hpp"
 
 namespace toryu::solid {
@@ -32,9 +33,9 @@ class TouchingBodies {
   };
 
   /// `X` [m] and `volume` [m2] of the first `count` particles in storage order, which must not change.
-  /// `spacing` and `h` [m] are the solid's.
+  /// `spacing` and `h` [m] are the solid's. Bodies are what a chain of neighbours joins within `shape`.
   TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
-                 const ElasticMaterial& material, double spacing, double h);
+                 const ElasticMaterial& material, double spacing, double h, const Shape& shape = {});
 
   /// Adds the push at positions x [m] to the accelerations a [m/s2].
   void push(State& state, const VecField& x, VecField& a) const;
@@ -50,7 +51,7 @@ class TouchingBodies {
 
  private:
   std::vector<Vec> points(const VecField& x) const;
-  void find_bodies(const std::vector<Vec>& X);
+  void find_bodies(const std::vector<Vec>& X, const Shape& shape);
   void find_pairs_if_moved(State& state, const VecField& x) const;
   double pressure(const State& state, std::size_t i) const;
 

@@ -30,7 +30,7 @@ Tensor<double> pseudo_inverse(const Tensor<Lanes>& adjugate, std::size_t lane) {
 }  // namespace
 
 ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h,
-                               double strip_width, const std::optional<Held>& held)
+                               double strip_width, const std::optional<Held>& held, const Shape& shape)
     : X_(X) {
   StripOrder strips(strip_width);
   strips.index(X[0], count);
@@ -45,7 +45,7 @@ ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size
   for (std::size_t c = 0; c < list_.clusters(); ++c) {
     start_.push_back(c == 0 ? 0 : start_.back() + lane_count * list_.sources(c - 1).size());
     if (faces) find_shares(*faces, c, count);
-    const Moment moment = find_weights(volume, W, c);
+    const Moment moment = find_weights(volume, W, shape, c);
     const Lanes inverse_determinant = 1.0 / moment.determinant();
     const Tensor<Lanes> adjugate = moment.adjugate();
     for (std::size_t n = 0; n < adjugate.size(); ++n)
@@ -73,7 +73,8 @@ void ReferencePairs::find_shares(const ClampFaces& faces, std::size_t cluster, s
   share_.insert(share_.end(), shares.begin(), shares.end());
 }
 
-Moment ReferencePairs::find_weights(const Field& volume, const CubicSpline& W, std::size_t cluster) {
+Moment ReferencePairs::find_weights(const Field& volume, const CubicSpline& W, const Shape& shape,
+                                    std::size_t cluster) {
   Moment moment;
   double* w = weight_.data() + start_[cluster];
   const double* s = share_start_[cluster] == none ? nullptr : share_.data() + share_start_[cluster];
@@ -85,6 +86,10 @@ Moment ReferencePairs::find_weights(const Field& volume, const CubicSpline& W, s
                  weight = select(R < smallest, 0.0, weight);
                  weight = select(share > 0.0, weight / max(share * share, 1e-12), 0.0);
                  store(weight, w);
+                 for (std::size_t lane = 0; lane < lane_count && !shape.is_convex(); ++lane)
+                   if (w[lane] != 0 && !shape.joins(at(X_, cluster * lane_count + lane), at(X_, j)))
+                     w[lane] = 0;
+                 weight = load(w);
                  w += lane_count;
                  if (s) s += lane_count;
                  const VecLanes sX_ij = product(share, X_ij);

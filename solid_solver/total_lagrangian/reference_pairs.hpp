@@ -8,6 +8,7 @@
 #include "common/sph/points.hpp"
 #include "common/sph/renormalisation.hpp"
 #include "common/sph/tensor.hpp"
+#include "solid_solver/shape.hpp"
 #include "solid_solver/total_lagrangian/clamp_faces.hpp"
 
 namespace toryu::solid {
@@ -17,9 +18,10 @@ static_assert(dim == 2, "the sums and the inverse have the components of the pla
 class ReferencePairs {
  public:
   /// X [m] in strip order of strips `strip_width` [m] wide, volume [m2]; both padded to whole lanes, as is
-  /// what is `held`: clamp_faces.hpp says how that changes X_ij and gradW_ij of its pairs.
+  /// what is `held`: clamp_faces.hpp says how that changes X_ij and gradW_ij of its pairs. Pairs between
+  /// which `shape` has no material have no weight.
   ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h, double strip_width,
-                 const std::optional<Held>& held = std::nullopt);
+                 const std::optional<Held>& held = std::nullopt, const Shape& shape = {});
 
   /// Displacement gradient, renormalised, so that it is exact for linear u (Randles & Libersky 1996):
   ///
@@ -65,7 +67,7 @@ class ReferencePairs {
   /// Puts the shares of X_ij into `share_` where a particle of the cluster, or a source, is held.
   void find_shares(const ClampFaces& faces, std::size_t cluster, std::size_t count);
   /// V_j W'_ij/R_ij, and the moment of the pairs.
-  Moment find_weights(const Field& volume, const CubicSpline& W, std::size_t cluster);
+  Moment find_weights(const Field& volume, const CubicSpline& W, const Shape& shape, std::size_t cluster);
 
   const VecField& X_;
   ClusterList list_;

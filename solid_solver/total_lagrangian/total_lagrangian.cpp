@@ -23,14 +23,14 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
     set(cells, k, body_.cell[i]);
   }
   pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
-                                            Held{mobile_, cells});
+                                            Held{mobile_, cells}, body_.shape);
   resize_fields(form_, size);
   resize(T_, size);
   find_recovered_points();
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
     bodies_.emplace(X_, volume_, particle_count(), *parameters_.body_contact, parameters_.material,
-                    body_.spacing, parameters_.h());
+                    body_.spacing, parameters_.h(), body_.shape);
   if (!walls_ && !bodies_) return;
   resize(x_, size);
 #pragma omp parallel

@@ -29,19 +29,29 @@ class Heard {
 TEST(EnergyWatch, TellsOfTwoPercentOfTheMostAndOfEachDoubling) {
   Heard heard;
   EnergyWatch watch;
-  watch.warn_of_gain(0, 0, 0);
-  watch.warn_of_gain(20, 25, 1);  // 5 J held by deformation, or dissipated
-  watch.warn_of_gain(10, 9.7, 2);
+  watch.warn_of_gain(0, 0, 0, 0);
+  watch.warn_of_gain(20, 25, 0, 1);  // 5 J held by deformation, or dissipated
+  watch.warn_of_gain(10, 9.7, 0, 2);
   EXPECT_EQ(heard.said(), "");
   EXPECT_NEAR(watch.largest_gain, 0.015, 1e-12);
   std::size_t length = 0;
   for (const auto& [gained, told] : {std::pair{0.5, true}, {0.9, false}, {1.1, true}, {0.2, false}}) {
-    watch.warn_of_gain(10, 10 - gained, 3);
+    watch.warn_of_gain(10, 10 - gained, 0, 3);
     EXPECT_EQ(heard.said().size() > length, told) << gained;
     length = heard.said().size();
   }
   EXPECT_NE(heard.said().find("0.025 of it"), std::string::npos) << heard.said();
   EXPECT_NEAR(watch.largest_gain, 0.055, 1e-12);
+}
+
+TEST(EnergyWatch, TakesNoRoundingForMotion) {
+  Heard heard;
+  EnergyWatch watch;
+  watch.warn_of_gain(3e-36, 1e-36, 1e-20, 1);
+  EXPECT_EQ(heard.said(), "");
+  EXPECT_EQ(watch.largest_gain, 0);
+  watch.warn_of_gain(3e-19, 1e-19, 1e-20, 2);
+  EXPECT_NE(heard.said(), "");
 }
 
 /// Largest gain of a free bar that swings along its length, in updated form, by steps of `courant_number`.

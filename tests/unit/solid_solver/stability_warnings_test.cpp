@@ -23,6 +23,18 @@ TEST(Guards, LeaveTheMiddleAndTheOtherFormulationAlone) {
   EXPECT_THAT(stability_warnings(free_plate(4)), ElementsAre());
 }
 
+TEST(Guards, TellOfBodiesThatStandLessThanASpacingApart) {
+  Parameters p = free_plate(6);
+  const double d = p.spacing;
+  p.regions = {{"a", {Vec(0, 0), Vec(6 * d, 6 * d)}}, {"b", {Vec(6.8 * d, 0), Vec(13 * d, 6 * d)}}};
+  EXPECT_THAT(stability_warnings(p), ElementsAre(HasSubstr("regions 'a' and 'b' stand")));
+  p.body_contact = Contact{};
+  EXPECT_THAT(stability_warnings(p), ElementsAre());
+  p.body_contact.reset();
+  p.regions[1].box.min[0] = 6 * d;
+  EXPECT_THAT(stability_warnings(p), ElementsAre()) << "they touch";
+}
+
 TEST(Guards, NameTheMapBeyondWhoseEdgeACaseLies) {
   EXPECT_THAT(stability_warnings(updated(0.1, 1.0)),
               ElementsAre(HasSubstr("cases/stretched_bar/tensile_map.toml")));

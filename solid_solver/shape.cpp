@@ -1,0 +1,79 @@
+#include "solid_solver/shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toryu::solid {
+
+namespace {
+
+/// Over the spacing: rounding, and what is known of a round face.
+constexpr double rounding = 1e-6, round_face = 0.25;
+
+/// The part of the way a + t (b - a), 0 <= t <= 1, that lies in a box; empty where end <= begin.
+struct Part {
+  double begin = 0, end = 1;
+};
+
+Part part_in_sides(const Box& box, const Vec& a, const Vec& way) {
+  Part part;
+  for (int axis = 0; axis < dim; ++axis) {
+    if (way[axis] == 0) {
+      if (a[axis] < box.min[axis] || a[axis] > box.max[axis]) return {0, 0};
+      continue;
+    }
+    const double first = (box.min[axis] - a[axis]) / way[axis],
+                 second = (box.max[axis] - a[axis]) / way[axis];
+    part.begin = std::max(part.begin, std::min(first, second));
+    part.end = std::min(part.end, std::max(first, second));
+  }
+  return part;
+}
+
+Part part_in_ellipse(const Box& box, const Vec& a, const Vec& way) {
+  const Vec radii = 0.5 * (box.max - box.min);
+  const Vec from = (a - 0.5 * (box.min + box.max)).cwiseQuotient(radii), along = way.cwiseQuotient(radii);
+  const double A = along.squaredNorm(), B = from.dot(along), D = B * B - A * (from.squaredNorm() - 1);
+  if (!(A > 0) || D <= 0) return {0, 0};
+  return {std::max(0.0, (-B - std::sqrt(D)) / A), std::min(1.0, (-B + std::sqrt(D)) / A)};
+}
+
+Part part_in(const Box& box, const Vec& a, const Vec& way) {
+  return box.round ? part_in_ellipse(box, a, way) : part_in_sides(box, a, way);
+}
+
+/// Box with its sides moved out by `distance` [m].
+Box grown(const Box& box, double distance) {
+  return {box.min.array() - distance, box.max.array() + distance, box.round};
+}
+
+}  // namespace
+
+Shape::Shape(std::vector<Box> regions, std::vector<Box> holes, double spacing)
+    : regions_(std::move(regions)), tolerance_(rounding * spacing) {
+  for (Box& region : regions_) region = grown(region, region.round ? round_face * spacing : 0.5 * tolerance_);
+  for (const Box& hole : holes) {
+    const Box smaller = grown(hole, hole.round ? -round_face * spacing : -0.5 * tolerance_);
+    if ((smaller.max.array() > smaller.min.array()).all()) holes_.push_back(smaller);
+  }
+}
+
+bool Shape::joins(const Vec& a, const Vec& b) const {
+  if (is_convex()) return true;
+  const Vec way = b - a;
+  const double share = tolerance_ / way.norm();
+  for (const Box& hole : holes_) {
+    const Part part = part_in(hole, a, way);
+    if (part.end - part.begin > share) return false;
+  }
+  std::vector<Part> parts;
+  for (const Box& region : regions_)
+    if (const Part part = part_in(region, a, way); part.end > part.begin) parts.push_back(part);
+  std::sort(parts.begin(), parts.end(), [](const Part& p, const Part& q) { return p.begin < q.begin; });
+  double reached = 0;
+  for (const Part& part : parts)
+    if (part.begin <= reached + share) reached = std::max(reached, part.end);
+  return reached >= 1 - share;
+}
+
+}  // namespace toryu::solid
