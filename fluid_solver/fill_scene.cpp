@@ -7,6 +7,7 @@
 #include "common/scene/occupancy_index.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/initial_flow.hpp"
+#include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
@@ -44,7 +45,6 @@ void FluidModel::fill_regions() {
   std::iota(f.id.begin(), f.id.end(), 0u);
   resize_fields(f, padded(f.count));
 
-  const auto& state = equation_of_state_;
   const double volume = std::pow(parameters_.spacing, dim), g = scene_.gravity.norm();
   for (std::size_t i = 0; i < f.count; ++i) {
     set(f.x, i, points[i]);
@@ -52,10 +52,8 @@ void FluidModel::fill_regions() {
       if (region.box.contains(lattice[i])) set(f.v, i, region.velocity);
     f.rho[i] = parameters_.density;
     if (const auto& start = parameters_.hydrostatic_start; start && g > 0) {
-      // weight of a column whose density follows from its own pressure, equations of the hydrostatic tank
       const double depth = start->surface_level + scene_.gravity.dot(points[i]) / g;
-      const double c_02 = state.c_0 * state.c_0, n = state.gamma - 1.0;
-      f.rho[i] *= n > 0 ? std::pow(1.0 + n * g * depth / c_02, 1.0 / n) : std::exp(g * depth / c_02);
+      f.rho[i] = density_at_depth(parameters_, g, depth);
     }
     start_flow(i);
     f.m[i] = f.rho[i] * volume;
@@ -80,7 +78,8 @@ void FluidModel::fill_walls() {
   const auto add = [&](const std::string& name, const std::vector<Vec>& points, const Wall* wall) {
     Boundary& boundary = state_.boundaries.emplace_back();
     boundary.name = name;
-    if (wall && wall->motion) boundary.motion = PrescribedMotion{*wall->motion, points};
+    if (wall && wall->motion)
+      boundary.motion = PrescribedMotion{*wall->motion, points, reach() / parameters_.sound_speed};
     boundary.place(points, std::vector<double>(points.size(), volume), parameters_.density,
                    parameters_.strip_width());
     if (wall && wall->work_piece) boundary.make_work_piece(lattice_area_vectors(points, parameters_.spacing));

@@ -16,6 +16,7 @@
 #include "common/sph/skin.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/stability_warnings.hpp"
+#include "fluid_solver/start_checks.hpp"
 
 namespace {
 
@@ -115,13 +116,16 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   file.throw_if_faulty();
+  for (const auto& [key, message] : fluid::start_faults(parameters, scene.gravity)) file.fault(key, message);
+  file.throw_if_faulty();
   const auto made = fluid::make_model(parameters, scene);
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
   check_start(model, "[fluid]");
+  check_columns(model, "[fluid]");
   const auto& particles = model.particles();
   const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
-                           .wall_speed = fluid::wall_speed_at_start(scene.walls),
+                           .blow = fluid::hardest_blow(scene, parameters),
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);

@@ -1,19 +1,12 @@
 #include "fluid_solver/parameters.hpp"
 
 #include <cmath>
-#include <set>
 
 #include "common/sph/lanes.hpp"
 
 namespace toryu::fluid {
 
 namespace {
-
-bool names_differ(const std::vector<Observer>& observers) {
-  std::set<std::string> names;
-  for (const auto& observer : observers) names.insert(observer.name);
-  return names.size() == observers.size();
-}
 
 bool flow_is_there(const Parameters& p) {
   const bool known = p.initial_flow && p.initial_flow->profile == FlowProfile::taylor_green &&
@@ -186,7 +179,6 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
   table.require(flow_is_there(p), "observer",
                 "a flow_amplitude needs [fluid.initial_flow]; a flow_error one of Taylor-Green with a "
                 "[fluid.laminar_viscosity]");
-  table.require(names_differ(p.observers), "observer", "two [[fluid.observer]] have the same name");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/scene/occupancy_index.hpp"
+#include "fluid_solver/start_checks.hpp"
 
 namespace toryu::fluid {
 
@@ -81,14 +82,9 @@ bool damps_noise(const Parameters& p) {
 
 /// g H of the regions together [m2/s2].
 double weight_of_depth(const Parameters& p, const Vec& gravity) {
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (const auto& region : p.regions) {
-    const double middle = 0.5 * gravity.dot(region.box.min + region.box.max);
-    const double half = 0.5 * gravity.cwiseAbs().dot(region.box.max - region.box.min);
-    lowest = std::min(lowest, middle - half);
-    highest = std::max(highest, middle + half);
-  }
-  return std::max(highest - lowest, 0.0);
+  if (p.regions.empty() || gravity.isZero(0)) return 0;
+  const auto [lowest, highest] = heights(p.regions, gravity);
+  return gravity.norm() * (highest - lowest);
 }
 
 }  // namespace
@@ -152,15 +148,32 @@ std::vector<std::string> misplaced_faces(const std::vector<Wall>& walls, const P
   return said;
 }
 
-double wall_speed_at_start(const std::vector<Wall>& walls) {
-  double fastest = 0;
-  for (const Wall& wall : walls) {
+Blow hardest_blow(const Scene& scene, const Parameters& p) {
+  Blow hardest;
+  const double response = 2 * p.h() / p.sound_speed;  // in which sound crosses the kernel
+  for (const Wall& wall : scene.walls) {
     if (!wall.motion) continue;
     Eigen::Index across;
     (wall.box.max - wall.box.min).minCoeff(&across);
-    fastest = std::max(fastest, std::abs(wall.motion->velocity_at(0)[across]));
+    const auto note = [&, axis = across](double time, const Vec& before) {
+      const double speed = std::abs((wall.motion->velocity_at(time) - before)[axis]);
+      if (speed > hardest.speed) hardest = {speed, wall.name, time};
+    };
+    // at rest or with the fluid: what is nearer
+    const auto nearest =
+        std::min_element(p.regions.begin(), p.regions.end(), [&](const auto& a, const auto& b) {
+          const Vec v = wall.motion->velocity_at(0);
+          return (a.velocity - v).norm() < (b.velocity - v).norm();
+        });
+    note(0, nearest == p.regions.end() ? Vec(Vec::Zero()) : nearest->velocity);
+    for (const auto& row : wall.motion->velocity) {
+      const double time = row[0] * wall.motion->time;
+      // the largest change of a table within a given time begins or ends at one of its rows
+      for (const double end : {time, time + response})
+        if (end - response >= 0 && end <= scene.end_time) note(end, wall.motion->velocity_at(end - response));
+    }
   }
-  return fastest;
+  return hardest;
 }
 
 std::vector<std::string> stability_warnings(const Parameters& p, const Start& start) {
@@ -180,11 +193,12 @@ std::vector<std::string> stability_warnings(const Parameters& p, const Start& st
         "sound_speed {:g} m/s is below ten times the largest speed at the start, {:.3g} m/s: the density "
         "will change by more than 1 %",
         p.sound_speed, start.speed));
-  if (start.wall_speed > start_edge * p.sound_speed)
-    said.push_back(
-        fmt::format("a wall starts at once at {:.3g} m/s, {:.2g} of the sound speed and beyond the edge at "
-                    "{:g}: pressures will be far off; see cases/retreating_piston/start_map.toml",
-                    start.wall_speed, start.wall_speed / p.sound_speed, start_edge));
+  if (start.blow.speed > start_edge * p.sound_speed)
+    said.push_back(fmt::format(
+        "wall '{}' changes its speed at once by {:.3g} m/s at t = {:.4g} s, {:.2g} of the sound speed "
+        "and beyond the edge at {:g}: pressures will be far off; let it take longer, see "
+        "cases/retreating_piston/start_map.toml",
+        start.blow.wall, start.blow.speed, start.blow.time, start.blow.speed / p.sound_speed, start_edge));
   const double edge = (p.hydrostatic_start ? depth_edge_hydrostatic : depth_edge_at_once) *
                       std::sqrt(weight_of_depth(p, start.gravity));
   if (p.sound_speed < edge)

@@ -42,7 +42,7 @@ std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Para
 /// thick ends beside its face, and fluid finds a gap there or sinks in.
 std::vector<std::string> misplaced_faces(const std::vector<Wall>& walls, const Parameters& parameters);
 
-/// Speed over c_0 of a wall that starts at once above which pressures are 15 % off rho c_0 v, by
+/// Speed over c_0 that a wall takes up or loses at once above which pressures are 15 % off rho c_0 v, by
 /// cases/retreating_piston/start_map.toml.
 inline constexpr double start_edge = 0.075;
 
@@ -51,15 +51,23 @@ inline constexpr double start_edge = 0.075;
 /// once.
 inline constexpr double depth_edge_hydrostatic = 2.1, depth_edge_at_once = 6.9;
 
-/// What a fluid starts with.
+/// The velocity of a wall that changes while sound crosses the kernel: a blow, of pressure rho_0 c_0 v.
+struct Blow {
+  double speed = 0;  ///< across its shorter side: what slides sends no sound [m/s]
+  std::string wall = {};
+  double time = 0;  ///< when it is over [s]
+};
+
+/// What a fluid starts with, and what awaits it.
 struct Start {
-  double speed = 0;       ///< the largest of the fluid [m/s]
-  double wall_speed = 0;  ///< the largest of its walls across their shorter side: what slides sends no sound
+  double speed = 0;           ///< the largest of the fluid [m/s]
+  Blow blow = {};             ///< the hardest by a wall
   Vec gravity = Vec::Zero();  ///< [m/s2]
 };
 
-/// Speed at the start, across their shorter sides, of the fastest of `walls` [m/s].
-double wall_speed_at_start(const std::vector<Wall>& walls);
+/// The hardest blow by a prescribed motion until the end of the run; at the start against the fluid's own
+/// velocity.
+Blow hardest_blow(const Scene& scene, const Parameters& parameters);
 
 /// A sentence for each edge that a fluid lies beyond.
 std::vector<std::string> stability_warnings(const Parameters& parameters, const Start& start);

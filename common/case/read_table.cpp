@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <set>
 
 #include "common/case/nearest_word.hpp"
 #include "common/case/rule_text.hpp"
@@ -150,6 +151,20 @@ void ReadTable::items(const std::string& key, std::size_t /*count*/, const std::
     visit(i, inner);
     inner.report_unknown_keys();
   }
+  require_names_differ(*array, header);
+}
+
+/// Two items of one name could be told apart neither in the results nor by a case that builds on this one.
+void ReadTable::require_names_differ(const toml::array& items, const std::string& header) {
+  std::set<std::string> names;
+  for (const auto& item : items) {
+    const toml::table* table = item.as_table();
+    const auto name = table ? (*table)["name"].value_exact<std::string>() : std::nullopt;
+    if (!name || name->empty() || names.insert(*name).second) continue;
+    fault(table->find("name")->first.source(),
+          fmt::format("two {} are named '{}'; names must differ", header, *name));
+    ++faults_apart_;
+  }
 }
 
 void ReadTable::require(bool holds, const std::string& key, const std::string& message) {
@@ -234,7 +249,8 @@ std::optional<std::vector<double>> ReadTable::checked_numbers(const std::string&
                                                               const std::string& kind,
                                                               const toml::source_region& place) {
   const toml::array* array = node.as_array();
-  if (!array || array->size() != count) {
+  const auto nested = [](const toml::node& item) { return item.is_array() || item.is_table(); };
+  if (!array || array->size() != count || std::any_of(array->begin(), array->end(), nested)) {
     wrong_type(key, kind, node, place);
     return std::nullopt;
   }

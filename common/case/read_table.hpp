@@ -57,6 +57,7 @@ class ReadTable final : public ParameterTable {
                                                      const toml::source_region& place);
   void read_section(const toml::table* table, const std::string& key,
                     const std::function<void(ParameterTable&)>& visit);
+  void require_names_differ(const toml::array& items, const std::string& header);
   std::string path_of(const std::string& key) const;
 
   const toml::table* table_;

@@ -46,21 +46,34 @@ RunRecord::RunRecord(const std::string& participant, const Options& options, con
 
 void RunRecord::check(double time) {
   const auto scope = timers_.measure("check");
+  reached_ = time;
   solver_.check(time);
 }
 
 void RunRecord::write(double time) {
   solver_.accept();
   state_.time = time;
-  if (series_due_.reached(time) || every_step_) {
-    const auto scope = timers_.measure("series");
-    series_.write(time, solver_.observe());
-    solver_.record(time);
-  }
-  if (frames_due_.reached(time)) {
-    const auto scope = timers_.measure("frames");
-    frames_.write(time, solver_.frame());
-  }
+  if (series_due_.reached(time) || every_step_) write_row(time);
+  if (frames_due_.reached(time)) write_frame(time);
+}
+
+void RunRecord::write_last() {
+  if (to_be_resumed_ || !reached_) return;
+  if (row_written_ != reached_) write_row(*reached_);
+  if (frames_due_.state().interval > 0 && frame_written_ != reached_) write_frame(*reached_);
+}
+
+void RunRecord::write_row(double time) {
+  const auto scope = timers_.measure("series");
+  series_.write(time, solver_.observe());
+  solver_.record(time);
+  row_written_ = time;
+}
+
+void RunRecord::write_frame(double time) {
+  const auto scope = timers_.measure("frames");
+  frames_.write(time, solver_.frame());
+  frame_written_ = time;
 }
 
 void RunRecord::count_steps(long steps, double dt) {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "common/loop/schedule.hpp"
@@ -33,6 +34,10 @@ class RunRecord {
     check(time);
     write(time);
   }
+  /// Writes a row and, where frames are wanted, a frame of the state that was checked last, whether it passed
+  /// or not, if there is none yet: the last state of a run is always there. A checkpoint that was written
+  /// before does not know of them, and a run that goes on from it replaces them.
+  void write_last();
   /// Counts sub-steps of length `dt` [s].
   void count_steps(long steps, double dt);
   /// The next time at which something is due [s].
@@ -79,6 +84,8 @@ class RunRecord {
   }
   double waiting_time() const { return state_.waiting_time + (waited_ ? waited_() : 0); }
   std::vector<Timers::Part> parts() const;
+  void write_row(double time);
+  void write_frame(double time);
   std::string role() const { return participant_ + "_solver"; }
 
   std::string participant_;
@@ -91,6 +98,8 @@ class RunRecord {
   bool every_step_;
   bool to_be_resumed_;
   std::function<double()> waited_;
+  std::optional<double> reached_;                      ///< time of the state that was checked last [s]
+  std::optional<double> row_written_, frame_written_;  ///< times of the last ones of this program [s]
   State state_;
   Summary summary_;
   Timers timers_;

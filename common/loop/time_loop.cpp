@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/error/ending.hpp"
 #include "common/error/failure.hpp"
@@ -71,6 +72,17 @@ void check_start(const Solver& solver, const std::string& section) {
   }
 }
 
+void check_columns(const Solver& solver, const std::string& section) {
+  std::set<std::string> names;
+  for (const auto& observation : solver.observe())
+    if (!names.insert(observation.name).second)
+      throw BadInput(
+          {{.place = section,
+            .message = fmt::format("two columns of the results would be named '{}': an observer, a "
+                                   "region or a wall needs another name",
+                                   observation.name)}});
+}
+
 void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks,
                CheckpointsAlone& checkpoints) {
   double time = record.time();
@@ -97,11 +109,13 @@ void run_recorded(RunRecord& record, const std::function<void()>& body, const st
   record.measure_waiting(waiting_time);
   try {
     body();
+    record.write_last();
     record.complete();
   } catch (...) {
     if (leave) leave();
     const Ending ending = ending_of_exception();
     try {
+      record.write_last();
       record.finish(ending.code, ending.reason);
     } catch (const std::exception& failure) {
       log::error("{}", failure.what());  // what ended the run says more, and is thrown on

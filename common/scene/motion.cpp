@@ -51,8 +51,8 @@ Vec Motion::displacement_at(double t) const {
   return speed * time * (integral_to(velocity, t / time) - integral_to(velocity, 0));
 }
 
-Vec Motion::acceleration_at(double t) const {
-  return speed / time * slope_before(velocity, next_row(velocity, t / time));
+Vec Motion::mean_acceleration(double t, double length) const {
+  return (velocity_at(t + 0.5 * length) - velocity_at(t - 0.5 * length)) / length;
 }
 
 }  // namespace toryu

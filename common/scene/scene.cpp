@@ -22,9 +22,6 @@ void check_walls(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
     const std::string key = fmt::format("wall.{}", i);
-    for (std::size_t k = 0; k < i; ++k)
-      if (!wall.name.empty() && wall.name == scene.walls[k].name)
-        file.fault(key + ".name", fmt::format("two walls are named '{}'; names must differ", wall.name));
     if (sound(wall.box) && sound(scene.domain) && !box_in_box(wall.box, scene.domain))
       file.fault(key + ".box", fmt::format("the box of wall '{}' is not within [case.domain]", wall.name));
   }

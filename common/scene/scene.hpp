@@ -37,7 +37,9 @@ struct Motion {
   double speed = 1, time = 1;                 ///< multiply the velocities and the times of the table
   Vec velocity_at(double t) const;
   Vec displacement_at(double t) const;  ///< exact integral from t = 0 [m]
-  Vec acceleration_at(double t) const;  ///< slope of the table [m/s2], right-sided at its rows
+  /// Change of the velocity over `length` [s] about t, by that length [m/s2]. The slope of a table at one
+  /// instant says nothing of a jump that is over in the next.
+  Vec mean_acceleration(double t, double length) const;
 };
 void describe(ParameterTable& table, Motion& motion);
 

@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
             "SameObserverTwice",
             "fluid.observer=[{name=\"p\", quantity=\"pressure\"}, {name=\"p\", quantity=\"front_x\"}]",
             "--set fluid.observer=[{name=\"p\", quantity=\"pressure\"}, {name=\"p\", quantity=\"front_x\"}]: "
-            "error: two [[fluid.observer]] have the same name"},
+            "error: two [[fluid.observer]] are named 'p'; names must differ"},
         Fault{
             "FlowRateWithoutBox", "fluid.observer=[{name=\"q\", quantity=\"flow_rate\"}]",
             "--set fluid.observer=[{name=\"q\", quantity=\"flow_rate\"}]: error: a flow rate needs a 'box'"},
@@ -110,9 +110,21 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"StartTooFast", "fluid.region.water.velocity=[40,0]",
               "[fluid]: error: cannot start: fluid particle 0 at t = 0 s: speed [m/s] = 40, limit 31.3"},
         Fault{"StartTooDense", "fluid.limits.largest_density_change=0.001",
-              "[fluid]: error: cannot start: fluid particle 0 at t = 0 s: density [kg/m3] = 1009.53, limit "
-              "999 to "
-              "1001"},
+              HYDROSTATIC_TANK "/case.toml:26:1: error: 'sound_speed' 31.3 m/s is too low for fluid at rest "
+                               "1 m deep: its density would be "
+                               "1009.77 kg/m3 at the bottom, at most 1001 are allowed; ten times the speed "
+                               "of a fall through that depth "
+                               "is 44.3 m/s"},
+        Fault{"SurfaceBelowTheFluid", "fluid.hydrostatic_start.surface_level=-500",
+              "--set fluid.hydrostatic_start.surface_level=-500: error: 'surface_level' -500 m lies below "
+              "all of "
+              "the fluid, which reaches from 0 to 1 m against gravity"},
+        Fault{"SoundTooSlow", "fluid.sound_speed=2",
+              "--set fluid.sound_speed=2: error: 'sound_speed' 2 m/s is too low for fluid at rest 1 m deep: "
+              "its density "
+              "would be 1582.65 kg/m3 at the bottom, at most 1300 are allowed; ten times the speed of a fall "
+              "through "
+              "that depth is 44.3 m/s"},
         Fault{"StartOutsideTheDomain", "fluid.region.water.box.max=[1.0,1.6]",
               "[fluid]: error: cannot start: fluid particle 600 at t = 0 s: position (0.025, 1.525) [m], "
               "outside by "

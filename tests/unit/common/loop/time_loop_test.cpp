@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "common/run/options.hpp"
 
@@ -67,6 +69,58 @@ TEST_F(AdvanceWindow, DoesNotCreepBeyondTheLimitByFallingALittleAtATime) {
 
 TEST_F(AdvanceWindow, TakesLongerStepsWhereTheLimitRises) {
   EXPECT_EQ(steps_of(LimitedSolver({1.0, 2.0}), 3.0), (std::vector<double>{1.0, 2.0}));
+}
+
+/// A solver that fails at its fifth step of 0.1 s, or never, and shows the number of its steps.
+class CountingSolver : public LimitedSolver {
+ public:
+  explicit CountingSolver(bool fails) : LimitedSolver({0.1}), fails_(fails) {}
+  void check(double time) const override {
+    if (fails_ && steps.size() == 5) throw PhysicsFailure("body", -1, time, "steps", "5", "4");
+  }
+  std::vector<Observation> observe() const override {
+    return {{"steps", "1", static_cast<double>(steps.size())}};
+  }
+
+ private:
+  bool fails_;
+};
+
+/// The series of a run to 0.9 s with rows every 0.4 s.
+std::string series_of(bool fails) {
+  const auto out = std::filesystem::path(testing::TempDir()) / ("last_state_" + std::to_string(getpid()));
+  std::filesystem::create_directories(out);
+  Options options;
+  options.out = out;
+  Scene scene;
+  scene.end_time = 0.9;
+  scene.series_interval = 0.4;
+  scene.checkpoint_every = 0;
+  CountingSolver solver(fails);
+  {
+    Timers timers;
+    RunRecord record("body", options, scene, solver, {}, timers);
+    CheckpointsAlone checkpoints(options, scene, "");
+    try {
+      run_recorded(record, [&] { run_alone(scene, solver, record, 1, checkpoints); });
+    } catch (const PhysicsFailure&) {
+    }
+  }
+  for (const char* name : {"body.csv", "body.csv.part"})
+    if (std::ifstream file(out / name); file) {
+      const std::string text{std::istreambuf_iterator<char>(file), {}};
+      std::filesystem::remove_all(out);
+      return text;
+    }
+  return "";
+}
+
+TEST(LastState, IsInTheSeriesAtTheEnd) {
+  EXPECT_EQ(series_of(false), "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
+}
+
+TEST(LastState, IsInTheSeriesWhereTheRunFailed) {
+  EXPECT_EQ(series_of(true), "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
 }
 
 }  // namespace

@@ -16,12 +16,13 @@ TEST(Motion, IsLinearBetweenRowsAndConstantBeyond) {
   EXPECT_EQ(piston.velocity_at(7), Vec(4, 2));
 }
 
-TEST(Motion, AccelerationIsTheSlopeToTheRight) {
-  EXPECT_EQ(piston.acceleration_at(0.5), Vec(0, 0));
-  EXPECT_EQ(piston.acceleration_at(1), Vec(0, 2));
-  EXPECT_EQ(piston.acceleration_at(1.9), Vec(0, 2));
-  EXPECT_EQ(piston.acceleration_at(2), Vec(4, 0));
-  EXPECT_EQ(piston.acceleration_at(3), Vec(0, 0));
+TEST(Motion, AccelerationIsThatOfATimeAndNotOfAnInstant) {
+  EXPECT_EQ(piston.mean_acceleration(0.5, 0.25), Vec(0, 0));
+  EXPECT_EQ(piston.mean_acceleration(1, 0.25), Vec(0, 1));
+  EXPECT_EQ(piston.mean_acceleration(1.5, 0.25), Vec(0, 2));
+  EXPECT_EQ(piston.mean_acceleration(2, 0.25), Vec(2, 1));
+  const Motion stops{{{0, 1, 0}, {2, 1, 0}, {2.0000001, 0, 0}}};
+  EXPECT_NEAR(stops.mean_acceleration(2.00000005, 0.25)[0], -4, 1e-9) << "not -1e7";
 }
 
 TEST(Motion, DisplacementIsTheExactIntegral) {
@@ -49,11 +50,11 @@ TEST(Motion, TwiceAsFastInHalfTheTimeHasTheSameStroke) {
   fast.speed = 2;
   fast.time = 0.5;
   EXPECT_EQ(fast.velocity_at(0.75), 2 * piston.velocity_at(1.5));
-  EXPECT_EQ(fast.acceleration_at(0.75), 4 * piston.acceleration_at(1.5));
+  EXPECT_EQ(fast.mean_acceleration(0.75, 0.125), 4 * piston.mean_acceleration(1.5, 0.25));
   EXPECT_EQ(fast.displacement_at(1.5), piston.displacement_at(3));
   fast.time = 1;
   EXPECT_EQ(fast.displacement_at(3), 2 * piston.displacement_at(3));
-  EXPECT_EQ(fast.acceleration_at(1.5), 2 * piston.acceleration_at(1.5));
+  EXPECT_EQ(fast.mean_acceleration(1.5, 0.25), 2 * piston.mean_acceleration(1.5, 0.25));
 }
 
 TEST(Motion, OfOneRowIsConstant) {
@@ -61,7 +62,7 @@ TEST(Motion, OfOneRowIsConstant) {
   EXPECT_EQ(steady.velocity_at(0), Vec(1, -2));
   EXPECT_EQ(steady.velocity_at(9), Vec(1, -2));
   EXPECT_EQ(steady.displacement_at(3), Vec(3, -6));
-  EXPECT_EQ(steady.acceleration_at(5), Vec(0, 0));
+  EXPECT_EQ(steady.mean_acceleration(5, 0.1), Vec(0, 0));
 }
 
 }  // namespace
