@@ -95,10 +95,6 @@ void describe_body(ParameterTable& table, Parameters& p) {
   table.list("clamp", p.clamps, "boxes whose particles are held in place");
   table.list("load", p.loads, "constant forces on the particles of a box");
   table.list("observer", p.observers, "material points whose displacement goes to solid.csv");
-  for (std::size_t i = 0; i < p.observers.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      table.require(p.observers[i].name != p.observers[k].name, fmt::format("observer.{}.name", i),
-                    fmt::format("two observers are named '{}'; names must differ", p.observers[i].name));
   table.optional("initial_velocity", p.initial_velocity, "velocity at the start; absent: at rest");
 }
 

@@ -56,7 +56,7 @@ TEST_F(SolidSection, RefusesTwoObserversOfOneName) {
   const std::string observer = "[[solid.observer]]\nname = 'tip'\npoint = [0.1, 0.01]\n";
   EXPECT_EQ(faults(plate + observer), "");
   EXPECT_EQ(faults(plate + observer + observer),
-            "case.toml:13:1: error: two observers are named 'tip'; names must differ");
+            "case.toml:13:1: error: two [[solid.observer]] are named 'tip'; names must differ");
 }
 
 TEST_F(SolidSection, TakesDefaultsAndLeavesModelsOff) {
