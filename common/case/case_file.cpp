@@ -33,7 +33,7 @@ struct CaseFile::Content {
 namespace {
 
 bool is_there(const toml::table& root, const std::string& section) {
-  const toml::node* node = root.get(section);
+  const toml::node* node = root.at_path(section).node();
   return node && node->value_exact<bool>() != false;
 }
 

@@ -33,7 +33,7 @@ class CaseFile {
   ~CaseFile();
 
   Kind kind() const;
-  /// Whether the top-level section is there, and not `false`.
+  /// Whether the section ("solid.damping") is there, and not `false`.
   bool has(const std::string& section) const;
 
   /// Reads a top-level section (a table, or an array of tables for `list`) by its owner's description; faults

@@ -239,6 +239,8 @@ TEST(CaseFile, HasASectionUnlessItIsTakenAway) {
   EXPECT_TRUE(file.has("medium"));
   EXPECT_TRUE(file.has("wall"));
   EXPECT_FALSE(file.has("solid"));
+  EXPECT_FALSE(file.has("medium.drag"));
+  EXPECT_TRUE(CaseFile(text.folder(), {"medium.drag={}"}).has("medium.drag"));
   EXPECT_FALSE(without.has("medium"));
 }
 
