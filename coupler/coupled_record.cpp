@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/error/failure.hpp"
 #include "common/run/log.hpp"
@@ -28,6 +29,8 @@ void CoupledRecord::begin(const InterfaceMotion& motion) {
 }
 
 void CoupledRecord::note(const Window& window, const Exchange& done, double elapsed) {
+  last_row_ = false;
+  last_frame_ = !interface_;
   const bool first = state_.round_trips.empty();
   state_.smallest_window = first ? window.dt : std::min(state_.smallest_window, window.dt);
   state_.largest_window = std::max(state_.largest_window, window.dt);
@@ -39,8 +42,15 @@ void CoupledRecord::note(const Window& window, const Exchange& done, double elap
 }
 
 void CoupledRecord::write(double time, const Window& window, const Exchange& done) {
-  if (settings_.series_interval == 0 || series_due_.reached(time)) write_series(time, window, done);
-  if (interface_ && frames_due_.reached(time)) interface_->write(time, done.solid.motion, done.applied);
+  last_row_ = settings_.series_interval == 0 || series_due_.reached(time);
+  last_frame_ = !interface_ || frames_due_.reached(time);
+  if (last_row_) write_series(time, window, done);
+  if (interface_ && last_frame_) interface_->write(time, done.solid.motion, done.applied);
+}
+
+void CoupledRecord::write_last(double time, const Window& window, const Exchange& done) {
+  if (!std::exchange(last_row_, true)) write_series(time, window, done);
+  if (!std::exchange(last_frame_, true)) interface_->write(time, done.solid.motion, done.applied);
 }
 
 void CoupledRecord::note_convergence(const Window& window, const Exchange& done) {
@@ -86,12 +96,20 @@ void CoupledRecord::audit(const Window& window, const Exchange& done) {
 void CoupledRecord::audit_work(const Window& window, const Exchange& done) {
   work_.note(done.sent, done.interface_start, done.interface_position, done.applied, done.solid.motion,
              done.solid.health.kinetic_energy);
-  if (state_.warned_of_work || !work_.feeds()) return;
-  log::warn(
-      "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "
-      "gave {:.3g}; its motion is not to be trusted; take scheme = 'serial_robin' or 'serial_implicit', "
-      "shorter windows or more artificial viscosity of the solid, see cases/pushed_column/window_map.toml",
-      window.number, window.time + window.dt, work_.taken(), work_.given());
+  if (!work_.feeds()) return;
+  const bool robin = settings_.coupling.scheme == SchemeKind::serial_robin;
+  const auto say = [&](const char* what) {
+    return fmt::format(
+        "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "
+        "gave "
+        "{:.3g}; {}; take scheme = {}'serial_implicit', or more artificial viscosity of the solid, see "
+        "cases/pushed_column/window_map.toml",
+        window.number, window.time + window.dt, work_.taken(), work_.given(), what,
+        robin ? "" : "'serial_robin' or ");
+  };
+  if (work_.feeds_beyond(settings_.coupling.largest_false_work))
+    throw PhysicsFailure(say("that is more than 'largest_false_work' allows"));
+  if (!state_.warned_of_work) log::warn("{}", say("its motion is not to be trusted"));
   state_.warned_of_work = true;
 }
 

@@ -39,6 +39,8 @@ class CoupledRecord {
   void note(const Window& window, const Exchange& done, double elapsed);
   /// Writes what is due at `time` [s], the end of the window noted last.
   void write(double time, const Window& window, const Exchange& done);
+  /// Writes the window noted last, as far as it was not due: the last state of a run is always there.
+  void write_last(double time, const Window& window, const Exchange& done);
   /// Gives the files their final names: no row follows. Throws MachineFailure if that fails.
   void complete();
   /// Puts all that later rows and figures depend on into a checkpoint, and goes on from it at `time` [s], in
@@ -86,6 +88,7 @@ class CoupledRecord {
   ExchangeAudit audit_;
   WorkAudit work_;
   State state_;
+  bool last_row_ = true, last_frame_ = true;  // whether the window noted last is in the files
   Schedule frames_due_, series_due_;
   SeriesWriter series_;
   std::optional<InterfaceRecord> interface_;

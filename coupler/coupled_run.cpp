@@ -18,6 +18,8 @@ namespace {
 
 constexpr const char* turns = "turns of the participants";
 
+constexpr double least_share_of_run = 1e-12;  // of a window: 30 years at 1000 windows a second
+
 }  // namespace
 
 double window_length(double left, int steps, double limit) {
@@ -56,13 +58,18 @@ void CoupledRun::advance() {
   auto& [time, time_step_limit, window, wall, processor, waiting, parts] = state_;
   const double left = settings_.end_time - time;
   const double dt = window_length(left, settings_.coupling.fluid_steps_per_window, time_step_limit);
+  if (dt < least_share_of_run * settings_.end_time && dt < left)
+    throw PhysicsFailure(fmt::format(
+        "time stands still: the fluid's time step limit is {:.3g} s at t = {:.6g} s", time_step_limit, time));
   window = {.number = window.number + 1, .iteration = 0, .time = time, .dt = dt};
   checkpoint_.clear();
   const auto start = Clock::now();
-  const Exchange done = [&] {
+  {
     const auto scope = timers_.measure(turns);
-    return scheme_->compute(state_.window);
-  }();
+    last_ = scheme_->compute(state_.window);
+  }
+  const Exchange& done = *last_;
+  last_window_ = window;
   const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
 
   const auto scope = timers_.measure("audit and record");
@@ -70,6 +77,15 @@ void CoupledRun::advance() {
   time = dt == left ? settings_.end_time : time + dt;
   record_->note(window, done, elapsed);
   record_->write(time, window, done);
+}
+
+void CoupledRun::complete() {
+  write_last();
+  if (record_) record_->complete();
+}
+
+void CoupledRun::write_last() {
+  if (last_) record_->write_last(state_.time, last_window_, *last_);
 }
 
 void CoupledRun::stop_if_asked() {

@@ -35,10 +35,10 @@ class CoupledRun {
   /// Runs all windows to the end. Throws Interrupted, after a last checkpoint, if it is asked to stop by a
   /// signal to any of the processes or by the file `stop`.
   void run(const CouplingStart& start, const Checkpoints& checkpoints = {});
-  /// Gives the results their final names. Throws MachineFailure if that fails.
-  void complete() {
-    if (record_) record_->complete();
-  }
+  /// Writes the last state, and gives the results their final names. Throws MachineFailure if that fails.
+  void complete();
+  /// Writes the last state, of a run that ended before its time too.
+  void write_last();
   /// Whether a window was computed, or a checkpoint read.
   bool has_begun() const { return state_.window.number > 0; }
   /// Adds what is known of the run so far, to a summary that has the times of this process already.
@@ -72,6 +72,8 @@ class CoupledRun {
   State state_;
   std::unique_ptr<Scheme> scheme_;
   std::optional<CoupledRecord> record_;
+  std::optional<Exchange> last_;  // of the window computed last
+  Window last_window_;
   Clock::time_point start_ = Clock::now();
 };
 

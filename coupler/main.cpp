@@ -88,6 +88,7 @@ void run_and_sum_up(const CaseFile& file, const Scene& scene, const Settings& se
     try {
       // where a run was to go on and could not, the summary of the run before stays
       if (run.has_begun() || !checkpoints.restart) finish(ending);
+      run.write_last();
     } catch (const std::exception& failure) {
       log::error("{}", failure.what());  // what ended the run says more, and is thrown on
     }

@@ -31,7 +31,8 @@ struct Parameters {
   std::optional<ImplicitParameters> implicit;
   int extrapolation_order = 0;  ///< of the interface's motion: see extrapolation.hpp
   int fluid_steps_per_window = 1;
-  double time_limit = 30;  ///< [s]
+  double time_limit = 30;         ///< [s]
+  double largest_false_work = 1;  ///< made by the exchange, over the largest work of the fluid
   std::vector<std::string> loads = {"pressure_and_viscous", "friction"};
 
   bool passes_on(const std::string& load) const;

@@ -32,13 +32,17 @@ class WorkAudit {
   /// Whether the exchange feeds the solid: for some windows in a row it has made more than any kinetic energy
   /// that the solid ever had, more than a fifth of the largest work of the fluid (measured: at most a tenth
   /// in runs that are right, a quarter and more in runs that are wrong), and goes on to make more: what the
-  /// start of a run makes stays as it is.
+  /// start of a run makes stays as it is. What rounding makes of a body at rest does not count.
   bool feeds() const { return state_.suspicious >= windows_in_a_row; }
+
+  /// Whether it feeds the solid with more than `share` of the largest work of the fluid.
+  bool feeds_beyond(double share) const { return feeds() && made() > share * state_.largest_given; }
 
   struct State {
     std::vector<double> fluid = {}, solid = {};  ///< where both have their interface [m]
     double given = 0, taken = 0;
     double largest_given = 0, largest_kinetic_energy = 0;  ///< so far
+    double rounding = 0;  ///< bound of what made() may be by rounding of the positions alone [J/m]
     unsigned long windows = 0;
     double made_at_power_of_two = 0, made_before = 0;  ///< at that window, and at half of it
     int suspicious = 0;                                ///< windows in a row
@@ -56,10 +60,10 @@ class WorkAudit {
 
 template <class Archive>
 void serialize(Archive& archive, WorkAudit::State& state) {
-  auto& [fluid, solid, given, taken, largest_given, largest_kinetic_energy, windows, made_at_power_of_two,
-         made_before, suspicious] = state;
-  archive(fluid, solid, given, taken, largest_given, largest_kinetic_energy, windows, made_at_power_of_two,
-          made_before, suspicious);
+  auto& [fluid, solid, given, taken, largest_given, largest_kinetic_energy, rounding, windows,
+         made_at_power_of_two, made_before, suspicious] = state;
+  archive(fluid, solid, given, taken, largest_given, largest_kinetic_energy, rounding, windows,
+          made_at_power_of_two, made_before, suspicious);
 }
 
 }  // namespace toryu::coupling

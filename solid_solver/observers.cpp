@@ -42,7 +42,7 @@ MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double
   std::vector<Basis> bases;
   // a point in a gap belongs to all that surrounds it
   const bool in_material = std::any_of(
-      X.begin(), X.end(), [&](const Vec& x) { return (x - point).norm() < reach && shape.joins(point, x); });
+      X.begin(), X.end(), [&](const Vec& x) { return (x - point).norm() < reach && shape.sees(point, x); });
   for (std::size_t j = 0; j < X.size(); ++j) {
     const Vec r = (X[j] - point) / reach;
     if (r.norm() >= 1.0 || (in_material && !shape.joins(point, X[j]))) continue;

@@ -7,8 +7,9 @@ namespace toryu::solid {
 
 namespace {
 
-/// Over the spacing: rounding, and what is known of a round face.
-constexpr double rounding = 1e-6, round_face = 0.25;
+/// Over the spacing: rounding, what is known of a round face, and by how much a bond may be longer than the
+/// straight way.
+constexpr double rounding = 1e-6, round_face = 0.25, longest_detour = 0.1;
 
 /// The part of the way a + t (b - a), 0 <= t <= 1, that lies in a box; empty where end <= begin.
 struct Part {
@@ -50,7 +51,12 @@ Box grown(const Box& box, double distance) {
 }  // namespace
 
 Shape::Shape(std::vector<Box> regions, std::vector<Box> holes, double spacing)
-    : regions_(std::move(regions)), tolerance_(rounding * spacing) {
+    : regions_(std::move(regions)), tolerance_(rounding * spacing), detour_(longest_detour * spacing) {
+  for (const auto* boxes : {&regions_, &holes})
+    for (const Box& box : *boxes)
+      if (!box.round)
+        for (const double x : {box.min.x(), box.max.x()})
+          for (const double y : {box.min.y(), box.max.y()}) corners_.emplace_back(x, y);
   for (Box& region : regions_) region = grown(region, region.round ? round_face * spacing : 0.5 * tolerance_);
   for (const Box& hole : holes) {
     const Box smaller = grown(hole, hole.round ? -round_face * spacing : -0.5 * tolerance_);
@@ -59,8 +65,17 @@ Shape::Shape(std::vector<Box> regions, std::vector<Box> holes, double spacing)
 }
 
 bool Shape::joins(const Vec& a, const Vec& b) const {
-  if (is_convex()) return true;
+  if (is_convex() || sees(a, b)) return true;
+  // Round a re-entrant corner, where the kernel sees what is as good as in sight.
+  const double longest = (b - a).norm() + detour_;
+  return std::any_of(corners_.begin(), corners_.end(), [&](const Vec& corner) {
+    return (corner - a).norm() + (b - corner).norm() < longest && sees(a, corner) && sees(corner, b);
+  });
+}
+
+bool Shape::sees(const Vec& a, const Vec& b) const {
   const Vec way = b - a;
+  if (way.norm() <= tolerance_) return true;
   const double share = tolerance_ / way.norm();
   for (const Box& hole : holes_) {
     const Part part = part_in(hole, a, way);

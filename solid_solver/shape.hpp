@@ -16,15 +16,18 @@ class Shape {
   /// bond may pass it by as much.
   Shape(std::vector<Box> regions, std::vector<Box> holes, double spacing);
 
-  /// Whether the straight way from `a` to `b` [m], two points of the material, lies in it all along. Regions
-  /// that touch are one.
+  /// Whether the way from `a` to `b` [m], two points of the material, lies in it all along: the straight one,
+  /// or one round a corner that is hardly longer. Regions that touch are one.
   bool joins(const Vec& a, const Vec& b) const;
+  /// Whether the straight way from `a` to `b` [m] lies in the material all along.
+  bool sees(const Vec& a, const Vec& b) const;
   /// Whether it joins any two of its points.
   bool is_convex() const { return holes_.empty() && regions_.size() <= 1; }
 
  private:
   std::vector<Box> regions_, holes_;
-  double tolerance_ = 0;  ///< of lengths [m]
+  std::vector<Vec> corners_;           ///< of those that are not round [m]
+  double tolerance_ = 0, detour_ = 0;  ///< of lengths; by how much a bond may be longer than straight [m]
 };
 
 }  // namespace toryu::solid

@@ -180,6 +180,7 @@ FluidAnswer CouplerLink::await_fluid(const Window& window) {
   });
   const std::string sender = fmt::format("{}: window {}", fluid.name(), window.number);
   wire::check(answer.load, c.turns.particles, sender);
+  wire::check(answer.health, sender);
   if (!(answer.time_step_limit > 0) || !std::isfinite(answer.time_step_limit))
     throw PhysicsFailure(fmt::format("{}: time step limit is {} s", sender, answer.time_step_limit));
   return answer;
@@ -199,6 +200,7 @@ SolidAnswer CouplerLink::await_solid(const Window& window) {
   });
   const std::string sender = fmt::format("{}: window {}", solid.name(), window.number);
   wire::check(answer.motion, c.turns.particles, sender);
+  wire::check(answer.health, sender);
   if (!answer.impulse_taken.allFinite())
     throw PhysicsFailure(fmt::format("{}: impulse taken is not finite", sender));
   return answer;

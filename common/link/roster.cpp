@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/link/process.hpp"
 #include "common/link/wire.hpp"
 #include "common/run/log.hpp"
@@ -35,6 +37,19 @@ void Roster::compare(const toryu_Hello& hello, const Participant& participant) c
              fmt::format("{:016x}", own_.case_hash));
   must_agree("system of units", wire::text(hello.units), std::string(wire::units));
   must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
+  const auto must_be_real = [&](const char* trait, double value, const char* unit, bool may_be_zero) {
+    if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) return;
+    errors.push_back({.place = program,
+                      .message = fmt::format("{} is {} {}, and must be a number {}", trait, value, unit,
+                                             may_be_zero ? "of at least 0" : "above 0")});
+  };
+  if (hello.role == toryu_FLUID) {
+    must_be_real("reach", hello.reach, "m", false);
+    must_be_real("time step limit", hello.time_step_limit, "s", false);
+    must_be_real("density", hello.density, "kg/m3", true);
+    must_be_real("sound speed", hello.sound_speed, "m/s", true);
+    must_be_real("spacing", hello.spacing, "m", true);
+  }
   const auto must_be_able = [&](bool asked, bool able, const char* message) {
     if (asked && !able) errors.push_back({.place = program, .message = message});
   };

@@ -204,6 +204,13 @@ void check(const InterfaceLoad& load, std::size_t particles, const std::string& 
     throw PhysicsFailure(fmt::format("{}: work of the impulse is not finite", sender));
 }
 
+void check(const Health& health, const std::string& sender) {
+  const bool finite = std::isfinite(health.kinetic_energy) && std::isfinite(health.potential_energy) &&
+                      health.momentum.allFinite() && std::isfinite(health.compute_time);
+  if (!finite)
+    throw PhysicsFailure(fmt::format("{}: an energy, the momentum or a time is not finite", sender));
+}
+
 void check(const toryu_WindowHead& window, const Window& expected, const std::string& sender) {
   if (window.number != expected.number || window.iteration != expected.iteration)
     throw PeerLost(fmt::format("{} sent window {} iteration {} where window {} iteration {} was awaited",

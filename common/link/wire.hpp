@@ -56,6 +56,7 @@ void set(double (&components)[3], const Vec& value);
 void check(const Interface& interface, const std::string& sender);
 void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender);
 void check(const InterfaceLoad& load, std::size_t particles, const std::string& sender);
+void check(const Health& health, const std::string& sender);
 /// Throws PeerLost if the answer is not to `expected`, PhysicsFailure if its time or step is not finite.
 void check(const toryu_WindowHead& window, const Window& expected, const std::string& sender);
 

@@ -133,6 +133,32 @@ TEST_F(CoupledRunTest, AnExchangeThatFeedsTheSolidIsReported) {
   EXPECT_THAT(said_, Not(HasSubstr("the exchange feeds the solid")));
 }
 
+TEST_F(CoupledRunTest, AnExchangeThatMakesMoreThanTheFluidGivesEndsTheRun) {
+  sides_.added_mass = 2.1;
+  const Parameters coupling = explicit_scheme(SchemeKind::serial_explicit);
+  largest_false_work_ = coupling.largest_false_work;
+  EXPECT_THAT([&] { run(1.5, coupling); }, ThrowsMessage<PhysicsFailure>(HasSubstr("'largest_false_work'")));
+  EXPECT_THAT(said_, HasSubstr("the exchange feeds the solid")) << "it was warned of before";
+}
+
+TEST_F(CoupledRunTest, TheLastWindowIsThereWhateverTheIntervalAndTheEnd) {
+  settings_.frame_interval = settings_.series_interval = 0.05;
+  settings_.end_time = 1;
+  sides_.before_answer = [](const std::string& side, const Window& window) {
+    if (side == "solid" && window.number == 9) throw PhysicsFailure("solid: it broke");
+  };
+  CoupledRun coupled(settings_, sides_);
+  EXPECT_THROW(coupled.run(sides_.start()), PhysicsFailure);
+  coupled.write_last();
+  coupled.complete();
+  EXPECT_THAT(column("window[1]"), ElementsAre(5, 8)) << "the one that was due, and the last, once";
+}
+
+TEST_F(CoupledRunTest, TimeThatStandsStillEndsTheRun) {
+  sides_.time_step_limit = 1e-30;
+  EXPECT_THAT([&] { run(1, {}); }, ThrowsMessage<PhysicsFailure>(HasSubstr("time stands still")));
+}
+
 TEST_F(CoupledRunTest, WindowsThatDoNotSettleEndTheRun) {
   sides_.added_mass = 30;
   Parameters coupling = implicit(AccelerationKind::fixed, 0.1);

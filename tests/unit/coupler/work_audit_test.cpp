@@ -65,5 +65,16 @@ TEST(WorkAudit, TellsThatTheLagFeedsAMode) {
   EXPECT_TRUE(feeds(0.25, 0, 100));
 }
 
+TEST(WorkAudit, DoesNotTakeTheRoundingOfABodyAtRestForWork) {
+  WorkAudit audit(at(1));
+  double x = 1;
+  for (int n = 0; n < 1000; ++n) {
+    x = std::nextafter(x, 2);
+    audit.note(force(10), at(1), at(1), force(10), {at(x), {}}, 0);
+    EXPECT_FALSE(audit.feeds()) << n;
+  }
+  EXPECT_GT(audit.made(), 0);
+}
+
 }  // namespace
 }  // namespace toryu::coupling

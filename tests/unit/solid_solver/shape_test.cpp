@@ -17,7 +17,9 @@ TEST(Shape, JoinsAllOfOneRegionAndOfRegionsThatTouch) {
   EXPECT_TRUE(Shape({box(0, 0, 1, 1)}, {}, d_0).joins(Vec(0.05, 0.05), Vec(0.95, 0.65)));
   const Shape two({box(0, 0, 1, 1), box(1, 0, 2, 0.3)}, {}, d_0);
   EXPECT_TRUE(two.joins(Vec(0.95, 0.25), Vec(1.05, 0.05)));
-  EXPECT_FALSE(two.joins(Vec(0.95, 0.55), Vec(1.15, 0.25))) << "past the corner";
+  EXPECT_TRUE(two.joins(Vec(0.95, 0.35), Vec(1.05, 0.25))) << "through the corner";
+  EXPECT_TRUE(two.joins(Vec(0.95, 0.35), Vec(1.15, 0.25))) << "past the corner, hardly longer";
+  EXPECT_FALSE(two.joins(Vec(0.95, 0.55), Vec(1.25, 0.25))) << "far past the corner";
 }
 
 TEST(Shape, DoesNotJoinAcrossAGapHoweverNarrow) {
@@ -31,7 +33,9 @@ TEST(Shape, DoesNotJoinAcrossAGapHoweverNarrow) {
 TEST(Shape, DoesNotJoinAcrossASlotButAroundItsEnd) {
   const Shape slotted({box(0, 0, 2, 1)}, {box(0, 0.5, 1, 0.502)}, d_0);
   EXPECT_FALSE(slotted.joins(Vec(0.95, 0.45), Vec(0.95, 0.55)));
-  EXPECT_FALSE(slotted.joins(Vec(0.95, 0.45), Vec(1.03, 0.55))) << "slanting";
+  EXPECT_FALSE(slotted.joins(Vec(0.85, 0.45), Vec(0.95, 0.55))) << "slanting";
+  EXPECT_TRUE(slotted.joins(Vec(0.95, 0.45), Vec(1.03, 0.55)))
+      << "round the end, a hundredth of a spacing longer";
   EXPECT_TRUE(slotted.joins(Vec(1.05, 0.45), Vec(1.05, 0.55)));
   EXPECT_TRUE(slotted.joins(Vec(0.85, 0.45), Vec(0.95, 0.45))) << "along it";
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <future>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -45,6 +46,7 @@ Interface three_particles() {
 class RawFluid {
  public:
   std::string process = own_process();
+  double reach = 0.25, time_step_limit = 1;
 
   explicit RawFluid(const std::filesystem::path& out) : node_(dds::rendezvous(out)) {}
 
@@ -60,8 +62,8 @@ class RawFluid {
     hello.case_hash = 42;
     hello.units = units.data();
     hello.dimension = dimension;
-    hello.reach = 0.25;
-    hello.time_step_limit = 1;
+    hello.reach = reach;
+    hello.time_step_limit = time_step_limit;
     hello.used_case = nothing.data();
     hello_.write(hello);
   }
@@ -382,6 +384,16 @@ TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
               ThrowsMessage<BadInput>("raw_fluid: error: protocol is 7, the coupler's is 6\n"
                                       "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
                                       "raw_fluid: error: dimension is 3, the coupler's is 2"));
+}
+
+TEST_F(LinkTest, TraitsThatAreNoneAreRefusedByName) {
+  fluid_->reach = std::numeric_limits<double>::quiet_NaN();
+  fluid_->time_step_limit = 0;
+  fluid_->say_hello();
+  EXPECT_THAT(
+      [&] { coupler_.gather({}); },
+      ThrowsMessage<BadInput>("raw_fluid: error: reach is nan m, and must be a number above 0\n"
+                              "raw_fluid: error: time step limit is 0 s, and must be a number above 0"));
 }
 
 TEST_F(LinkTest, ASilentFluidIsNamed) {

@@ -82,6 +82,14 @@ TEST(WireCheck, LoadMayLackFrictionButNotHaveHalfOfIt) {
   EXPECT_THAT([&] { wire::check(load, 2, "x"); }, ThrowsMessage<PhysicsFailure>(HasSubstr("impulse")));
 }
 
+TEST(WireCheck, NamesAHealthThatIsNotFinite) {
+  EXPECT_NO_THROW(wire::check(Health{}, "x"));
+  Health health;
+  health.momentum.y() = nan;
+  EXPECT_THAT([&] { wire::check(health, "solid_solver: window 12"); },
+              ThrowsMessage<PhysicsFailure>(HasSubstr("solid_solver: window 12: an energy, the momentum")));
+}
+
 TEST(WireCheck, RefusesAStaleWindow) {
   const auto sent = wire::window(1, {.number = 6, .iteration = 0, .time = 0, .dt = 1});
   EXPECT_THAT([&] { wire::check(sent, {.number = 7}, "fluid_solver"); },
