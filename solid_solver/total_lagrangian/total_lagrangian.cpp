@@ -313,12 +313,13 @@ Stress TotalLagrangian::recovered(const RecoveredPoint& point) const {
   const auto u = [&](std::uint32_t i) { return displacement(i); };
   Tensor<double> H = point.fit.gradient(u);
   if (point.surface && is_free(*point.surface)) {
-    const auto& [normal, share, faces, deeper] = *point.surface;
+    const Vec& normal = point.surface->normal;
     std::visit(
         [&](const auto& law) {
           const auto P = [&](const Tensor<double>& gradient) { return law.stress(gradient); };
-          const Tensor<double> T = P(deeper.gradient(u));
-          const Vec t = share * Vec(T[0] * normal[0] + T[1] * normal[1], T[2] * normal[0] + T[3] * normal[1]);
+          const Tensor<double> T = P(point.surface->deeper.gradient(u));
+          const Vec t = point.surface->share *
+                        Vec(T[0] * normal[0] + T[1] * normal[1], T[2] * normal[0] + T[3] * normal[1]);
           H = with_traction(P, H, normal, t);
         },
         law_);
