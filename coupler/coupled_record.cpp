@@ -96,6 +96,8 @@ void CoupledRecord::audit(const Window& window, const Exchange& done) {
 void CoupledRecord::audit_work(const Window& window, const Exchange& done) {
   work_.note(done.sent, done.interface_start, done.interface_position, done.applied, done.solid.motion,
              done.solid.health.kinetic_energy);
+  const Health& solid = done.solid.health;
+  work_.note_energies(solid.kinetic_energy + solid.potential_energy, done.fluid.health.kinetic_energy);
   if (!work_.feeds()) return;
   const bool robin = settings_.coupling.scheme == SchemeKind::serial_robin;
   const auto say = [&](const char* what) {

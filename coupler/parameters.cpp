@@ -58,7 +58,7 @@ void describe(ParameterTable& table, Parameters& p) {
                {.minimum = 0,
                 .above_minimum = true,
                 .help = "the run fails once the exchange has made more work than this share of the largest "
-                        "that the fluid gave, and goes on to make it"});
+                        "that the fluid gave or the solid's energy changed by, and goes on to make it"});
   table.texts("loads", p.loads,
               {.help = "what the solid feels of the fluid: 'pressure_and_viscous', 'friction', or both"});
   const auto known = [](const std::string& word) {

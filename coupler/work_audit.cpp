@@ -46,4 +46,11 @@ void WorkAudit::note(const InterfaceLoad& sent, const std::vector<double>& inter
   s.solid = solid.position;
 }
 
+void WorkAudit::note_energies(double of_solid, double of_fluid) {
+  State& s = state_;
+  if (s.windows <= 1) s.first_energy = of_solid;
+  s.largest_energy_change = std::max(s.largest_energy_change, std::abs(of_solid - s.first_energy));
+  s.largest_fluid_energy = std::max(s.largest_fluid_energy, of_fluid);
+}
+
 }  // namespace toryu::coupling

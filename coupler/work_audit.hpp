@@ -6,6 +6,7 @@
 /// solid.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "common/link/participant.hpp"
@@ -35,13 +36,22 @@ class WorkAudit {
   /// start of a run makes stays as it is. What rounding makes of a body at rest does not count.
   bool feeds() const { return state_.suspicious >= windows_in_a_row; }
 
-  /// Whether it feeds the solid with more than `share` of the largest work of the fluid.
-  bool feeds_beyond(double share) const { return feeds() && made() > share * state_.largest_given; }
+  /// Takes the energy of the solid and the kinetic energy of the fluid [J/m] after the window noted last.
+  void note_energies(double of_solid, double of_fluid);
+  /// Whether it feeds the solid with more than `share` of the largest work of the fluid, and of what the
+  /// energy of the solid ever changed by. Where a stiff solid hardly moves, in work that is nothing beside
+  /// the energy of the flow, it is of no account.
+  bool feeds_beyond(double share) const {
+    const double of_note = std::max(state_.largest_given, state_.largest_energy_change);
+    return feeds() && made() > std::max(share * of_note, least_share_of_flow * state_.largest_fluid_energy);
+  }
 
   struct State {
     std::vector<double> fluid = {}, solid = {};  ///< where both have their interface [m]
     double given = 0, taken = 0;
     double largest_given = 0, largest_kinetic_energy = 0;  ///< so far
+    double first_energy = 0, largest_energy_change = 0,
+           largest_fluid_energy = 0;  ///< of the solid, of the fluid [J/m]
     double rounding = 0;  ///< bound of what made() may be by rounding of the positions alone [J/m]
     unsigned long windows = 0;
     double made_at_power_of_two = 0, made_before = 0;  ///< at that window, and at half of it
@@ -52,6 +62,7 @@ class WorkAudit {
 
  private:
   static constexpr double bearable_share = 0.2;
+  static constexpr double least_share_of_flow = 1e-6;
   static constexpr double least_growth = 1.8;  // since half the run or before
   static constexpr int windows_in_a_row = 20;
 
@@ -60,10 +71,12 @@ class WorkAudit {
 
 template <class Archive>
 void serialize(Archive& archive, WorkAudit::State& state) {
-  auto& [fluid, solid, given, taken, largest_given, largest_kinetic_energy, rounding, windows,
-         made_at_power_of_two, made_before, suspicious] = state;
-  archive(fluid, solid, given, taken, largest_given, largest_kinetic_energy, rounding, windows,
-          made_at_power_of_two, made_before, suspicious);
+  auto& [fluid, solid, given, taken, largest_given, largest_kinetic_energy, first_energy,
+         largest_energy_change, largest_fluid_energy, rounding, windows, made_at_power_of_two, made_before,
+         suspicious] = state;
+  archive(fluid, solid, given, taken, largest_given, largest_kinetic_energy, first_energy,
+          largest_energy_change, largest_fluid_energy, rounding, windows, made_at_power_of_two, made_before,
+          suspicious);
 }
 
 }  // namespace toryu::coupling

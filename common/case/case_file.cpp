@@ -98,7 +98,7 @@ std::filesystem::path find_case_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto type = std::filesystem::status(path, error).type();
   if (type == std::filesystem::file_type::regular) return path;
-  const auto file = path / "case.toml";
+  auto file = path / "case.toml";
   const bool folder = type == std::filesystem::file_type::directory;
   if (folder && is_file(file)) return file;
   const std::string message = folder ? "this folder holds no case.toml"

@@ -122,7 +122,7 @@ std::string found(const toml::node& node) {
   if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
   if (node.is_table()) return "a section";
   if (node.is_array_of_tables()) return "a list of sections";
-  if (const auto* array = node.as_array(); array && array->size() > 0 && array->get(0)->is_array())
+  if (const auto* array = node.as_array(); array && !array->empty() && array->get(0)->is_array())
     return fmt::format("{} rows of numbers", array->size());
   if (const auto* array = node.as_array()) return fmt::format("a list of {}", array->size());
   return "a date or time";

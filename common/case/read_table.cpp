@@ -231,7 +231,7 @@ std::optional<double> ReadTable::checked_number(const std::string& key, const to
 std::optional<std::string> ReadTable::checked_text(const std::string& key, const toml::node& node,
                                                    const std::vector<std::string>& allowed,
                                                    const toml::source_region& place) {
-  const auto value = node.value_exact<std::string>();
+  auto value = node.value_exact<std::string>();
   if (!value) {
     wrong_type(key, text_kind(allowed), node, place);
     return std::nullopt;

@@ -18,7 +18,7 @@ namespace toryu {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr int digits = 16;            // of each of the two numbers
+constexpr std::size_t digits = 16;    // of each of the two numbers
 constexpr auto longest_writing = 1s;  // of a line; later who began it is dead
 
 std::filesystem::path secret_file(const std::filesystem::path& out) {
@@ -34,7 +34,8 @@ std::optional<RunSecret> read_secret(const std::filesystem::path& path) {
   std::string text(2 * digits, '\0');
   const auto length = read(file, text.data(), text.size());
   close(file);
-  if (length != 2 * digits || text.find_first_not_of("0123456789abcdef") != text.npos) return std::nullopt;
+  if (length != static_cast<ssize_t>(text.size()) || text.find_first_not_of("0123456789abcdef") != text.npos)
+    return std::nullopt;
   return RunSecret{std::stoull(text.substr(0, digits), nullptr, 16),
                    std::stoull(text.substr(digits), nullptr, 16)};
 }

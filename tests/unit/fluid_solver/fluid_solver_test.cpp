@@ -251,7 +251,7 @@ TEST(WeaklyCompressible, LetsADropLeaveTheFloorWithTheDensityOfWater) {
   setting.scene.walls = {{"floor", {Vec(-0.15, -0.15), Vec(0.2, 0)}, {}}};
   setting.parameters.regions = {{"drop", {Vec(0, 0), Vec(0.05, 0.05)}, Vec(0, 1)}};
   setting.parameters.wall_model.suction = false;
-  // Overshot by a part of the step that crosses it, which thins by 5 kg/m3.
+  // Overshot by a part of the step that crosses it.
   for (const auto& [integrator, overshoot] :
        {std::pair{Integrator::midpoint, 2.0}, {Integrator::symplectic, 5.0}}) {
     setting.parameters.integrator = integrator;
