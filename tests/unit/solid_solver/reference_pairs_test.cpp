@@ -125,6 +125,7 @@ TEST(ReferencePairs, UnseenMotionIsWhatTheGradientLeaves) {
 /// Four columns of five rows, spacing 1, of which the first two are held: nothing moves at x = 0.
 struct HalfHeld {
   static constexpr std::size_t count = 20;
+  static constexpr double strip_width = 1.0;  // a column: particles must be numbered in the order of strips
   VecField X, cells, u;
   Field mobile, volume;
   HalfHeld() {
@@ -179,7 +180,7 @@ TEST(ClampFaces, PairsPushEachOtherEquallyAndHeldOnesNotAtAll) {
 TEST(ClampFaces, LieWhereTheWayEntersTheHeldCells) {
   HalfHeld half;
   half.mobile[9] = 1.0;  // the topmost of the second column is free: the face has a corner
-  StripOrder strips(strip_width);
+  StripOrder strips(HalfHeld::strip_width);
   strips.index(half.X[0], HalfHeld::count);
   ClusterList list;
   list.build(half.X, HalfHeld::count, half.X, strips, 2.6);
