@@ -103,8 +103,7 @@ void CoupledRecord::audit_work(const Window& window, const Exchange& done) {
   const auto say = [&](const char* what) {
     return fmt::format(
         "window {}, t = {:.6g} s: the exchange feeds the solid: it took {:.3g} J/m of work where the fluid "
-        "gave "
-        "{:.3g}; {}; take scheme = {}'serial_implicit', or more artificial viscosity of the solid, see "
+        "gave {:.3g}; {}; take scheme = {}'serial_implicit', or more artificial viscosity of the solid, see "
         "cases/pushed_column/window_map.toml",
         window.number, window.time + window.dt, work_.taken(), work_.given(), what,
         robin ? "" : "'serial_robin' or ");

@@ -185,9 +185,9 @@ std::vector<std::string> stability_warnings(const Parameters& p, const Start& st
                     p.time_step_share, time_step_edge(p)));
   if (!damps_noise(p))
     said.emplace_back(
-        "neither [fluid.density_diffusion] nor a viscosity damps the noise of the pressure: water at rest "
-        "fails "
-        "after some ten of its periods, whatever the step");
+        "neither [fluid.density_diffusion] nor a viscosity damps the noise of the pressure: it grows until "
+        "the "
+        "run fails, in water at rest too and whatever the step");
   if (p.sound_speed < 10 * start.speed)
     said.push_back(fmt::format(
         "sound_speed {:g} m/s is below ten times the largest speed at the start, {:.3g} m/s: the density "

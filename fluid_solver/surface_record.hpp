@@ -4,12 +4,13 @@
 /// Of the fluid within the kernel's reach, at each surface particle s of area A_s and outward normal n_s:
 ///
 ///     p_s = sum_f V_f max(p_f, 0) W_sf / sum_f V_f W_sf                         contact pressure
-///     v_s = |mean of v_f - v_s, less its part along n_s|                        sliding speed under free
-///     slip v_s = gdot_s l                                            and under no slip: the medium sticks,
-///     and at
-///                the wall's rate of shear a grain that stands off by the length l rubs the surface so fast
+///     v_s = |mean of v_f - v_s, less its part along n_s|                        sliding speed, free slip
+///     v_s = gdot_s l                                                            sliding speed, no slip
 ///     tau_s = F_s/A_s, F_s the friction force (33); dw/dt = tau_s . (mean of v_f - v_s)      friction work
 ///     dh/dt = k p_s v_s (Preston 1927), (K/H) p_s v_s (Archard 1953)            removed depth
+///
+/// Under no slip the medium sticks, and at the wall's rate of shear gdot_s a grain that stands off by the
+/// length l rubs the surface so fast.
 ///
 /// Where the kernel sum of the fluid is below 1e-3 (about 0.25 at a plane interface) there is no contact: all
 /// are 0. The surface stays where it is: depths are far below a particle's spacing.

@@ -166,8 +166,8 @@ class SolidModel : public Solver {
   void count_impulses(double dt);
   /// Records particles that have come off and checks the bonds, where that is asked for and due.
   void end_step();
-  /// From now on checks the bonds now and then.
   double energy_of_rounding() const;
+  /// From now on checks the bonds now and then.
   void watch_bonds();
   std::size_t clusters() const { return padded(particle_count()) / lane_count; }
 

@@ -6,6 +6,7 @@
 
 #include "common/error/ending.hpp"
 #include "common/error/failure.hpp"
+#include "common/error/printable.hpp"
 #include "common/link/process.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/log.hpp"
@@ -100,7 +101,7 @@ void Connection::handle_session(const toryu_Session& session) {
     write_status(toryu_LEFT);  // so that the coupler knows that this side knows
     status_.flush(1s);
     const auto code = static_cast<ExitCode>(session.exit_code);
-    if (code != ExitCode::done) throw_ending({code, wire::text(session.reason)});
+    if (code != ExitCode::done) throw_ending({code, printable(session.reason)});
     return;
   }
   if (taken_in != 0 && taken_in != node_.id()) {

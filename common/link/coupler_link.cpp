@@ -7,6 +7,7 @@
 
 #include "common/error/ending.hpp"
 #include "common/error/failure.hpp"
+#include "common/error/printable.hpp"
 #include "common/link/dds.hpp"
 #include "common/link/roster.hpp"
 #include "common/link/run_secret.hpp"
@@ -212,7 +213,7 @@ std::vector<std::string> CouplerLink::write_checkpoint(const Window& window, con
   std::vector<std::string> failures;
   const auto await = [&](auto& reader, const Participant& sender) {
     c.await(reader, sender, window, "write its checkpoint", [&](const toryu_CheckpointReport& report) {
-      const std::string failure = wire::text(report.failure);
+      const std::string failure = printable(report.failure);
       if (!failure.empty()) failures.push_back(sender.name() + ": " + failure);
     });
   };

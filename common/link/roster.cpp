@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/error/printable.hpp"
 #include "common/link/process.hpp"
 #include "common/link/wire.hpp"
 #include "common/run/log.hpp"
@@ -35,7 +36,7 @@ void Roster::compare(const toryu_Hello& hello, const Participant& participant) c
   must_agree("protocol", hello.protocol, wire::protocol);
   must_agree("hash of the case", fmt::format("{:016x}", hello.case_hash),
              fmt::format("{:016x}", own_.case_hash));
-  must_agree("system of units", wire::text(hello.units), std::string(wire::units));
+  must_agree("system of units", printable(hello.units), std::string(wire::units));
   must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
   const auto must_be_real = [&](const char* trait, double value, const char* unit, bool may_be_zero) {
     if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) return;
@@ -67,10 +68,10 @@ void Roster::accept(const toryu_Hello& hello) {
   Participant& participant = hello.role == toryu_FLUID ? fluid_ : solid_;
   if (participant.joined()) {
     if (participant.id != hello.sender)
-      log::warn("refused a second {} participant: {}", participant.part, wire::text(hello.program));
+      log::warn("refused a second {} participant: {}", participant.part, printable(hello.program));
     return;
   }
-  participant.partner = {wire::text(hello.program), wire::text(hello.version), wire::text(hello.used_case),
+  participant.partner = {printable(hello.program), printable(hello.version), printable(hello.used_case),
                          hello.can_checkpoint};
   participant.process = hello.process;
   participant.traits = {hello.reach, hello.time_step_limit, hello.density, hello.sound_speed, hello.spacing};
@@ -103,7 +104,7 @@ void Roster::note(const toryu_Status& status) {
   if (session_.over()) return;
   const auto code = static_cast<ExitCode>(status.exit_code);
   const std::string reason =
-      code == ExitCode::done ? "left before the end of the run" : wire::text(status.reason);
+      code == ExitCode::done ? "left before the end of the run" : printable(status.reason);
   throw_ending({code, fmt::format("{}: {}", participant->name(), reason)});
 }
 

@@ -42,9 +42,6 @@ toryu_CheckpointReport report_of_checkpoint(const toryu_WindowHead& window, cons
 Window window(const toryu_WindowHead& message);
 Health health(const toryu_HealthReport& message);
 Vec vector(const double (&components)[3]);
-/// What a stranger's text says, fit for a terminal and a file: other control characters than line break and
-/// tab, and what is not UTF-8, become '?'.
-std::string text(const char* message);
 Interface interface_of(const toryu_Interface& message);
 InterfaceMotion start_of(const toryu_Interface& message);
 InterfaceMotion motion(const toryu_Motion& message);

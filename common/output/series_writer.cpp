@@ -86,8 +86,8 @@ SeriesWriter::SeriesWriter(const std::filesystem::path& out, const std::string& 
 SeriesWriter::~SeriesWriter() {
   try {
     complete();
-  } catch (
-      const MachineFailure&) {  // of a run that failed, which says why; the .part that stays behind tells
+  } catch (const MachineFailure&) {
+    // of a run that failed, which says why; the .part that stays behind tells
   }
 }
 

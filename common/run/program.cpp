@@ -8,6 +8,7 @@
 
 #include "common/case/case_file.hpp"
 #include "common/error/ending.hpp"
+#include "common/error/printable.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
@@ -43,25 +44,13 @@ const char* words_for(ExitCode code) {
   }
 }
 
-/// The text with escapes for the control characters but line breaks: a name in a case may hold what a
-/// terminal would obey.
-std::string without_controls(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f)
-      result += fmt::format("\\x{:02x}", static_cast<int>(c));
-    else
-      result += c;
-  return result;
-}
-
 /// Runs the body; what it throws ends in one line and an exit code.
 ExitCode guarded(const std::function<ExitCode()>& body) {
   try {
     return body();
   } catch (...) {
     const auto [code, raw_reason] = ending_of_exception();
-    const std::string reason = without_controls(raw_reason);
+    const std::string reason = printable(raw_reason);
     if (code == ExitCode::bad_input) {
       // Standard error shows the bare lines, as a compiler does, so that editors find the places.
       tell(reason + '\n');

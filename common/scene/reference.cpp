@@ -162,7 +162,7 @@ bool is_written_by_runs(const std::filesystem::path& path) {
   std::string name = normal.string();
   if (name.ends_with(".part")) name.resize(name.size() - 5);
   for (const char* fixed : {"used_case.toml", "log.txt", "interface.h5", "surface.h5", "detached.csv",
-                            "report.html", "run.lock", "launch.lock", "stop"})
+                            "report.html", "run.lock", "launch.lock", "run.secret", "stop"})
     if (name == fixed) return true;
   for (const auto& participant : participants)
     for (const char* ending : {".csv", ".hdf.series", "_summary.toml"})

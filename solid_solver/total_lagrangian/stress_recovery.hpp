@@ -83,13 +83,14 @@ struct RecoveredPoint {
   std::optional<FreeSurface> surface;
 };
 
+/// P N [Pa].
+inline Vec traction(const Tensor<double>& P, const Vec& normal) {
+  return {P[0] * normal[0] + P[1] * normal[1], P[2] * normal[0] + P[3] * normal[1]};
+}
+
 /// H with the derivative along `normal` such that P(H) N = t [Pa]; H itself where there is none to be found.
 template <class Stress>
 Tensor<double> with_traction(const Stress& P, Tensor<double> H, const Vec& normal, const Vec& t) {
-  const auto traction = [&](const Tensor<double>& at) {
-    const Tensor<double> T = P(at);
-    return Vec(T[0] * normal[0] + T[1] * normal[1], T[2] * normal[0] + T[3] * normal[1]);
-  };
   const auto moved = [&](const Tensor<double>& from, const Vec& change) {
     return Tensor<double>{from[0] + change[0] * normal[0], from[1] + change[0] * normal[1],
                           from[2] + change[1] * normal[0], from[3] + change[1] * normal[1]};
@@ -98,10 +99,10 @@ Tensor<double> with_traction(const Stress& P, Tensor<double> H, const Vec& norma
   constexpr int rounds = 8;
   const Tensor<double> start = H;
   for (int round = 0; round < rounds; ++round) {
-    const Vec residual = traction(H) - t;
+    const Vec residual = traction(P(H), normal) - t;
     Mat slope;
     for (int a = 0; a < dim; ++a)
-      slope.col(a) = (traction(moved(H, small * Vec::Unit(a))) - t - residual) / small;
+      slope.col(a) = (traction(P(moved(H, small * Vec::Unit(a))), normal) - t - residual) / small;
     const Vec change = -slope.inverse() * residual;
     H = moved(H, change);
     if (!(change.norm() < 1.0)) return start;

@@ -317,9 +317,7 @@ Stress TotalLagrangian::recovered(const RecoveredPoint& point) const {
     std::visit(
         [&](const auto& law) {
           const auto P = [&](const Tensor<double>& gradient) { return law.stress(gradient); };
-          const Tensor<double> T = P(point.surface->deeper.gradient(u));
-          const Vec t = point.surface->share *
-                        Vec(T[0] * normal[0] + T[1] * normal[1], T[2] * normal[0] + T[3] * normal[1]);
+          const Vec t = point.surface->share * traction(P(point.surface->deeper.gradient(u)), normal);
           H = with_traction(P, H, normal, t);
         },
         law_);

@@ -1,6 +1,7 @@
 /// A case written to a folder of its own, and the faults that reading it collects.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -10,6 +11,12 @@
 #include "tests/errors/example_section.hpp"
 
 namespace toryu {
+
+/// Names an instance of a parametrised test.
+template <class Parameter>
+std::string name_of(const testing::TestParamInfo<Parameter>& one) {
+  return one.param.name;
+}
 
 class CaseText {
  public:

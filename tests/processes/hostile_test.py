@@ -6,6 +6,7 @@ import pathlib
 import random
 import socket
 import sys
+import time
 import unittest
 
 from toryu_testing.process_case import LIMIT, SOLVERS, ProcessCase
@@ -75,64 +76,72 @@ def damaged(datagram, chance):
 class Hostile(ProcessCase):
     datagrams, seed = 20_000, None
 
-    def results_of(self, disturb):
-        run = self.run_of_three(**SOLVERS, end_time=END_TIME).start_all()
-        run.wait_until_running()
-        disturb(run)
+    def setUp(self):
+        seed = random.randrange(10**6) if self.seed is None else self.seed
+        self.chance = random.Random(seed)
+        self.words = f"seed {seed}"
+        print(self.words, file=sys.stderr)
+
+    def bombard(self, run, most, datagram):
+        """Sends up to `most` datagrams to the ports of the run while it goes on; returns how many."""
+        ports, sent = ports_of(run.out), 0
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            while sent < most and all(process.poll() is None for process in run.processes.values()):
+                for _ in range(BURST):
+                    sender.sendto(datagram(), ("127.0.0.1", self.chance.choice(ports)))
+                sent += BURST
+        return sent
+
+    def results_of(self, run):
+        """Of a run that ends well."""
         for name in ("coupler", "fluid", "solid"):
-            self.assertEqual(run.ending_of(name, 4 * LIMIT)[0], 0, name)
+            code, text = run.ending_of(name, 4 * LIMIT)
+            self.assertEqual(code, 0, f"{self.words}, {name}: {text}")
         return run.results()
 
+    def run_of_solvers(self):
+        return self.run_of_three(**SOLVERS, end_time=END_TIME)
+
     def test_datagrams_of_strangers(self):
-        seed = random.randrange(10**6) if self.seed is None else self.seed
-        print(f"seed {seed}", file=sys.stderr)
-        chance = random.Random(seed)
+        undisturbed = self.results_of(self.run_of_solvers().start_all())
         sent = 0
-
-        def disturb(run):
-            nonlocal sent
-            ports = ports_of(run.out)
-            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-                while sent < self.datagrams and run.processes["coupler"].poll() is None:
-                    for _ in range(BURST):
-                        sender.sendto(made_up(chance), ("127.0.0.1", chance.choice(ports)))
-                    sent += BURST
-
-        undisturbed = self.results_of(lambda run: None)
         while sent < self.datagrams:
-            self.assertEqual(self.results_of(disturb), undisturbed, f"seed {seed}")
+            run = self.run_of_solvers().start_all().wait_until_running()
+            sent += self.bombard(run, self.datagrams - sent, lambda: made_up(self.chance))
+            self.assertEqual(self.results_of(run), undisturbed, self.words)
 
-    def test_recorded_datagrams_of_another_run(self):
-        seed = random.randrange(10**6) if self.seed is None else self.seed
-        print(f"seed {seed}", file=sys.stderr)
-        chance = random.Random(seed)
-        recorded = []
+    def test_recorded_datagrams_of_an_earlier_run_in_the_same_folder(self):
+        """From the first on, in which its processes find each other; whole and damaged ones: while the fluid waits, to
+        which they speak as its coupler did, and in the run."""
+        run = self.run_of_solvers().start("fluid")
+        self.wait_for_secret(run)
+        try:
+            recorder = Recorder(ports_of(run.out))
+        except PermissionError:
+            self.skipTest("only root can record datagrams")
+        with recorder:
+            run.start("coupler").start("solid")
+            recorded = recorder.record(RECORDED)
+        undisturbed = self.results_of(run)
 
-        def record(run):
-            try:
-                recorder = Recorder(ports_of(run.out))
-            except PermissionError:
-                self.skipTest("only root can record datagrams")
-            with recorder:
-                recorded.extend(recorder.record(RECORDED))
+        def datagram():
+            found = self.chance.choice(recorded)
+            return found if self.chance.random() < 0.5 else damaged(found, self.chance)
 
-        undisturbed = self.results_of(record)
         sent = 0
-
-        def disturb(run):
-            nonlocal sent
-            ports = ports_of(run.out)
-            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-                while sent < self.datagrams and run.processes["coupler"].poll() is None:
-                    for _ in range(BURST):
-                        datagram = chance.choice(recorded)
-                        if chance.random() < 0.8:
-                            datagram = damaged(datagram, chance)
-                        sender.sendto(datagram, ("127.0.0.1", chance.choice(ports)))
-                    sent += BURST
-
         while sent < self.datagrams:
-            self.assertEqual(self.results_of(disturb), undisturbed, f"seed {seed}")
+            run.start("fluid", extra=["--overwrite"])
+            self.wait_for_secret(run)
+            sent += self.bombard(run, self.datagrams // 2, datagram)
+            run.start("coupler", extra=["--overwrite"]).start("solid", extra=["--overwrite"])
+            sent += self.bombard(run, self.datagrams - sent, datagram)
+            self.assertEqual(self.results_of(run), undisturbed, self.words)
+
+    def wait_for_secret(self, run):
+        end = time.monotonic() + LIMIT
+        while not (run.out / "run.secret").exists():
+            self.assertLess(time.monotonic(), end, "the fluid makes no secret")
+            time.sleep(0.01)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,6 @@ try:
 except (ImportError, MemoryError) as error:
     if "toryu" in (getattr(error, "name", None) or ""):
         raise
-    print(f"error: the machine: a package of Python cannot be loaded: {error or 'not enough memory'}; 'tools/install.sh run study' installs what "
-          "is missing", file=sys.stderr)
+    print(f"error: the machine: a package of Python cannot be loaded: {error or 'not enough memory'}; "
+          "'tools/install.sh run study' installs what is missing", file=sys.stderr)
     sys.exit(5)  # as in processes.py

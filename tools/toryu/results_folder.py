@@ -30,7 +30,8 @@ def remove_former(out):
 
 def keep_former(out, references=()):
     """Moves the results of a former run into the next free folder OUT.N beside `out`, with copies of the files
-    `references` that its used case names. Returns what to say of it, "" if there are none. Raises OSError if they cannot be measured or moved; they are all where they were then."""
+    `references` that its used case names. Returns what to say of it, "" if there are none. Raises OSError if they cannot
+    be measured or moved; they are all where they were then."""
     found = written(out)
     if not found:
         return ""

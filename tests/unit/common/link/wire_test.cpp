@@ -39,24 +39,6 @@ TEST(Wire, VectorsArePaddedToThreeComponents) {
   EXPECT_EQ(wire::vector(components), Vec(1, 2));
 }
 
-TEST(Wire, TextOfAStrangerIsFitForATerminal) {
-  for (const char* good : {"", "plain, \ttab\nand line", "größe 砥粒 \U0001F600", "\u00a0"})
-    EXPECT_EQ(wire::text(good), good);
-  EXPECT_EQ(wire::text(nullptr), "");
-  EXPECT_EQ(wire::text("\x1b[31mred\x07\x7f"), "?[31mred??");
-  EXPECT_EQ(wire::text("gr\xf6\xdf"
-                       "e"),
-            "gr??e")
-      << "Latin-1";
-  EXPECT_EQ(wire::text("\xc2\x9b"
-                       "31m"),
-            "??31m")
-      << "a control of 8 bits";
-  EXPECT_EQ(wire::text("\xc0\xaf \xed\xa0\x80 \xf5\x80\x80\x80"), "?? ??? ????")
-      << "overlong, half, too large";
-  EXPECT_EQ(wire::text("cut \xe7\xa0"), "cut ??");
-}
-
 TEST(WireCheck, NamesWhatIsNotFinite) {
   auto motion = motion_of_two();
   motion.velocity[3] = nan;
