@@ -12,6 +12,7 @@ import unittest
 from toryu_testing.process_case import LIMIT, SOLVERS, ProcessCase
 
 ETH_P_ALL = 3
+SECRET_SIZE = 33  # [bytes] of run.secret; before, its maker still writes it
 RECORDED = 400  # datagrams of the run itself that are mutated
 BURST = 100  # between two looks at whether the run goes on
 END_TIME = "0.1"  # [s] of the strip, some seconds of wall time
@@ -138,8 +139,8 @@ class Hostile(ProcessCase):
             self.assertEqual(self.results_of(run), undisturbed, self.words)
 
     def wait_for_secret(self, run):
-        end = time.monotonic() + LIMIT
-        while not (run.out / "run.secret").exists():
+        secret, end = run.out / "run.secret", time.monotonic() + LIMIT
+        while not secret.exists() or secret.stat().st_size < SECRET_SIZE:
             self.assertLess(time.monotonic(), end, "the fluid makes no secret")
             time.sleep(0.01)
 
