@@ -95,7 +95,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
 
 ExitCode solve(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
-  const Scene scene = read_scene(file);
+  Scene scene = read_scene(file);
   fluid::Parameters parameters;
   file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
   file.ignore_sections({"solid", "coupling"});
@@ -116,6 +116,10 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   file.throw_if_faulty();
+  for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
+    file.fault(key, message);
+  file.throw_if_faulty();
+  if (parameters.similarity) log::info("{}", fluid::make_similar(parameters, scene));
   for (const auto& [key, message] : fluid::start_faults(parameters, scene.gravity)) file.fault(key, message);
   file.throw_if_faulty();
   const auto made = fluid::make_model(parameters, scene);
@@ -128,6 +132,7 @@ ExitCode solve(const Options& options) {
                            .blow = fluid::hardest_blow(scene, parameters),
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
+  for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
   for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
   if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing))

@@ -107,12 +107,15 @@ void describe_medium(ParameterTable& table, Parameters& p) {
   table.number(
       "density", p.density,
       {.unit = "kg/m3", .minimum = 0, .above_minimum = true, .required = true, .help = "rest density rho_0"});
+  table.optional("similarity", p.similarity,
+                 "creeping flow of a very viscous medium at a density that makes its steps long");
   table.number("sound_speed", p.sound_speed,
                {.unit = "m/s",
                 .minimum = 0,
-                .above_minimum = true,
-                .required = true,
-                .help = "c_0 at rest density (Monaghan 1994), at least ten times the largest speed"});
+                .above_minimum = !p.similarity,
+                .required = !p.similarity,
+                .help = "c_0 at rest density (Monaghan 1994), at least ten times the largest speed; 0 with "
+                        "[fluid.similarity]: chosen"});
   table.integer("stiffness_exponent", p.stiffness_exponent,
                 {.minimum = 1, .maximum = 7, .help = "gamma of the equation of state (Monaghan 1994)"});
 }
@@ -181,10 +184,19 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
                 "[fluid.laminar_viscosity]");
 }
 
+/// The discretisation that bears a high pressure over the shear stress, unless the case says another.
+void take_defaults_of_similarity(Parameters& p) {
+  if (!p.similarity) return;
+  p.kernel = KernelForm::wendland_c2;
+  p.smoothing_ratio = 2.0;
+  p.time_step_share = 3.0;
+}
+
 }  // namespace
 
 void describe(ParameterTable& table, Parameters& p) {
   describe_medium(table, p);
+  take_defaults_of_similarity(p);
   describe_discretisation(table, p);
   describe_start(table, p);
   describe_terms(table, p);

@@ -7,6 +7,7 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/scene/scene.hpp"
+#include "fluid_solver/similarity.hpp"
 #include "fluid_solver/terms.hpp"
 
 namespace toryu::fluid {
@@ -69,6 +70,7 @@ enum class Integrator { midpoint, symplectic };
 
 struct Parameters : OptionalTerms {
   double density = 1000.0;       ///< rho_0 [kg/m3]
+  std::optional<Similarity> similarity;
   double sound_speed = 0;        ///< c_0 [m/s]
   int stiffness_exponent = 7;    ///< gamma of (3)
   double spacing = 0;            ///< d_0 [m]
