@@ -1,0 +1,182 @@
+#include "fluid_solver/similarity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid_solver/parameters.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+/// Of a closed medium, over the pressure drop: the leading half would else be under suction.
+constexpr double background_share = 0.65;
+/// Of the mean speed: friction transmits 99.9 % of mu_A p at that speed.
+constexpr double regularisation_share = 0.05;
+/// Crossings of the medium by sound in which pistons may come to their speed.
+constexpr double gentle_crossings = 4;
+/// Pressure over the wall's shear stress that rows bear without sticking to one another, but for Wendland C2
+/// at h/d_0 = 2 (the drop of a slit 10 % too small at 100 and 81 % too large at 310).
+constexpr double bearable_pressure = 30;
+
+double viscosity_of(const Parameters& p, double shear_rate) {
+  if (p.power_law) return viscosity(*p.power_law, shear_rate);
+  if (p.carreau) return viscosity(*p.carreau, shear_rate);
+  return p.laminar_viscosity ? p.laminar_viscosity->dynamic_viscosity : 0.0;
+}
+
+/// U over w of the flow with that shear rate at the wall [1/s].
+double speed_over_width(const Parameters& p, double gdot_w) {
+  constexpr int intervals = 2000;
+  const double tau_w = viscosity_of(p, gdot_w) * gdot_w;
+  double sum = 0;  // by the midpoint rule
+  for (int k = 0; k < intervals; ++k) {
+    const double gdot = (k + 0.5) / intervals * gdot_w, share = viscosity_of(p, gdot) * gdot / tau_w;
+    sum += share * share;
+  }
+  return 0.25 * gdot_w * (1 - sum / intervals);
+}
+
+/// From rest to the largest speed of any wall [s].
+double shortest_ramp(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : scene.walls) {
+    if (!wall.motion) continue;
+    double largest = 0, rest = 0;
+    for (const auto& row : wall.motion->velocity) {
+      const double time = row[0] * wall.motion->time, speed = std::hypot(row[1], row[2]);
+      if (speed == 0) rest = time;
+      if (speed <= 0.99 * largest || speed == 0) continue;
+      if (speed > largest) shortest = std::min(shortest, time - rest), largest = speed;
+    }
+  }
+  return shortest;
+}
+
+double longest_side(const std::vector<Region>& regions) {
+  Vec least = regions.front().box.min, most = regions.front().box.max;
+  for (const Region& region : regions)
+    least = least.cwiseMin(region.box.min), most = most.cwiseMax(region.box.max);
+  return (most - least).maxCoeff();
+}
+
+}  // namespace
+
+void describe(ParameterTable& table, Similarity& similarity) {
+  const auto size = [&](const std::string& key, double& value, const std::string& unit,
+                        const std::string& help) {
+    table.number(key, value,
+                 {.unit = unit, .minimum = 0, .above_minimum = true, .required = true, .help = help});
+  };
+  size("mean_speed", similarity.mean_speed, "m/s", "of the medium in the narrowest passage");
+  size("passage_width", similarity.passage_width, "m", "of that passage");
+  size("passage_length", similarity.passage_length, "m",
+       "of that passage, what else the medium passes counted in: with the wall's shear stress it gives the "
+       "pressure drop");
+  table.number("reynolds_number", similarity.reynolds_number,
+               {.minimum = 0,
+                .maximum = 2,
+                .above_minimum = true,
+                .help = "that is computed, rho U w/eta at the wall's viscosity; the larger, the faster and "
+                        "the less exact"});
+  table.number("compression", similarity.compression,
+               {.minimum = 0,
+                .maximum = 0.05,
+                .above_minimum = true,
+                .help = "change of the density over the pressure drop, which sets the sound speed"});
+}
+
+SlitFlow slit_flow(const Parameters& p, double mean_speed, double width) {
+  double low = 1e-12, high = 1e12;
+  while (high / low > 1 + 1e-12) {
+    const double gdot_w = std::sqrt(low * high);
+    (speed_over_width(p, gdot_w) * width < mean_speed ? low : high) = gdot_w;
+  }
+  const double eta_w = viscosity_of(p, low);
+  return {.wall_shear_rate = low, .wall_viscosity = eta_w, .wall_stress = eta_w * low};
+}
+
+SimilarMedium similar_medium(const Parameters& p) {
+  const Similarity& s = *p.similarity;
+  SimilarMedium similar{.passage = slit_flow(p, s.mean_speed, s.passage_width)};
+  const double inertia = s.mean_speed * s.passage_width / similar.passage.wall_viscosity;
+  similar.pressure_drop = 2 * similar.passage.wall_stress * s.passage_length / s.passage_width;
+  similar.density = s.reynolds_number / inertia;
+  similar.sound_speed = p.sound_speed > 0
+                            ? p.sound_speed
+                            : std::sqrt(similar.pressure_drop / (s.compression * similar.density));
+  similar.real_reynolds_number = p.density * inertia;
+  return similar;
+}
+
+std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_solid) {
+  if (!p.similarity) return {};
+  if (with_solid)
+    return {{"fluid.similarity",
+             "an elastic solid is not coupled to a fluid whose density is chosen: its added mass would be "
+             "wrong"}};
+  if (viscosity_of(p, 1.0) == 0)
+    return {{"fluid.similarity",
+             "a creeping flow needs a viscosity: [fluid.laminar_viscosity], [fluid.power_law] or "
+             "[fluid.carreau]"}};
+  if (p.artificial_viscosity)
+    return {{"fluid.artificial_viscosity",
+             "artificial viscosity grows with the density that [fluid.similarity] chooses and would thicken "
+             "the medium: leave it out"}};
+  if (p.surface_tension || p.initial_flow)
+    return {{p.initial_flow ? "fluid.initial_flow" : "fluid.surface_tension",
+             "it depends on the inertia that [fluid.similarity] changes: leave one of the two out"}};
+  const double real = similar_medium(p).real_reynolds_number;
+  if (real > p.similarity->reynolds_number)
+    return {{"fluid.similarity",
+             fmt::format("the medium's own Reynolds number {:.3g} exceeds the 'reynolds_number' {:g}: its "
+                         "inertia counts, leave [fluid.similarity] out",
+                         real, p.similarity->reynolds_number)}};
+  return {};
+}
+
+std::string make_similar(Parameters& p, Scene& scene) {
+  const SimilarMedium similar = similar_medium(p);
+  const double factor = similar.density / p.density;
+  scene.gravity /= factor;
+  p.density = similar.density;
+  p.sound_speed = similar.sound_speed;
+  if (!p.background_pressure)
+    p.background_pressure = BackgroundPressure{.pressure = background_share * similar.pressure_drop};
+  if (p.friction && p.friction->regularisation_speed == 0)
+    p.friction->regularisation_speed = regularisation_share * p.similarity->mean_speed;
+  return fmt::format(
+      "similarity: in the passage {:.4g} 1/s, {:.4g} Pa s and {:.4g} Pa at the wall, pressure drop {:.4g} "
+      "Pa; Re {:.2g}, computed at {:g} with {:.4g} times the density and a sound speed of {:.4g} m/s (Mach "
+      "number {:.2g}); the pressure builds up in some {:.2g} s, pistons may start in {:.2g} s",
+      similar.passage.wall_shear_rate, similar.passage.wall_viscosity, similar.passage.wall_stress,
+      similar.pressure_drop, similar.real_reynolds_number, p.similarity->reynolds_number, factor,
+      similar.sound_speed, p.similarity->mean_speed / similar.sound_speed,
+      p.similarity->compression * longest_side(p.regions) / p.similarity->mean_speed,
+      gentle_crossings * longest_side(p.regions) / similar.sound_speed);
+}
+
+std::vector<std::string> similarity_warnings(const Parameters& p, const Scene& scene) {
+  if (!p.similarity) return {};
+  std::vector<std::string> said;
+  const double crossing = longest_side(p.regions) / p.sound_speed, ramp = shortest_ramp(scene);
+  if (ramp < gentle_crossings * crossing)
+    said.push_back(
+        fmt::format("a wall comes to its speed within {:.3g} s, and sound crosses the medium in {:.3g} s: "
+                    "take {:g} times that, or the medium sloshes",
+                    ramp, crossing, gentle_crossings));
+  const SlitFlow flow = slit_flow(p, p.similarity->mean_speed, p.similarity->passage_width);
+  const double drop = 2 * flow.wall_stress * p.similarity->passage_length / p.similarity->passage_width;
+  const double load = (p.background_pressure->pressure + 0.5 * drop) / flow.wall_stress;
+  if (load > bearable_pressure && (p.kernel != KernelForm::wendland_c2 || p.smoothing_ratio < 1.99))
+    said.push_back(
+        fmt::format("pressures reach {:.3g} times the wall's shear stress, under which rows of particles "
+                    "stick to one another: take kernel = \"wendland_c2\" and smoothing_ratio = 2.0",
+                    load));
+  return said;
+}
+
+}  // namespace toryu::fluid
