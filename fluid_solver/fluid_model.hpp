@@ -66,6 +66,8 @@ class FluidModel : public Solver {
   double potential_energy() const;  ///< against gravity [J per metre]
   double elastic_energy() const;    ///< of compression [J per metre]
   Vec momentum() const;
+  /// What the press adds to the pressure of an enclosed medium [Pa].
+  double pressure_offset() const;
   const Particles& particles() const { return state_.fluid; }
   const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
   Timers& timers() { return timers_; }

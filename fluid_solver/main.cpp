@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/link/participant.hpp"
+#include "common/loop/outlook.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/log.hpp"
@@ -110,6 +111,9 @@ ExitCode solve(const Options& options) {
     file.fault("fluid.removal",
                "there is nothing to wear: it takes a [[wall]] with 'work_piece = true' or the solid of a "
                "coupled case");
+  if (parameters.enclosed_medium && file.has("solid"))
+    file.fault("fluid.enclosed_medium",
+               "an elastic solid bears the pressures that move the fluid: give [fluid.background_pressure]");
   if (options.describe) {
     print(file.description());
     return ExitCode::done;
@@ -119,7 +123,13 @@ ExitCode solve(const Options& options) {
   for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
     file.fault(key, message);
   file.throw_if_faulty();
-  if (parameters.similarity) log::info("{}", fluid::make_similar(parameters, scene));
+  if (parameters.similarity) {
+    const std::string made = fluid::make_similar(parameters, scene);
+    log::info("{}", made);
+    if (options.check) print("[fluid]: " + made + '\n');
+  }
+  if (const auto creeps = fluid::creeping(parameters, scene); creeps && options.check)
+    print("[fluid]: " + *creeps + '\n');
   for (const auto& [key, message] : fluid::start_faults(parameters, scene.gravity)) file.fault(key, message);
   file.throw_if_faulty();
   const auto made = fluid::make_model(parameters, scene);
@@ -139,6 +149,7 @@ ExitCode solve(const Options& options) {
     log::warn("{}", *jet);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.number("solid.spacing").value_or(0), parameters);
+    print(outlook("[fluid]", model, scene.end_time));
     return ExitCode::done;
   }
   if (file.has("solid"))

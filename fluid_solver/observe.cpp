@@ -53,6 +53,7 @@ Frame FluidModel::frame() const {
   FrameField pressure{"pressure", "Pa", "from the equation of state", 1, std::vector<double>(n)};
   FrameField density{"density", "kg/m3", "", 1, std::vector<double>(n)};
   FrameField velocity{"velocity", "m/s", "", dim, std::vector<double>(dim * n)};
+  const double p_offset = pressure_offset();
   for (std::size_t i = 0; i < n; ++i) {
     for (int a = 0; a < dim; ++a) {
       frame.positions[dim * i + static_cast<std::size_t>(a)] = state_.fluid.x[a][i];
@@ -60,7 +61,7 @@ Frame FluidModel::frame() const {
     }
     id.values[i] = state_.fluid.id[i];
     density.values[i] = state_.fluid.rho[i];
-    pressure.values[i] = equation_of_state_.pressure(state_.fluid.rho[i]);
+    pressure.values[i] = equation_of_state_.pressure(state_.fluid.rho[i]) + p_offset;
   }
   frame.fields = {std::move(id), std::move(pressure), std::move(velocity), std::move(density)};
   if (!state_.fluid.eta.empty()) {
@@ -111,6 +112,11 @@ Vec FluidModel::momentum() const {
   return sum;
 }
 
+double FluidModel::pressure_offset() const {
+  return fluid::pressure_offset(parameters_.enclosed_medium, state_.fluid.m, state_.fluid.rho,
+                                state_.fluid.count, equation_of_state_);
+}
+
 Vec FluidModel::numerical_impulse() const {
   Vec impulse = momentum() - start_momentum_ - state_.gravity_impulse;
   for (const Boundary& boundary : state_.boundaries) impulse -= boundary.impulse.total;
@@ -140,8 +146,9 @@ std::vector<Observation> FluidModel::observe() const {
   if (scene_.gravity.norm() > 0) push("impulse_of_gravity", "N.s/m", state_.gravity_impulse);
   if (parameters_.seeks_free_surface()) push("impulse_of_corrections", "N.s/m", numerical_impulse());
   for (const auto& observer : parameters_.observers)
-    row.push_back(toryu::fluid::observe(observer, {state_.fluid, state_.boundaries, parameters_, kernel_,
-                                                   equation_of_state_, period_, state_.time}));
+    row.push_back(
+        toryu::fluid::observe(observer, {state_.fluid, state_.boundaries, parameters_, kernel_,
+                                         equation_of_state_, period_, state_.time, pressure_offset()}));
   if (state_.surface_record)
     for (const auto& observation : state_.surface_record->observe()) row.push_back(observation);
   return row;

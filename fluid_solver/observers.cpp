@@ -120,7 +120,8 @@ Observation observe(const Observer& observer, const Observed& now) {
     case Quantity::front_x:
       return {observer.name, "m", front_x(now.fluid, p.spacing)};
     case Quantity::pressure:
-      return {observer.name, "Pa", pressure_at(observer.point, now.fluid, now.kernel, now.state, now.period)};
+      return {observer.name, "Pa",
+              pressure_at(observer.point, now.fluid, now.kernel, now.state, now.period) + now.p_offset};
     case Quantity::flow_rate:
       return {observer.name, "m2/s", flow_rate(now.fluid, *observer.box, observer.axis)};
     case Quantity::flow_amplitude:

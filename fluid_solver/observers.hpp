@@ -14,7 +14,7 @@ namespace toryu::fluid {
 /// Largest x of the fluid [m]: half a spacing beyond its foremost particle.
 double front_x(const Particles& fluid, double spacing);
 
-/// Kernel mean of the pressure about `point` [Pa]; 0 where no fluid is in reach.
+/// Kernel mean of the equation of state's pressure about `point` [Pa]; 0 where no fluid is in reach.
 double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kernel,
                    const EquationOfState& state, const Period& period);
 
@@ -44,7 +44,8 @@ struct Observed {
   const Kernel& kernel;
   const EquationOfState& state;
   const Period& period;
-  double time;  ///< [s]
+  double time;      ///< [s]
+  double p_offset;  ///< what is added to the pressure of the equation of state [Pa]
 };
 Observation observe(const Observer& observer, const Observed& now);
 

@@ -21,6 +21,8 @@ constexpr double gentle_crossings = 4;
 /// Pressure over the wall's shear stress that rows bear without sticking to one another, but for Wendland C2
 /// at h/d_0 = 2 (the drop of a slit 10 % too small at 100 and 81 % too large at 310).
 constexpr double bearable_pressure = 30;
+/// Reynolds number below which inertia changes a flow by less than a thousandth.
+constexpr double creeping_reynolds_number = 0.01;
 
 double viscosity_of(const Parameters& p, double shear_rate) {
   if (p.power_law) return viscosity(*p.power_law, shear_rate);
@@ -56,11 +58,24 @@ double shortest_ramp(const Scene& scene) {
   return shortest;
 }
 
-double longest_side(const std::vector<Region>& regions) {
+/// Of the box about all of the fluid [m].
+Vec sides(const std::vector<Region>& regions) {
   Vec least = regions.front().box.min, most = regions.front().box.max;
   for (const Region& region : regions)
     least = least.cwiseMin(region.box.min), most = most.cwiseMax(region.box.max);
-  return (most - least).maxCoeff();
+  return most - least;
+}
+double longest_side(const std::vector<Region>& regions) {
+  return sides(regions).maxCoeff();
+}
+
+double largest_wall_speed(const Scene& scene) {
+  double largest = 0;
+  for (const Wall& wall : scene.walls)
+    if (wall.motion)
+      for (const auto& row : wall.motion->velocity)
+        largest = std::max(largest, std::abs(wall.motion->speed) * std::hypot(row[1], row[2]));
+  return largest;
 }
 
 }  // namespace
@@ -157,6 +172,18 @@ std::string make_similar(Parameters& p, Scene& scene) {
       similar.sound_speed, p.similarity->mean_speed / similar.sound_speed,
       p.similarity->compression * longest_side(p.regions) / p.similarity->mean_speed,
       gentle_crossings * longest_side(p.regions) / similar.sound_speed);
+}
+
+std::optional<std::string> creeping(const Parameters& p, const Scene& scene) {
+  const double U = largest_wall_speed(scene);
+  if (p.similarity || U == 0 || !scene.gravity.isZero(0) || viscosity_of(p, 1.0) == 0) return {};
+  const double width = sides(p.regions).minCoeff();
+  const double Re = p.density * U * width / slit_flow(p, U, width).wall_viscosity;
+  if (Re > creeping_reynolds_number) return {};
+  return fmt::format(
+      "the flow creeps, Re {:.2g} at the walls' {:g} m/s over the fluid's {:g} m: its inertia does nothing "
+      "but shorten the steps; with [fluid.similarity] it is computed {:.2g} times heavier",
+      Re, U, width, Similarity{}.reynolds_number / Re);
 }
 
 std::vector<std::string> similarity_warnings(const Parameters& p, const Scene& scene) {

@@ -12,7 +12,7 @@
 ///     c_0^2 = dp/(share rho),   dp = 2 tau_w L/w.
 ///
 /// Pressures, viscosities, speeds and forces are real; kinetic energies and momenta are those of the density
-/// chosen. What is left of inertia is an error in proportion to Re (cases/grit_slit/README.md). eta_w and
+/// chosen. What is left of inertia is an error in proportion to Re (cases/abrasive_slit/README.md). eta_w and
 /// tau_w are those of the developed flow between plates (Bird, Armstrong & Hassager 1987, section 4.2):
 /// tau = tau_w at the wall and falls linearly to the middle, so that, by parts,
 ///
@@ -34,7 +34,7 @@ struct Similarity {
   double mean_speed = 0;         ///< U in the narrowest passage [m/s]
   double passage_width = 0;      ///< w [m]
   double passage_length = 0;     ///< L, what else the medium passes counted in [m]
-  double reynolds_number = 0.5;  ///< that is computed
+  double reynolds_number = 1.0;  ///< that is computed
   double compression = 0.01;     ///< change of the density over the pressure drop
 };
 void describe(ParameterTable& table, Similarity& similarity);
@@ -71,5 +71,8 @@ std::string make_similar(Parameters& parameters, Scene& scene);
 /// What of the scene spoils a flow made similar: pistons that start sooner than sound crosses the medium; a
 /// kernel whose rows do not slide under the pressure.
 std::vector<std::string> similarity_warnings(const Parameters& parameters, const Scene& scene);
+
+/// Where the case computes the inertia of a creeping flow: what would be cheaper.
+std::optional<std::string> creeping(const Parameters& parameters, const Scene& scene);
 
 }  // namespace toryu::fluid

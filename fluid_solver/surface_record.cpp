@@ -22,7 +22,8 @@ struct Contact {
   Vec velocity = Vec::Zero();  ///< of the medium against the surface [m/s]
 };
 
-Contact contact_of(const Boundary& surface, std::size_t k, const Particles& fluid, const Kernel& kernel) {
+Contact contact_of(const Boundary& surface, std::size_t k, const Particles& fluid, double p_offset,
+                   const Kernel& kernel) {
   const Vec v_s = at(surface.v, k);
   Contact mean;
   double sum = 0;
@@ -33,7 +34,7 @@ Contact contact_of(const Boundary& surface, std::size_t k, const Particles& flui
       if (r >= kernel.support()) continue;
       const double V_W = fluid.V[f] * kernel.value(r);
       sum += V_W;
-      mean.pressure += V_W * std::max(fluid.p[f], 0.0);
+      mean.pressure += V_W * std::max(fluid.p[f] + p_offset, 0.0);
       mean.velocity += V_W * (at(fluid.v, f) - v_s);
     }
   }
@@ -147,7 +148,7 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
   state_.traction.assign(dim * size(), 0.0);
 }
 
-void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid,
+void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid, double p_offset,
                         const ClusterList& neighbours, const Kernel& kernel, double dt) {
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const Boundary& body = boundaries[b];
@@ -156,7 +157,7 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
     for (std::size_t k = 0; k < body.count; ++k) {
       const std::size_t s = place_[b][body.id[k]];
       if (s == none) continue;
-      const Contact contact = contact_of(body, k, fluid, kernel);
+      const Contact contact = contact_of(body, k, fluid, p_offset, kernel);
       const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
       const double sliding =
           sticks_

@@ -35,9 +35,10 @@ class SurfaceRecord {
 
   /// Takes the particles with a face (area > 0) of the work pieces among `boundaries`, as they stand.
   void attach(const std::vector<Boundary>& boundaries);
-  /// Adds a step of `dt` [s] with the fluid, its `neighbours` and the friction forces of its last evaluation.
-  void add(const std::vector<Boundary>& boundaries, const Particles& fluid, const ClusterList& neighbours,
-           const Kernel& kernel, double dt);
+  /// Adds a step of `dt` [s] with the fluid, what contact adds to its pressure [Pa], its `neighbours` and the
+  /// friction forces of its last evaluation.
+  void add(const std::vector<Boundary>& boundaries, const Particles& fluid, double p_offset,
+           const ClusterList& neighbours, const Kernel& kernel, double dt);
   /// Makes `out`/surface.h5.
   void open(const std::filesystem::path& out);
   /// Appends a row: means since the last one, and the sums so far.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/link/participant.hpp"
+#include "common/loop/outlook.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/log.hpp"
@@ -129,7 +130,10 @@ ExitCode solve(const Options& options) {
   check_start(*model, "[solid]");
   check_columns(*model, "[solid]");
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
-  if (options.check) return ExitCode::done;
+  if (options.check) {
+    print(outlook("[solid]", *model, scene.end_time));
+    return ExitCode::done;
+  }
   log::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
   if (!file.has("fluid")) {
     compute_alone(options, file, scene, parameters, *model);

@@ -165,11 +165,16 @@ void Dynamics::renew_density_rates(Particles& fluid, const ClusterList& neighbou
 }
 
 void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const {
+  const double p_offset = pressure_offset(fluid);
   for (Boundary& boundary : boundaries)
     if (boundary.is_work_piece()) {
       friction_->measure_contact(boundary, fluid);
-      friction_->brake_fluid(fluid, boundary, boundary.force_on_fluid.friction_by_cluster);
+      friction_->brake_fluid(fluid, p_offset, boundary, boundary.force_on_fluid.friction_by_cluster);
     }
+}
+
+double Dynamics::pressure_offset(const Particles& fluid) const {
+  return fluid::pressure_offset(parameters_.enclosed_medium, fluid.m, fluid.rho, fluid.count, state_);
 }
 
 void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
@@ -181,7 +186,8 @@ void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
 }
 
 void Dynamics::react_by_friction(const Particles& fluid, Boundary& work_piece) const {
-  if (friction_ && work_piece.is_work_piece()) friction_->drag_work_piece(work_piece, fluid);
+  if (friction_ && work_piece.is_work_piece())
+    friction_->drag_work_piece(work_piece, fluid, pressure_offset(fluid));
 }
 
 }  // namespace toryu::fluid

@@ -40,6 +40,9 @@ class Dynamics {
   /// The latter alone.
   void react_by_friction(const Particles& fluid, Boundary& work_piece) const;
 
+  /// Of a medium that is held at a mean pressure: what contact adds to p [Pa].
+  double pressure_offset(const Particles& fluid) const;
+
   const Medium& medium() const { return medium_; }
   const Kernel& kernel() const { return medium_.kernel; }
   const EquationOfState& equation_of_state() const { return state_; }

@@ -32,23 +32,23 @@ void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& f
   });
 }
 
-void WorkPieceFriction::brake_fluid(Particles& fluid, const Boundary& work_piece,
+void WorkPieceFriction::brake_fluid(Particles& fluid, double p_offset, const Boundary& work_piece,
                                     std::vector<Vec>& by_cluster) const {
   by_cluster.assign(fluid.clusters(), Vec::Zero());
   const auto& active = work_piece.list_for_fluid.active();
   kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k)
-      by_cluster[active[k]] = brake_cluster(W, fluid, work_piece, active[k]);
+      by_cluster[active[k]] = brake_cluster(W, fluid, p_offset, work_piece, active[k]);
   });
 }
 
 template <class W>
-Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, const Boundary& work_piece,
-                                     std::size_t cluster) const {
+Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, double p_offset,
+                                     const Boundary& work_piece, std::size_t cluster) const {
   const std::size_t first = cluster * lane_count;
   const VecLanes v_f = load(fluid.v, first);
-  const Lanes p_f = load(fluid.p, first), V_f = load(fluid.V, first);
+  const Lanes p_f = load(fluid.p, first) + p_offset, V_f = load(fluid.V, first);
   VecLanes sum = zero_vector();
   over_neighbours(kernel, work_piece.list_for_fluid.near(cluster), load(fluid.x, first),
                   pointers(work_piece.x), [&](std::uint32_t s, const Neighbour& n) TORYU_INLINE_LAMBDA {
@@ -67,18 +67,18 @@ Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, const Bo
   return force;
 }
 
-void WorkPieceFriction::drag_work_piece(Boundary& work_piece, const Particles& fluid) const {
+void WorkPieceFriction::drag_work_piece(Boundary& work_piece, const Particles& fluid, double p_offset) const {
   for (auto& component : work_piece.friction_force) component.assign(padded(work_piece.count), 0.0);
   const auto& active = work_piece.list_for_wall.active();
   kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
-    for (std::size_t k = 0; k < active.size(); ++k) drag_cluster(W, work_piece, fluid, active[k]);
+    for (std::size_t k = 0; k < active.size(); ++k) drag_cluster(W, work_piece, fluid, p_offset, active[k]);
   });
 }
 
 template <class W>
 void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid,
-                                     std::size_t cluster) const {
+                                     double p_offset, std::size_t cluster) const {
   const std::size_t first = cluster * lane_count;
   const VecLanes v_s = load(work_piece.v, first);
   const Lanes d_s = load(work_piece.friction_length, first);
@@ -87,7 +87,7 @@ void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, cons
                   pointers(fluid.x), [&](std::uint32_t f, const Neighbour& n) TORYU_INLINE_LAMBDA {
                     VecLanes v_fs;
                     for (int a = 0; a < dim; ++a) v_fs[a] = fluid.v[a][f] - v_s[a];
-                    const VecLanes on_s = term_.per_volume(kernel, d_s, fluid.p[f], n.r, v_fs);
+                    const VecLanes on_s = term_.per_volume(kernel, d_s, fluid.p[f] + p_offset, n.r, v_fs);
                     for (int a = 0; a < dim; ++a) sum[a] += fluid.V[f] * on_s[a];
                   });
   store(sum, work_piece.friction_force, first);

@@ -13,10 +13,12 @@ class WorkPieceFriction {
 
   /// Fills `work_piece.friction_length`, the d_s, for the fluid's places and volumes.
   void measure_contact(Boundary& work_piece, const Particles& fluid) const;
-  /// Adds to the acceleration of the fluid; returns the force on each cluster of it in `by_cluster`.
-  void brake_fluid(Particles& fluid, const Boundary& work_piece, std::vector<Vec>& by_cluster) const;
+  /// Adds to the acceleration of the fluid, whose pressure is `p_offset` [Pa] higher than its p; returns the
+  /// force on each cluster of it in `by_cluster`.
+  void brake_fluid(Particles& fluid, double p_offset, const Boundary& work_piece,
+                   std::vector<Vec>& by_cluster) const;
   /// Fills `work_piece.friction_force`, the exact reaction.
-  void drag_work_piece(Boundary& work_piece, const Particles& fluid) const;
+  void drag_work_piece(Boundary& work_piece, const Particles& fluid, double p_offset) const;
 
   /// The fastest rate [1/s] at which friction brakes fluid of density `rho` under the pressure `p`: that of
   /// the linear drag at rest, on the row next to a plane interface.
@@ -24,9 +26,11 @@ class WorkPieceFriction {
 
  private:
   template <class W>
-  Vec brake_cluster(const W& kernel, Particles& fluid, const Boundary& work_piece, std::size_t cluster) const;
+  Vec brake_cluster(const W& kernel, Particles& fluid, double p_offset, const Boundary& work_piece,
+                    std::size_t cluster) const;
   template <class W>
-  void drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid, std::size_t cluster) const;
+  void drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid, double p_offset,
+                    std::size_t cluster) const;
 
   FrictionForm form_;
   double spacing_;

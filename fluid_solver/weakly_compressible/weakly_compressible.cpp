@@ -12,8 +12,8 @@ namespace {
 // Shares of the limits, Monaghan 1992 and thesis section 5. A drag is stable up to 2 over its rate.
 constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.25, friction_share = 0.5;
 /// Shares of the viscous limit beyond which no step goes, whatever `time_step_share`. A step of the velocity
-/// is stable up to 2 over the largest rate of the Laplacian, by sums over a lattice 0.35 h^2/nu with the cubic
-/// spline and 0.29 to 0.33 with Wendland C2 (h/d_0 from 2 to 1.2): 2.4 to 2.8 times the limit.
+/// is stable up to 2 over the largest rate of the Laplacian, by sums over a lattice 0.35 h^2/nu with the
+/// cubic spline and 0.29 to 0.33 with Wendland C2 (h/d_0 from 2 to 1.2): 2.4 to 2.8 times the limit.
 constexpr double largest_viscous_share = 2;
 
 struct StepLimit {
@@ -21,7 +21,8 @@ struct StepLimit {
   std::string_view rule;
 };
 
-/// Limits times the share of them that is taken. A term has a limit of its own if there is a function `time_step_limit(term, medium)`.
+/// Limits times the share of them that is taken. A term has a limit of its own if there is a function
+/// `time_step_limit(term, medium)`.
 StepLimit smallest_limit(const Parameters& p, const Medium& medium, const Extremes& largest) {
   const double h = p.h();
   double nu = largest.viscosity / p.density;
@@ -161,7 +162,8 @@ void WeaklyCompressible::note_surface(double dt) {
   const auto timer = timers_.measure("surface of the work pieces");
   for (Boundary& boundary : state_.boundaries)
     if (!boundary.is_interface()) dynamics_.react_by_friction(state_.fluid, boundary);
-  state_.surface_record->add(state_.boundaries, state_.fluid, state_.neighbours.of_fluid(), kernel_, dt);
+  state_.surface_record->add(state_.boundaries, state_.fluid, pressure_offset(), state_.neighbours.of_fluid(),
+                             kernel_, dt);
 }
 
 void WeaklyCompressible::shift(double dt) {
@@ -178,7 +180,8 @@ void WeaklyCompressible::note_extremes() {
     largest.viscosity = *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
   if (const auto& friction = dynamics_.friction()) {
     const double densest = *std::max_element(fluid.rho.begin(), fluid.rho.end());
-    largest.friction_rate = friction->rate(equation_of_state_.pressure(densest), parameters_.density);
+    largest.friction_rate =
+        friction->rate(equation_of_state_.pressure(densest) + pressure_offset(), parameters_.density);
   }
 }
 

@@ -73,13 +73,14 @@ inline std::function<double(double)> viscosity_of(const Parameters& p) {
 /// What the channels have in common [m], [m/s].
 inline constexpr double channel_width = 0.01, mean_velocity = 0.01;
 
-/// Runs the case; means over the time from `from` to its end, every 2 ms.
-inline ChannelFlow run_channel(const FluidCase& the_case, const SlitSolution& exact, double from = 0.1) {
+/// Runs the case; means over the time from `from` to its end, `every` so long [s].
+inline ChannelFlow run_channel(const FluidCase& the_case, const SlitSolution& exact, double from = 0.1,
+                               double every = 0.002) {
   WeaklyCompressible solver = the_case.solver();
   const auto& p = the_case.parameters;
   const EquationOfState state{p.density, p.sound_speed, p.stiffness_exponent, 0};
   ChannelMiddle middle(the_case, exact);
-  for (double time = from; time < the_case.scene.end_time + 1e-9; time += 0.002) {
+  for (double time = from; time < the_case.scene.end_time + 1e-9; time += every) {
     run_until(solver, time);
     middle.sample(solver, state);
   }

@@ -137,15 +137,16 @@ def complain(text):
     return BAD_INPUT
 
 
-def check(commands, show_warnings):
-    """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file. A run
-    that follows gives the warnings itself."""
+def check(commands, tell):
+    """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file. With
+    `tell` what they say of the run is shown, and what they warn of: a run that follows says it itself."""
     errors, others, codes = set(), [], set()
     for name, command in commands.items():
         done = subprocess.run([*command, "--check"], capture_output=True, encoding="utf-8", errors="backslashreplace",
                               stdin=subprocess.DEVNULL)
         if done.returncode == DONE:
-            if show_warnings and done.stderr:
+            if tell:
+                print(done.stdout, end="")
                 print(done.stderr, end="", file=sys.stderr)
             continue
         codes.add(done.returncode)
@@ -260,7 +261,7 @@ def main(arguments):
         return describe(commands)
     # A program that takes a solver's place checks its own input when it starts.
     own = {name: command for name, command in commands.items() if pathlib.Path(command[0]).parent == options.bin}
-    if code := check(own, show_warnings=options.check):
+    if code := check(own, tell=options.check):
         return code
     warn_without_checkpoints(options, [command[0] for name, command in commands.items() if name not in own])
     if options.check:

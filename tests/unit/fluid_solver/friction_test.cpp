@@ -31,7 +31,8 @@ struct Rubbed {
   Vec momentum_rate;  ///< of the fluid's particles, sum m a
 };
 
-Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& points, FrictionForm form) {
+Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& points, FrictionForm form,
+           double p_offset = 0) {
   Particles fluid;
   fluid.count = points.size();
   for (auto* field : {&fluid.x, &fluid.v, &fluid.a}) resize(*field, padded(fluid.count));
@@ -64,8 +65,8 @@ Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& poi
   const WorkPieceFriction term = friction(form);
   std::vector<Vec> by_cluster;
   term.measure_contact(boundary, fluid);
-  term.brake_fluid(fluid, boundary, by_cluster);
-  term.drag_work_piece(boundary, fluid);
+  term.brake_fluid(fluid, p_offset, boundary, by_cluster);
+  term.drag_work_piece(boundary, fluid, p_offset);
   Rubbed rubbed{std::vector<Vec>(piece.size()), Vec::Zero(), Vec::Zero()};
   for (const Vec& part : by_cluster) rubbed.on_fluid += part;
   for (std::size_t k = 0; k < fluid.count; ++k) rubbed.momentum_rate += fluid.m[k] * at(fluid.a, k);
@@ -101,6 +102,13 @@ TEST(Friction, OfOnePairAsPrintedIsEquation33) {
 TEST(Friction, OfOnePairNormalisedIsTheCoefficientTimesPressureTimesArea) {
   const Rubbed rubbed = rub({s_point}, {f_point}, FrictionForm::normalised);
   const Vec force = mu_A * 800 * std::hypot(0.02, 0.09) * direction(f_point, s_point);
+  expect_near(rubbed.on_piece[0], force);
+  expect_near(rubbed.on_fluid, -force);
+}
+
+TEST(Friction, IsThatOfThePressureAtWhichTheMediumIsHeld) {
+  const Rubbed rubbed = rub({s_point}, {f_point}, FrictionForm::normalised, 200);
+  const Vec force = mu_A * 1000 * std::hypot(0.02, 0.09) * direction(f_point, s_point);
   expect_near(rubbed.on_piece[0], force);
   expect_near(rubbed.on_fluid, -force);
 }

@@ -50,11 +50,11 @@ struct Contacting {
     neighbours.build(fluid.x, fluid.count, fluid.x, strips, 2 * h);
   }
   std::map<std::string, double> after(const Removal& removal, int steps = 1,
-                                      std::optional<double> sticks = {}) {
+                                      std::optional<double> sticks = {}, double p_offset = 0) {
     SurfaceRecord record(removal, sticks);
     record.attach(boundaries);
     EXPECT_EQ(record.size(), 1u);  // the particle inside has no face
-    for (int n = 0; n < steps; ++n) record.add(boundaries, fluid, neighbours, kernel, dt);
+    for (int n = 0; n < steps; ++n) record.add(boundaries, fluid, p_offset, neighbours, kernel, dt);
     std::map<std::string, double> values;
     for (const auto& observation : record.observe()) values[observation.name] = observation.value;
     return values;
@@ -103,6 +103,12 @@ TEST(SurfaceRecord, MeansAreWeightedByVolumeAndKernel) {
   EXPECT_NEAR(Contacting({near, far}).after(preston)["removed_depth_mean"], 1e-6 * p * v * dt, 1e-15);
 }
 
+TEST(SurfaceRecord, ContactHasThePressureAtWhichTheMediumIsHeld) {
+  Contacting one({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}});
+  EXPECT_NEAR(one.after(preston, 1, {}, 150)["removed_depth_mean"], 1e-6 * 200 * 3 * dt, 1e-15);
+  EXPECT_EQ(one.after(preston, 1, {}, -60)["removed_depth_mean"], 0);
+}
+
 TEST(SurfaceRecord, SlidingIsRelativeToTheSurface) {
   Contacting same({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}}, Vec(3, 0));
   EXPECT_NEAR(same.after(preston)["removed_depth_mean"], 0, 1e-18);
@@ -147,9 +153,9 @@ TEST(SurfaceRecord, FileHasMeansSinceTheLastRowAndSumsSinceTheStart) {
     record.attach(one.boundaries);
     record.open(out);
     record.write(0);
-    for (int n = 0; n < 2; ++n) record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
+    for (int n = 0; n < 2; ++n) record.add(one.boundaries, one.fluid, 0, one.neighbours, kernel, dt);
     record.write(2 * dt);
-    record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
+    record.add(one.boundaries, one.fluid, 0, one.neighbours, kernel, dt);
     record.write(3 * dt);
   }
   const auto path = out / "surface.h5";
@@ -176,7 +182,7 @@ TEST(SurfaceRecord, FileHasTheDepthOfEachLawThatIsGiven) {
     SurfaceRecord record(removal);
     record.attach(one.boundaries);
     record.open(out);
-    record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
+    record.add(one.boundaries, one.fluid, 0, one.neighbours, kernel, dt);
     record.write(dt);
   };
   const Archard law{2e-3, 4e8};

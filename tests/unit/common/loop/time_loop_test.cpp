@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "common/loop/outlook.hpp"
 #include "common/run/options.hpp"
 
 namespace toryu {
@@ -121,6 +122,16 @@ TEST(LastState, IsInTheSeriesAtTheEnd) {
 
 TEST(LastState, IsInTheSeriesWhereTheRunFailed) {
   EXPECT_EQ(series_of(true), "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
+}
+
+TEST(Outlook, TellsStepsAndTakesThem) {
+  LimitedSolver solver({1e-3});
+  const std::string said = outlook("[fluid]", solver, 2.5);
+  EXPECT_EQ(
+      said.find("[fluid]: time step 0.001 s (given limit) at the start, 2500 steps to t = 2.5 s, about "), 0u)
+      << said;
+  EXPECT_GE(solver.steps.size(), 2u) << "nothing was timed";
+  EXPECT_EQ(solver.steps.front(), 1e-3);
 }
 
 }  // namespace
