@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/scene/bodies.hpp"
+
 namespace toryu {
 
 namespace {
@@ -141,6 +143,7 @@ Scene read_scene(CaseFile& file) {
   file.read_list("wall", scene.walls, "rigid bodies");
   file.read_list("reference", scene.references, "measured or published curves, drawn in the report");
   check_walls(file, scene);
+  check_bodies(file, scene);
   check_references(file, scene);
   if (scene.periodic != Periodic::none && file.has("solid"))
     file.fault("case.periodic", "a scene with a solid cannot be periodic: solids know no periods");
