@@ -154,7 +154,7 @@ class Bodies {
         fluid_(regions_of(file, "fluid")),
         solid_(regions_of(file, "solid")),
         tolerance_(touching * finest_spacing(file)) {
-    const Vec side = scene.domain.max - scene.domain.min;
+    const Vec side = (scene.domain.max - scene.domain.min).cwiseMax(0.0);
     if (scene.periodic == Periodic::x || scene.periodic == Periodic::xy) period_[0] = side[0];
     if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy) period_[1] = side[1];
   }

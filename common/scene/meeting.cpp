@@ -164,9 +164,9 @@ class Approach {
       const double last = std::floor((most + a_.max[axis] - b_.min[axis]) / period[axis]);
       std::vector<Vec> shifted;
       // after some periods all meetings are repeats
-      for (double k = first; k <= std::min(last, first + most_periods); ++k)
+      for (int n = 0; n < most_periods && first + n <= last; ++n)
         for (Vec shift : found) {
-          shift[axis] += k * period[axis];
+          shift[axis] += (first + n) * period[axis];
           shifted.push_back(shift);
         }
       found = shifted;
@@ -175,7 +175,7 @@ class Approach {
   }
 
  private:
-  static constexpr double most_periods = 1000;
+  static constexpr int most_periods = 1000;
 
   std::optional<Meeting> between(const Stretch& stretch, double begin, double end, const Vec& shift) const {
     for (int k = 0; k < parts_; ++k) {
