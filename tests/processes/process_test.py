@@ -74,7 +74,7 @@ class Neighbours(ProcessCase):
             self.skipTest("no namespaces can be had here")
         folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "out").mkdir()
-        end_times = (0.01, 0.008)
+        end_times = (0.1, 0.08)
         runs = [self.container(folder / "out", folder / f"{end_time}.toml", end_time) for end_time in end_times]
         for run, end_time in zip(runs, end_times):
             words = run.communicate(timeout=2 * LIMIT)[1]
