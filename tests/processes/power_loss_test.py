@@ -25,7 +25,7 @@ from toryu.results_folder import WRITTEN, newest_checkpoint, written
 SKIPPED = 77  # exit code by which CTest knows that a test cannot run here
 SIZE = 96  # [MB] of the file system
 QUIET_LIMIT = 20  # [s] in which a moment without a write must come
-LIMIT = 300  # [s] of a run
+LIMIT = 600  # [s] of a run
 # case, settings: coupled and fluid alone, with many frames and checkpoints
 RUNS = [("elastic_gate", ["case.end_time=0.02", "case.frame_interval=2e-4", "case.checkpoint_interval=4e-3"]),
         ("dam_break", ["case.end_time=0.1", "case.frame_interval=5e-4", "case.checkpoint_interval=0.02"])]
@@ -92,6 +92,16 @@ def look_at(out):
     return len(files)
 
 
+def pause(run):
+    """Stops the launcher and all of its processes, unless it ends first; returns whether it goes on."""
+    run.send_signal(signal.SIGTSTP)
+    while run.poll() is None:
+        if pathlib.Path(f"/proc/{run.pid}/stat").read_text().rpartition(")")[2].split()[0] == "T":
+            return True
+        time.sleep(0.001)
+    return False
+
+
 def lose_power(folder, programs, case, settings, moment):
     """Starts a run, takes the copy after `moment` seconds or at its end, and lets it end; returns what `look_at` counts,
     that moment, and how long [s] the run took."""
@@ -105,13 +115,14 @@ def lose_power(folder, programs, case, settings, moment):
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         with contextlib.suppress(subprocess.TimeoutExpired):
             run.wait(moment)
-        if goes_on := run.poll() is None:
-            run.send_signal(signal.SIGTSTP)  # all of its processes
-        moment = time.monotonic() - start
+        goes_on, moment = pause(run), time.monotonic() - start
         copy_at_one_moment(image, device, copy)
         if goes_on:
             run.send_signal(signal.SIGCONT)
-        words = run.communicate(timeout=LIMIT)[1]
+        try:
+            words = run.communicate(timeout=LIMIT)[1]
+        finally:
+            run.kill()  # what it started ends with it
         assert run.returncode == DONE, words
         duration = time.monotonic() - start
         look_at(folder / "at/out")
