@@ -41,7 +41,6 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
   CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
-  model.record_surface(options.out);
   RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
   checkpoints.resume(record);
   run_recorded(record, [&] { run_alone(scene, model, record, 1, checkpoints); });
@@ -88,7 +87,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     throw;
   }
   const double joined = link.waiting_time();  // the record's time begins now
-  model.record_surface(options.out);
+  model.record_surface(options.out);          // anew, with the faces of the solid
   RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
   run_recorded(
       record, [&] { take_turns(link, model, record); }, [&] { link.leave(); },
@@ -124,6 +123,7 @@ ExitCode solve(const Options& options) {
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
   check_start(model, "[fluid]");
+  model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
   const auto& particles = model.particles();
   const fluid::Start start{.speed = largest_norm(particles.v, particles.count),

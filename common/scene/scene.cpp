@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
+#include "common/case/text_file.hpp"
 
 #include "common/scene/bodies.hpp"
 
@@ -48,11 +47,10 @@ void check_references(CaseFile& file, const Scene& scene) {
   }
 }
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+/// Whether `other`, whatever it is, holds what the reference `file` does.
+bool same_text(const std::filesystem::path& file, const std::filesystem::path& other) {
+  return is_file(other) && std::filesystem::file_size(file) == std::filesystem::file_size(other) &&
+         read_text(file, largest_reference) == read_text(other, largest_reference);
 }
 
 /// Moves what is there to the next free name, PATH.N.
@@ -169,7 +167,7 @@ void copy_references(const Scene& scene, const CaseFile& file, const std::filesy
     const auto source = file.folder() / reference.file, target = out / reference.file;
     std::filesystem::create_directories(target.parent_path());
     if (std::filesystem::exists(target)) {
-      if (std::filesystem::equivalent(source, target) || content_of(source) == content_of(target)) continue;
+      if (std::filesystem::equivalent(source, target) || same_text(source, target)) continue;
       keep_beside(target);
     }
     std::filesystem::copy_file(source, target);

@@ -51,6 +51,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},
+        Fault{"ColumnOfTheResults", "fluid.observer=[{name=\"kinetic_energy\",quantity=\"front_x\"}]",
+              "[fluid]: error: two columns of the results would be named 'kinetic_energy': an observer, a "
+              "region or a wall needs another name"},
         Fault{"FrictionOnNothing", "fluid.friction.coefficient=0.3",
               "--set fluid.friction.coefficient=0.3: error: there is nothing to rub on: friction acts on a "
               "[[wall]] "
