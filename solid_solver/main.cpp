@@ -14,6 +14,7 @@
 #include "common/run/provenance.hpp"
 #include "common/run/run_lock.hpp"
 #include "common/run/standard_streams.hpp"
+#include "common/scene/bodies.hpp"
 #include "solid_solver/detached_list.hpp"
 #include "solid_solver/make_model.hpp"
 #include "solid_solver/stability_warnings.hpp"
@@ -130,6 +131,7 @@ ExitCode solve(const Options& options) {
   check_start(*model, "[solid]");
   check_columns(*model, "[solid]");
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
+  for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
   if (options.check) {
     print(outlook("[solid]", *model, scene.end_time));
     return ExitCode::done;
