@@ -8,6 +8,7 @@
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/initial_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
+#include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
@@ -82,6 +83,8 @@ void FluidModel::fill_walls() {
       boundary.motion = PrescribedMotion{*wall->motion, points, reach() / parameters_.sound_speed};
     boundary.place(points, std::vector<double>(points.size(), volume), parameters_.density,
                    parameters_.strip_width());
+    if (parameters_.wall_model.extrapolation == WallExtrapolation::fit)
+      boundary.know_faces(lattice_face_depths(points, parameters_.spacing, 2 * reach()));
     if (wall && wall->work_piece) boundary.make_work_piece(lattice_area_vectors(points, parameters_.spacing));
   };
   OccupancyIndex taken(nearest_bodies(parameters_));
