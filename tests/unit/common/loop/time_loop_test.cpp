@@ -2,7 +2,7 @@
 
 #include "common/loop/time_loop.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -86,15 +86,25 @@ class CountingSolver : public LimitedSolver {
   bool fails_;
 };
 
-/// The series of a run to 0.9 s with rows every 0.4 s.
-std::string series_of(bool fails) {
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Left {
+  std::string series;
+  std::vector<double> frames;  ///< their times [s]
+};
+
+/// What a run to `end_time` leaves, with rows and frames every 0.4 s.
+Left left_by(bool fails, double end_time) {
   const auto out = std::filesystem::path(testing::TempDir()) / ("last_state_" + std::to_string(getpid()));
   std::filesystem::create_directories(out);
   Options options;
   options.out = out;
   Scene scene;
-  scene.end_time = 0.9;
-  scene.series_interval = 0.4;
+  scene.end_time = end_time;
+  scene.series_interval = scene.frame_interval = 0.4;
   scene.checkpoint_every = 0;
   CountingSolver solver(fails);
   {
@@ -106,21 +116,57 @@ std::string series_of(bool fails) {
     } catch (const PhysicsFailure&) {
     }
   }
-  for (const char* name : {"body.csv", "body.csv.part"})
-    if (std::ifstream file(out / name); file) {
-      const std::string text{std::istreambuf_iterator<char>(file), {}};
-      std::filesystem::remove_all(out);
-      return text;
-    }
-  return "";
+  Left left{text_of(out / "body.csv") + text_of(out / "body.csv.part"), {}};
+  const std::string list = text_of(out / "body.hdf.series"), key = "\"time\":";
+  for (auto at = list.find(key); at != list.npos; at = list.find(key, at + 1))
+    left.frames.push_back(std::stod(list.substr(at + key.size())));
+  std::filesystem::remove_all(out);
+  return left;
 }
 
-TEST(LastState, IsInTheSeriesAtTheEnd) {
-  EXPECT_EQ(series_of(false), "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
+using testing::ElementsAre;
+
+TEST(LastState, IsInSeriesAndFramesAtTheEnd) {
+  const Left left = left_by(false, 0.9);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8, 0.9));
 }
 
-TEST(LastState, IsInTheSeriesWhereTheRunFailed) {
-  EXPECT_EQ(series_of(true), "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
+TEST(LastState, IsInSeriesAndFramesWhereTheRunFailed) {
+  const Left left = left_by(true, 0.9);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.5));
+}
+
+TEST(LastState, IsWrittenOnceWhereItIsDueAnyway) {
+  const Left left = left_by(false, 0.8);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8));
+}
+
+/// A solver that reports numbers of given names.
+class NamedSolver : public LimitedSolver {
+ public:
+  explicit NamedSolver(std::vector<std::string> names) : LimitedSolver({1}), names_(std::move(names)) {}
+  std::vector<Observation> observe() const override {
+    std::vector<Observation> row;
+    for (const auto& name : names_) row.push_back({name, "1", 0.0});
+    return row;
+  }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+TEST(Columns, NeedNamesOfTheirOwn) {
+  EXPECT_NO_THROW(check_columns(NamedSolver({"tip_x", "tip_y", "tip"}), "[body]"));
+  try {
+    check_columns(NamedSolver({"tip_x", "tip_y", "tip_x"}), "[body]");
+    FAIL() << "two columns of one name";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(error.errors()[0].place, "[body]");
+    EXPECT_THAT(error.errors()[0].message, testing::HasSubstr("would be named 'tip_x'"));
+  }
 }
 
 }  // namespace
