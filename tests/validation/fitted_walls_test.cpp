@@ -61,8 +61,7 @@ Extremes3 cavity(const std::vector<std::string>& overrides) {
           *std::min_element(v_falls.sum.begin(), v_falls.sum.end()) / samples};
 }
 
-// Converged at Re 100: Marchi, Suero & Araki 2009, and finite differences to 128 x 128 extrapolated
-// (README.md).
+// Converged at Re 100, by finite differences that are extrapolated (README.md of the case).
 constexpr Extremes3 converged{-0.2140, 0.1796, -0.2538};
 
 TEST(LidDrivenCavity, TurnsAsTheConvergedFlowDoes) {
