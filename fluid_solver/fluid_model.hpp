@@ -7,6 +7,7 @@
 
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
+#include "common/scene/fill.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/free_surface.hpp"
 #include "fluid_solver/neighbours.hpp"
@@ -68,6 +69,8 @@ class FluidModel : public Solver {
   Vec momentum() const;
   const Particles& particles() const { return state_.fluid; }
   const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
+  /// Where rows of the fluid do not fit between faces.
+  const std::vector<Misfit>& misfits() const { return misfits_; }
   Timers& timers() { return timers_; }
   long list_builds() const { return state_.neighbours.builds(); }
 
@@ -132,6 +135,7 @@ class FluidModel : public Solver {
                          const std::string& limit) const;
 
   Vec start_momentum_ = Vec::Zero();
+  std::vector<Misfit> misfits_;
   std::optional<State> saved_;
 };
 

@@ -4,6 +4,8 @@
 
 #include "common/case/text_file.hpp"
 
+#include "common/scene/bodies.hpp"
+
 namespace toryu {
 
 namespace {
@@ -139,6 +141,7 @@ Scene read_scene(CaseFile& file) {
   file.read_list("wall", scene.walls, "rigid bodies");
   file.read_list("reference", scene.references, "measured or published curves, drawn in the report");
   check_walls(file, scene);
+  check_bodies(file, scene);
   check_references(file, scene);
   if (scene.periodic != Periodic::none && file.has("solid"))
     file.fault("case.periodic", "a scene with a solid cannot be periodic: solids know no periods");

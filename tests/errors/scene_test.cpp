@@ -25,7 +25,7 @@ TEST(SceneFaults, OfTheWholeCase) {
 }
 
 TEST(SceneFaults, WallsOfOneName) {
-  EXPECT_EQ(CaseText(sound_scene + "[[wall]]\nname = 'floor'\nbox = {min=[0,0], max=[2,1]}\n").scene_faults(),
+  EXPECT_EQ(CaseText(sound_scene + "[[wall]]\nname = 'floor'\nbox = {min=[0,1], max=[2,2]}\n").scene_faults(),
             "case.toml:9:1: error: two [[wall]] are named 'floor'; names must differ");
 }
 

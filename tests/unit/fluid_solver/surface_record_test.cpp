@@ -28,7 +28,7 @@ struct Contacting {
     Boundary& body = boundaries.emplace_back();
     body.name = "piece";
     body.place({Vec(0, 0), Vec(0, -d_0)}, {d_0 * d_0, d_0 * d_0}, 1000, 0.3);
-    body.make_work_piece({Vec(0, d_0), Vec(0, 0)});
+    body.make_work_piece({faces_of(Vec(0, d_0)), faces_of(Vec(0, 0))});
     resize(body.friction_force, padded(body.count));
     body.move_to([&](std::uint32_t id) {
       return Kinematics{Vec(0, id == 0 ? 0.0 : -d_0), surface_velocity, Vec::Zero()};
