@@ -48,11 +48,21 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"MissingKeyOfATerm", "fluid.laminar_viscosity={}",
               "--set fluid.laminar_viscosity={}: error: missing key 'dynamic_viscosity' in "
               "[fluid.laminar_viscosity]: a number [Pa.s] of at least 0, mu (Morris, Fox & Zhu 1997)"},
+        Fault{"FitWithoutSlip", "fluid.wall_model={slip=\"free_slip\", extrapolation=\"fit\"}",
+              "--set fluid.wall_model={slip=\"free_slip\", extrapolation=\"fit\"}: error: a 'fit' is of what "
+              "viscous "
+              "terms see at walls: it needs slip = \"no_slip\""},
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},
         Fault{"ColumnOfTheResults", "fluid.observer=[{name=\"kinetic_energy\",quantity=\"front_x\"}]",
               "[fluid]: error: two columns of the results would be named 'kinetic_energy': an observer, a "
+              "region or a wall needs another name"},
+        Fault{"ColumnOfTheRemoval",
+              "wall.0.work_piece=true' --set 'fluid.friction.coefficient=0.3' --set "
+              "'fluid.removal.preston_coefficient=1e-9' --set "
+              "'fluid.observer=[{name=\"removed_area\",quantity=\"front_x\"}]",
+              "[fluid]: error: two columns of the results would be named 'removed_area': an observer, a "
               "region or a wall needs another name"},
         Fault{"FrictionOnNothing", "fluid.friction.coefficient=0.3",
               "--set fluid.friction.coefficient=0.3: error: there is nothing to rub on: friction acts on a "
