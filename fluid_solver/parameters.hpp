@@ -49,6 +49,10 @@ void describe(ParameterTable& table, WallModel& model);
 struct Limits {
   double largest_speed = 0;             ///< [m/s]; 0: the speed of sound
   double largest_density_change = 0.3;  ///< |rho/rho_0 - 1|
+  // see run_watch.hpp
+  double largest_mean_density_change = 0.1;  ///< of mass over volume since the start
+  double largest_share_in_walls = 0.05;      ///< of the particles
+  double largest_energy_gain = 1;            ///< over the largest energy turned over
 };
 void describe(ParameterTable& table, Limits& limits);
 

@@ -18,6 +18,9 @@ class WorkPieceFriction {
   /// Fills `work_piece.friction_force`, the exact reaction.
   void drag_work_piece(Boundary& work_piece, const Particles& fluid) const;
 
+  /// What friction takes from the fluid's energy, sum F_fs . v_fs [W per metre depth].
+  double power(const Particles& fluid, const std::vector<Boundary>& boundaries) const;
+
   /// The fastest rate [1/s] at which friction brakes fluid of density `rho` under the pressure `p`: that of
   /// the linear drag at rest, on the row next to a plane interface.
   double rate(double p, double rho) const;
@@ -25,6 +28,9 @@ class WorkPieceFriction {
  private:
   template <class W>
   Vec brake_cluster(const W& kernel, Particles& fluid, const Boundary& work_piece, std::size_t cluster) const;
+  template <class W>
+  double power_of_cluster(const W& kernel, const Particles& fluid, const Boundary& work_piece,
+                          std::size_t cluster) const;
   template <class W>
   void drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid, std::size_t cluster) const;
 

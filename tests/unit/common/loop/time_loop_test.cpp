@@ -71,30 +71,37 @@ TEST_F(AdvanceWindow, TakesLongerStepsWhereTheLimitRises) {
   EXPECT_EQ(steps_of(LimitedSolver({1.0, 2.0}), 3.0), (std::vector<double>{1.0, 2.0}));
 }
 
-/// A solver that fails at its fifth step of 0.1 s, or never, and shows the number of its steps.
+enum class Fails { never, check, watch };
+/// A solver whose check fails at its fifth step of 0.1 s, its watch at the sixth or after, or nothing ever;
+/// it shows the number of its steps.
 class CountingSolver : public LimitedSolver {
  public:
-  explicit CountingSolver(bool fails) : LimitedSolver({0.1}), fails_(fails) {}
+  explicit CountingSolver(Fails fails) : LimitedSolver({0.1}), fails_(fails) {}
   void check(double time) const override {
-    if (fails_ && steps.size() == 5) throw PhysicsFailure("body", -1, time, "steps", "5", "4");
+    if (fails_ == Fails::check && steps.size() == 5)
+      throw PhysicsFailure("body", -1, time, "steps", "5", "4");
+  }
+  void watch(double time) override {
+    if (fails_ == Fails::watch && steps.size() >= 6)
+      throw PhysicsFailure("body", -1, time, "steps", "6", "5");
   }
   std::vector<Observation> observe() const override {
     return {{"steps", "1", static_cast<double>(steps.size())}};
   }
 
  private:
-  bool fails_;
+  Fails fails_;
 };
 
-/// The series of a run to 0.9 s with rows every 0.4 s.
-std::string series_of(bool fails) {
+/// The series of a run to 0.9 s with rows every `interval` [s].
+std::string series_of(Fails fails, double interval = 0.4, bool* failed = nullptr) {
   const auto out = std::filesystem::path(testing::TempDir()) / ("last_state_" + std::to_string(getpid()));
   std::filesystem::create_directories(out);
   Options options;
   options.out = out;
   Scene scene;
   scene.end_time = 0.9;
-  scene.series_interval = 0.4;
+  scene.series_interval = interval;
   scene.checkpoint_every = 0;
   CountingSolver solver(fails);
   {
@@ -104,6 +111,7 @@ std::string series_of(bool fails) {
     try {
       run_recorded(record, [&] { run_alone(scene, solver, record, 1, checkpoints); });
     } catch (const PhysicsFailure&) {
+      if (failed) *failed = true;
     }
   }
   for (const char* name : {"body.csv", "body.csv.part"})
@@ -116,11 +124,23 @@ std::string series_of(bool fails) {
 }
 
 TEST(LastState, IsInTheSeriesAtTheEnd) {
-  EXPECT_EQ(series_of(false), "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
+  EXPECT_EQ(series_of(Fails::never), "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
+}
+
+TEST(Watch, EndsTheRunOnceTheRowIsWritten) {
+  bool failed = false;
+  EXPECT_EQ(series_of(Fails::watch, 0.4, &failed), "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n");
+  EXPECT_TRUE(failed);
+}
+
+TEST(Watch, LooksAtTheLastRowToo) {
+  bool failed = false;
+  EXPECT_EQ(series_of(Fails::watch, 5, &failed), "time[s],steps[1]\n0,0\n0.9,9\n");
+  EXPECT_TRUE(failed);
 }
 
 TEST(LastState, IsInTheSeriesWhereTheRunFailed) {
-  EXPECT_EQ(series_of(true), "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
+  EXPECT_EQ(series_of(Fails::check), "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
 }
 
 }  // namespace
