@@ -25,8 +25,8 @@ double thickness(const CaseFile& file) {
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0;; ++n) {
     const auto side = [&](int axis) -> std::optional<double> {
-      const auto low = file.number(fmt::format("solid.region[{}].box.min[{}]", n, axis));
-      const auto high = file.number(fmt::format("solid.region[{}].box.max[{}]", n, axis));
+      const auto low = file.value<double>(fmt::format("solid.region[{}].box.min[{}]", n, axis));
+      const auto high = file.value<double>(fmt::format("solid.region[{}].box.max[{}]", n, axis));
       if (!low || !high) return std::nullopt;
       return *high - *low;
     };
@@ -40,11 +40,11 @@ double thickness(const CaseFile& file) {
 
 /// Viscosity of the medium at rest [Pa s], 0 if the case gives none.
 double viscosity_at_rest(const CaseFile& file) {
-  const bool thickens = file.number("fluid.power_law.exponent").value_or(0.0) > 1;
+  const bool thickens = file.value<double>("fluid.power_law.exponent").value_or(0.0) > 1;
   for (const char* key :
        {"fluid.laminar_viscosity.dynamic_viscosity", "fluid.carreau.zero_shear_viscosity",
         thickens ? "fluid.power_law.smallest_viscosity" : "fluid.power_law.largest_viscosity"})
-    if (const auto viscosity = file.number(key)) return *viscosity;
+    if (const auto viscosity = file.value<double>(key)) return *viscosity;
   return 0;
 }
 
@@ -53,7 +53,7 @@ double foreseen_window(const CaseFile& file, const FluidTraits& fluid, int steps
   const double h = 0.5 * fluid.reach, nu = viscosity_at_rest(file) / fluid.density;
   double limit = acoustic_share * h / fluid.sound_speed;
   if (nu > 0) limit = std::min(limit, viscous_share * h * h / nu);
-  return steps * file.number("fluid.time_step_share").value_or(1.0) * limit;
+  return steps * file.value<double>("fluid.time_step_share").value_or(1.0) * limit;
 }
 
 }  // namespace
@@ -71,12 +71,13 @@ std::vector<std::string> stability_warnings(const CaseFile& file, const Paramete
     said.emplace_back(
         "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
         "it; take scheme = 'serial_robin', or give it [solid.artificial_viscosity]");
-  const auto number = [&](const char* key) { return file.number(key).value_or(0.0); };
+  const auto number = [&](const char* key) { return file.value<double>(key).value_or(0.0); };
   FluidTraits fluid{.density = number("fluid.density"),
                     .sound_speed = number("fluid.sound_speed"),
                     .spacing = number("fluid.spacing")};
   if (!(fluid.density > 0 && fluid.sound_speed > 0 && fluid.spacing > 0)) return said;
-  fluid.reach = 2 * file.number("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
+  fluid.reach =
+      2 * file.value<double>("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
   const double depth = std::min(thickness(file), layer_depth(fluid));  // no deeper than the kernel sees
   const double ratio = number("solid.density") * depth / (fluid.density * fluid.spacing);
   const double least =

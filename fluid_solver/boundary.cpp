@@ -34,9 +34,12 @@ void Boundary::place(const std::vector<Vec>& positions, const std::vector<double
   sort();
 }
 
-void Boundary::make_work_piece(const std::vector<Vec>& area_vectors) {
-  resize(area_vector, padded(count));
-  for (std::size_t k = 0; k < count; ++k) set(area_vector, k, area_vectors[id[k]]);
+void Boundary::make_work_piece(const std::vector<Faces>& faces) {
+  for (auto* face : {&lower_face, &upper_face}) resize(*face, padded(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    set(lower_face, k, faces[id[k]].lower);
+    set(upper_face, k, faces[id[k]].upper);
+  }
 }
 
 void Boundary::sort() {

@@ -34,6 +34,15 @@ void serialize(Archive& archive, Impulse& impulse) {
   archive(total, friction);
 }
 
+/// Lengths of the open faces of a particle's cell [m per metre depth].
+struct Faces {
+  Vec lower = Vec::Zero(), upper = Vec::Zero();  ///< towards negative and towards positive x and y
+};
+/// Those of which `area_vector` [m per metre depth], outward, is the sum.
+inline Faces faces_of(const Vec& area_vector) {
+  return {(-area_vector).cwiseMax(0.0), area_vector.cwiseMax(0.0)};
+}
+
 struct Boundary {
   std::string name;
   std::variant<Still, PrescribedMotion, MovingInterface> motion;
@@ -45,8 +54,10 @@ struct Boundary {
   Declared<Field> V{"volume", "m2", FieldKind::state};
   Declared<Field> m{"mass", "kg/m", FieldKind::state};  ///< of fluid in its place
   Declared<Field> rho{"density", "kg/m3", FieldKind::state};
-  /// Outward at the start, zero inside; empty if this is no work piece.
-  Declared<VecField> area_vector{"area_vector", "m", FieldKind::state, Presence::on_demand};
+  /// Lengths of the open faces of the cell at the start, towards negative and towards positive x and y; zero
+  /// inside, empty if this is no work piece.
+  Declared<VecField> lower_face{"lower_face", "m", FieldKind::state, Presence::on_demand};
+  Declared<VecField> upper_face{"upper_face", "m", FieldKind::state, Presence::on_demand};
   // extrapolated from the fluid
   Declared<Field> p{"pressure", "Pa", FieldKind::derived},
       p_rho2{"p/rho^2", "m5/(kg.s2)", FieldKind::derived};
@@ -75,9 +86,9 @@ struct Boundary {
   /// Sets `count` particles at `positions`, each of its volume [m2], at rest.
   void place(const std::vector<Vec>& positions, const std::vector<double>& volumes, double rest_density,
              double strip_width);
-  /// Makes it a work piece with these area vectors, by id.
-  void make_work_piece(const std::vector<Vec>& area_vectors);
-  bool is_work_piece() const { return !area_vector[0].empty(); }
+  /// Makes it a work piece with these open faces, by id.
+  void make_work_piece(const std::vector<Faces>& faces);
+  bool is_work_piece() const { return !lower_face[0].empty(); }
   bool moves() const { return !std::holds_alternative<Still>(motion); }
   /// Whether a cluster of the fluid is in reach.
   bool acts_on(std::size_t cluster) const {
@@ -112,12 +123,12 @@ void Boundary::move_to(Of&& kinematics) {
 /// All but the lists, which follow from where they were built, and what one evaluation leaves.
 template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
-  auto& [name, motion, count, id, x, v, acceleration, V, m, rho, area_vector, p, p_rho2, v_viscous, eta,
-         eta_grad_v, force, friction_length, friction_force, force_on_fluid, impulse, work, counted,
+  auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, p, p_rho2, v_viscous,
+         eta, eta_grad_v, force, friction_length, friction_force, force_on_fluid, impulse, work, counted,
          list_for_wall, list_for_fluid, strips] = boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
-  archive(count, id, x, v, acceleration, V, m, rho, area_vector, p, p_rho2, v_viscous, eta, eta_grad_v, force,
-          friction_length, friction_force, impulse, work, counted);
+  archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, p, p_rho2, v_viscous, eta,
+          eta_grad_v, force, friction_length, friction_force, impulse, work, counted);
 }
 
 inline Sources sources(const Boundary& b) {

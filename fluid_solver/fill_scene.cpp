@@ -4,20 +4,19 @@
 #include <numeric>
 #include <random>
 
-#include "common/scene/occupancy_index.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/initial_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
+#include "fluid_solver/wall_rows.hpp"
 #include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
 
 namespace {
 
-// A particle nearer than this to another body's was placed twice.
-double nearest_bodies(const Parameters& p) {
-  return 0.5 * p.spacing;
-}
+/// Over the spacing: a particle nearer than this to another body's was placed twice. Rows that fit between
+/// faces may be somewhat nearer than half a spacing to either.
+constexpr double nearest_bodies = 0.4;
 
 /// Moves points off their lattice at random, each time alike.
 void disorder(std::vector<Vec>& points, double largest) {
@@ -31,13 +30,13 @@ void disorder(std::vector<Vec>& points, double largest) {
 }  // namespace
 
 void FluidModel::fill_regions() {
-  std::vector<Box> boxes;
-  for (const auto& region : parameters_.regions) boxes.push_back(region.box);
-  const auto lattice = fill(boxes, parameters_.holes, parameters_.spacing);
+  const Blocks fluid = blocks_of(parameters_);
+  const auto& boxes = fluid.boxes;
+  const Filling filling = fill_to_faces(fluid, parameters_.spacing);
+  const auto& lattice = filling.points;
+  misfits_ = filling.misfits;
   auto points = lattice;
   disorder(points, parameters_.start_disorder * parameters_.spacing);
-  if (points.empty())
-    throw BadInput({{"[fluid.region]", 0, 0, "the regions hold no particle at this spacing"}});
 
   auto& f = state_.fluid;
   f.count = points.size();
@@ -45,20 +44,28 @@ void FluidModel::fill_regions() {
   std::iota(f.id.begin(), f.id.end(), 0u);
   resize_fields(f, padded(f.count));
 
-  const double volume = std::pow(parameters_.spacing, dim), g = scene_.gravity.norm();
+  const double g = scene_.gravity.norm();
+  std::vector<char> filled(boxes.size(), 0);
   for (std::size_t i = 0; i < f.count; ++i) {
     set(f.x, i, points[i]);
-    for (const auto& region : parameters_.regions)
-      if (region.box.contains(lattice[i])) set(f.v, i, region.velocity);
+    for (std::size_t r = 0; r < boxes.size(); ++r)
+      if (boxes[r].contains(lattice[i])) {
+        set(f.v, i, parameters_.regions[r].velocity);
+        filled[r] = 1;
+      }
     f.rho[i] = parameters_.density;
     if (const auto& start = parameters_.hydrostatic_start; start && g > 0) {
       const double depth = start->surface_level + scene_.gravity.dot(points[i]) / g;
       f.rho[i] = density_at_depth(parameters_, g, depth);
     }
     start_flow(i);
-    f.m[i] = f.rho[i] * volume;
-    f.V[i] = volume;
+    f.V[i] = filling.cells[i].prod();
+    f.m[i] = f.rho[i] * f.V[i];
   }
+  for (std::size_t r = 0; r < boxes.size(); ++r)
+    if (!filled[r])
+      throw BadInput({{fmt::format("[[fluid.region]] '{}'", parameters_.regions[r].name), 0, 0,
+                       "holds no particle at this spacing"}});
 }
 
 void FluidModel::start_flow(std::size_t i) {
@@ -74,19 +81,21 @@ void FluidModel::start_flow(std::size_t i) {
 
 void FluidModel::fill_walls() {
   std::vector<Vec> still;
-  const double volume = std::pow(parameters_.spacing, dim);
-  const auto add = [&](const std::string& name, const std::vector<Vec>& points, const Wall* wall) {
+  std::vector<double> still_volumes;
+  const auto add = [&](const std::string& name, const std::vector<Vec>& points,
+                       const std::vector<double>& volumes, const Wall* wall) {
     Boundary& boundary = state_.boundaries.emplace_back();
     boundary.name = name;
     if (wall && wall->motion)
       boundary.motion = PrescribedMotion{*wall->motion, points, reach() / parameters_.sound_speed};
-    boundary.place(points, std::vector<double>(points.size(), volume), parameters_.density,
-                   parameters_.strip_width());
-    if (wall && wall->work_piece) boundary.make_work_piece(lattice_area_vectors(points, parameters_.spacing));
+    boundary.place(points, volumes, parameters_.density, parameters_.strip_width());
+    if (wall && wall->work_piece) boundary.make_work_piece(lattice_faces(points, parameters_.spacing));
   };
-  OccupancyIndex taken(nearest_bodies(parameters_));
   for (const auto& wall : scene_.walls) {
-    const auto points = fill({wall.box}, {}, parameters_.spacing);
+    const Filling filling = fill_wall(wall, parameters_, scene_.gravity);
+    const auto& points = filling.points;
+    std::vector<double> volumes;
+    for (const Vec& cell : filling.cells) volumes.push_back(cell.prod());
     const std::string place = fmt::format("[[wall]] '{}'", wall.name);
     const bool on_its_own = wall.motion || wall.work_piece;
     if (points.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
@@ -94,26 +103,22 @@ void FluidModel::fill_walls() {
       throw BadInput({{place, 0, 0,
                        "results call the walls at rest 'walls', the solid 'interface'; this "
                        "one, a body of its own, needs another name"}});
-    if (const auto overlap = taken.take(points, wall.name))
-      throw BadInput(
-          {{place, 0, 0,
-            fmt::format("overlaps the wall '{}' near ({:.6g}, {:.6g}) m: particles of two walls must be "
-                        "at least half a spacing apart",
-                        overlap->with, overlap->place[0], overlap->place[1])}});
-    if (on_its_own)
-      add(wall.name, points, &wall);
-    else
+    if (on_its_own) {
+      add(wall.name, points, volumes, &wall);
+    } else {
       still.insert(still.end(), points.begin(), points.end());
+      still_volumes.insert(still_volumes.end(), volumes.begin(), volumes.end());
+    }
   }
-  if (!still.empty()) add("walls", still, nullptr);
+  if (!still.empty()) add("walls", still, still_volumes, nullptr);
   move_boundaries(0.0);
   for (auto& boundary : state_.boundaries)
-    if (boundary.is_work_piece() && !boundary.moves())
+    if (boundary.is_work_piece())
       cover_faces(boundary, parameters_.spacing, state_.boundaries, parameters_.spacing);
 }
 
 void FluidModel::check_overlaps() const {
-  const double nearest = nearest_bodies(parameters_);
+  const double nearest = nearest_bodies * parameters_.spacing;
   StripOrder strips(parameters_.strip_width());
   const auto order = strips.sort(state_.fluid.x[0], state_.fluid.x[1], state_.fluid.count);
   VecField x = state_.fluid.x;
@@ -127,9 +132,10 @@ void FluidModel::check_overlaps() const {
     const Vec place = at(x, touching.near(touching.active().front()).back().sources.front());
     throw BadInput(
         {{"[fluid.region]", 0, 0,
-          fmt::format("overlaps a wall near ({:.6g}, {:.6g}) m: fluid and wall particles must be at least "
-                      "half a spacing apart",
-                      place[0], place[1])}});
+          fmt::format("overlaps {} near ({:.6g}, {:.6g}) m: their particles must be at least {:g} spacings "
+                      "apart",
+                      boundary.is_interface() ? "the solid" : "the wall '" + boundary.name + "'", place[0],
+                      place[1], nearest_bodies)}});
   }
 }
 

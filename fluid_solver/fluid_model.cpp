@@ -56,16 +56,17 @@ void FluidModel::read_state(std::istream& stream) {
 }
 
 void FluidModel::attach(const Interface& interface) {
-  std::vector<Vec> positions, area_vectors;
+  std::vector<Vec> positions;
+  std::vector<Faces> faces;
   for (std::size_t k = 0; k < interface.size(); ++k) {
     positions.push_back(vector_of(interface.position, k));
-    area_vectors.push_back(vector_of(interface.area_vector, k));
+    faces.push_back(faces_of(vector_of(interface.area_vector, k)));
   }
   Boundary& boundary = state_.boundaries.emplace_back();
   boundary.name = "interface";
   boundary.motion = MovingInterface(interface, reach() / parameters_.sound_speed);
   boundary.place(positions, interface.volume, parameters_.density, parameters_.strip_width());
-  boundary.make_work_piece(area_vectors);
+  boundary.make_work_piece(faces);
   cover_faces(boundary, interface.spacing, state_.boundaries, parameters_.spacing);
   check_overlaps();
   state_.balance = EnergyBalance(powers());

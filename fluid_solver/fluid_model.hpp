@@ -7,6 +7,7 @@
 
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
+#include "common/scene/fill.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/energy_balance.hpp"
 #include "fluid_solver/free_surface.hpp"
@@ -75,6 +76,8 @@ class FluidModel : public Solver {
   virtual std::vector<Power> powers() const = 0;
   const Particles& particles() const { return state_.fluid; }
   const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
+  /// Where rows of the fluid do not fit between faces.
+  const std::vector<Misfit>& misfits() const { return misfits_; }
   Timers& timers() { return timers_; }
   long list_builds() const { return state_.neighbours.builds(); }
 
@@ -153,6 +156,7 @@ class FluidModel : public Solver {
 
   Vec start_momentum_ = Vec::Zero();
   double start_energy_ = 0, start_potential_ = 0;  ///< [J per metre]
+  std::vector<Misfit> misfits_;
   std::optional<State> saved_;
 };
 

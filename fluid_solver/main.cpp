@@ -13,10 +13,12 @@
 #include "common/run/provenance.hpp"
 #include "common/run/run_lock.hpp"
 #include "common/run/standard_streams.hpp"
+#include "common/scene/bodies.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
+#include "fluid_solver/wall_rows.hpp"
 
 namespace {
 
@@ -39,7 +41,6 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
   CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());
   copy_references(scene, file, options.out);
-  model.record_surface(options.out);
   RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
   checkpoints.resume(record);
   run_recorded(record, [&] { run_alone(scene, model, record, 1, checkpoints); });
@@ -86,7 +87,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     throw;
   }
   const double joined = link.waiting_time();  // the record's time begins now
-  model.record_surface(options.out);
+  model.record_surface(options.out);          // anew, with the faces of the solid
   RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
   run_recorded(
       record, [&] { take_turns(link, model, record); }, [&] { link.leave(); },
@@ -122,6 +123,7 @@ ExitCode solve(const Options& options) {
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
   check_start(model, "[fluid]");
+  model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
   const auto& particles = model.particles();
   const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
@@ -129,11 +131,13 @@ ExitCode solve(const Options& options) {
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
+  for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
+  for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));
   for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
   if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing))
     log::warn("{}", *jet);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
-    warn_of_coarse_work_piece(file.number("solid.spacing").value_or(0), parameters);
+    warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
     return ExitCode::done;
   }
   if (file.has("solid"))

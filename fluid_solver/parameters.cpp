@@ -34,6 +34,11 @@ void describe(ParameterTable& table, Region& region) {
   table.vector("velocity", region.velocity, {.unit = "m/s", .help = "velocity at the start"});
 }
 
+void describe(ParameterTable& table, Hole& hole) {
+  table.text("name", hole.name, {.help = "by which a case with this one as its base means it"});
+  describe(table, static_cast<Box&>(hole));
+}
+
 void describe(ParameterTable& table, InitialFlow& flow) {
   table.choice("profile", flow.profile, {"taylor_green", "rotation", "strain", "standing_wave"},
                {.required = true, .help = "added to the velocity of the regions, with its pressure"});

@@ -19,6 +19,12 @@ struct Region {
 };
 void describe(ParameterTable& table, Region& region);
 
+/// A box cut out of the fluid.
+struct Hole : Box {
+  std::string name;  ///< by which a case that builds on this one replaces it; empty if it has none
+};
+void describe(ParameterTable& table, Hole& hole);
+
 /// A flow that all of the fluid starts with, see initial_flow.hpp.
 enum class FlowProfile { taylor_green, rotation, strain, standing_wave };
 struct InitialFlow {
@@ -84,7 +90,7 @@ struct Parameters : OptionalTerms {
       0.12;                   ///< largest margin of the neighbour lists, as a share of the kernel's support
   double start_disorder = 0;  ///< largest distance from the lattice at the start, share of the spacing
   std::vector<Region> regions;
-  std::vector<Box> holes;
+  std::vector<Hole> holes;
   std::optional<HydrostaticStart> hydrostatic_start;
   std::optional<InitialFlow> initial_flow;
   WallModel wall_model;

@@ -65,16 +65,6 @@ class Bodies {
       taken_;  // one a body: bodies may stand nearer to each other than their own particles
 };
 
-/// What a wall's length over the spacing may miss a whole number by.
-constexpr double row_tolerance = 0.1;
-
-/// Whether the fluid in `region` stands on that face of `wall` that lies towards positive `axis`.
-bool starts_on(const Box& wall, const Box& region, int axis, double spacing) {
-  const int other = 1 - axis;
-  return !region.round && std::abs(region.min[axis] - wall.max[axis]) < 0.5 * spacing &&
-         region.min[other] < wall.max[other] && region.max[other] > wall.min[other];
-}
-
 bool damps_noise(const Parameters& p) {
   const bool viscous = p.artificial_viscosity || p.laminar_viscosity || p.power_law || p.carreau;
   return viscous || (p.density_diffusion && p.density_diffusion->delta > 0);
@@ -127,25 +117,6 @@ std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Para
       "the work piece's particles stand {:.3g} m apart, the fluid's {:.3g} m: friction and removal will be "
       "far too small; take a spacing of the solid that is no larger, see cases/abrasive_flow/README.md",
       spacing, p.spacing);
-}
-
-std::vector<std::string> misplaced_faces(const std::vector<Wall>& walls, const Parameters& p) {
-  std::vector<std::string> said;
-  for (const Wall& wall : walls)
-    for (int axis = 0; axis < dim; ++axis) {
-      const double rows = (wall.box.max[axis] - wall.box.min[axis]) / p.spacing;
-      const bool touched = std::any_of(p.regions.begin(), p.regions.end(), [&](const auto& region) {
-        return starts_on(wall.box, region.box, axis, p.spacing);
-      });
-      if (wall.box.round || !touched || std::abs(rows - std::round(rows)) <= row_tolerance) continue;
-      const double gap = rows - std::ceil(rows - 0.5) + 0.5;
-      said.push_back(
-          fmt::format("wall '{}' is {:.4g} spacings long along {}: its last row stands {:.2f} spacings from "
-                      "its face, not "
-                      "0.5, and fluid may sink in or leave a gap; take a whole number of spacings",
-                      wall.name, rows, axis == 0 ? 'x' : 'y', gap));
-    }
-  return said;
 }
 
 Blow hardest_blow(const Scene& scene, const Parameters& p) {

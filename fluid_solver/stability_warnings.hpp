@@ -37,11 +37,6 @@ std::optional<std::string> beyond_thinnest_jet(const Particles& fluid, const std
 /// a medium that finds gaps in the surface sticks to it, and what friction and removal give is far too small.
 std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Parameters& parameters);
 
-/// A sentence for each wall whose last row of particles does not stand half a spacing from the fluid that
-/// starts on it: rows begin at the wall's smallest corner, so a wall that is no whole number of spacings
-/// thick ends beside its face, and fluid finds a gap there or sinks in.
-std::vector<std::string> misplaced_faces(const std::vector<Wall>& walls, const Parameters& parameters);
-
 /// Speed over c_0 that a wall takes up or loses at once above which pressures are 15 % off rho c_0 v, by
 /// cases/retreating_piston/start_map.toml.
 inline constexpr double start_edge = 0.075;

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
 
 namespace {
 
-constexpr auto none = std::numeric_limits<std::uint32_t>::max();
 /// Below this sum of V_f W_sf (0.25 at a plane interface) there is no contact to speak of.
 constexpr double least_contact_sum = 1e-3;
 /// Below this share rows differ too little in their distance to tell the bend of the velocity.
@@ -23,15 +23,18 @@ struct Contact {
   Vec velocity = Vec::Zero();  ///< of the medium against the surface [m/s]
 };
 
-Contact contact_of(const Boundary& surface, std::size_t k, const Particles& fluid, const Kernel& kernel) {
+/// `side`: the normal of the side whose fluid counts; zero: all fluid does.
+Contact contact_of(const Boundary& surface, std::size_t k, const Vec& side, const Particles& fluid,
+                   const Kernel& kernel) {
   const Vec v_s = at(surface.v, k);
   Contact mean;
   double sum = 0;
   for (const ShiftedNeighbours& near : surface.list_for_wall.near(k / lane_count)) {
     const Vec x_s = at(surface.x, k) + near.shift;
     for (const std::uint32_t f : near.sources) {
-      const double r = (at(fluid.x, f) - x_s).norm();
-      if (r >= kernel.support()) continue;
+      const Vec x_fs = at(fluid.x, f) - x_s;
+      const double r = x_fs.norm();
+      if (r >= kernel.support() || side.dot(x_fs) < 0) continue;
       const double V_W = fluid.V[f] * kernel.value(r);
       sum += V_W;
       mean.pressure += V_W * std::max(fluid.p[f], 0.0);
@@ -122,7 +125,7 @@ double shear_rate_at(const Boundary& surface, std::size_t k, const Face& face, c
 }  // namespace
 
 void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
-  place_.assign(boundaries.size(), {});
+  first_.assign(boundaries.size(), {});
   std::uint32_t work_piece = 0;
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const Boundary& body = boundaries[b];
@@ -131,17 +134,18 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
     std::vector<std::size_t> slot(
         body.count);  // by id, so that the record has one order however particles are sorted
     for (std::size_t k = 0; k < body.count; ++k) slot[body.id[k]] = k;
-    place_[b].assign(body.count, none);
-    for (std::size_t id = 0; id < body.count; ++id) {
-      const Vec A = at(body.area_vector, slot[id]), x = at(body.x, slot[id]);
-      if (A.isZero(0)) continue;
-      place_[b][id] = static_cast<std::uint32_t>(size());
-      work_piece_.push_back(work_piece);
-      area_.push_back(A.norm());
-      const Vec n = A.normalized();
-      normal_.insert(normal_.end(), n.begin(), n.end());
-      position_.insert(position_.end(), x.begin(), x.end());
+    for (const std::size_t k : slot) {
+      first_[b].push_back(size());
+      for (const auto& point : surface_points({at(body.lower_face, k), at(body.upper_face, k)})) {
+        work_piece_.push_back(work_piece);
+        area_.push_back(point.area_vector.norm());
+        alone_.push_back(point.alone);
+        const Vec n = point.area_vector.normalized(), x = at(body.x, k) + point.shift;
+        normal_.insert(normal_.end(), n.begin(), n.end());
+        position_.insert(position_.end(), x.begin(), x.end());
+      }
     }
+    first_[b].push_back(size());
     ++work_piece;
   }
   for (auto* sum : {&state_.pressure, &state_.speed, &state_.friction_work, &state_.sliding_pressure})
@@ -154,29 +158,33 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
                         const ClusterList& neighbours, const Kernel& kernel, double dt) {
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const Boundary& body = boundaries[b];
-    if (place_[b].empty()) continue;
-    const bool rubbed = !body.friction_force[0].empty();
+    if (first_[b].empty()) continue;
     for (std::size_t k = 0; k < body.count; ++k) {
-      const std::size_t s = place_[b][body.id[k]];
-      if (s == none) continue;
-      const Contact contact = contact_of(body, k, fluid, kernel);
-      if (contact.there) state_.wetted[s] = 1;
-      const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
-      const double sliding =
-          sticks_
-              ? removal_.grain_length * shear_rate_at(body, k, {at(body.x, k), at(body.v, k), n_s, *sticks_},
-                                                      fluid, neighbours, kernel)
-              : (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
-      state_.pressure[s] += contact.pressure * dt;
-      state_.speed[s] += sliding * dt;
-      state_.sliding_pressure[s] += contact.pressure * sliding * dt;
-      if (!rubbed) continue;
-      const Vec tau = at(body.friction_force, k) / area_[s];
-      Eigen::Map<Vec>(&state_.traction[dim * s]) += tau * dt;
-      state_.friction_work[s] += tau.dot(contact.velocity) * dt;
+      const std::size_t first = first_[b][body.id[k]], end = first_[b][body.id[k] + 1];
+      const double area = std::accumulate(&area_[first], &area_[end], 0.0);
+      for (std::size_t s = first; s < end; ++s) add_point(s, body, k, area, fluid, neighbours, kernel, dt);
     }
   }
   state_.since_row += dt;
+}
+
+void SurfaceRecord::add_point(std::size_t s, const Boundary& body, std::size_t k, double area,
+                              const Particles& fluid, const ClusterList& neighbours, const Kernel& kernel,
+                              double dt) {
+  const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
+  const Contact contact = contact_of(body, k, alone_[s] ? Vec(Vec::Zero()) : Vec(n_s), fluid, kernel);
+  if (contact.there) state_.wetted[s] = 1;
+  const double sliding =
+      sticks_ ? removal_.grain_length * shear_rate_at(body, k, {at(body.x, k), at(body.v, k), n_s, *sticks_},
+                                                      fluid, neighbours, kernel)
+              : (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
+  state_.pressure[s] += contact.pressure * dt;
+  state_.speed[s] += sliding * dt;
+  state_.sliding_pressure[s] += contact.pressure * sliding * dt;
+  if (body.friction_force[0].empty()) return;
+  const Vec tau = at(body.friction_force, k) / area;
+  Eigen::Map<Vec>(&state_.traction[dim * s]) += tau * dt;
+  state_.friction_work[s] += tau.dot(contact.velocity) * dt;
 }
 
 void SurfaceRecord::open(const std::filesystem::path& out) {

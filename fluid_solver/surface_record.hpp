@@ -1,7 +1,8 @@
 /// What the medium does to the surface of the work pieces, particle by particle: contact, sliding and what
 /// comes off, recorded over time in `surface.h5`.
 ///
-/// Of the fluid within the kernel's reach, at each surface particle s of area A_s and outward normal n_s:
+/// Of the fluid within the kernel's reach, at each surface particle s of area A_s and outward normal n_s (of
+/// one with opposite faces: at each of its sides, of the fluid on that side):
 ///
 ///     p_s = sum_f V_f max(p_f, 0) W_sf / sum_f V_f W_sf                         contact pressure
 ///     v_s = |mean of v_f - v_s, less its part along n_s|                        sliding speed, free slip
@@ -33,7 +34,7 @@ class SurfaceRecord {
   explicit SurfaceRecord(const Removal& removal, std::optional<double> sticks = {})
       : removal_(removal), sticks_(sticks) {}
 
-  /// Takes the particles with a face (area > 0) of the work pieces among `boundaries`, as they stand.
+  /// Takes the points (surface_points) of the work pieces among `boundaries`, as they stand.
   void attach(const std::vector<Boundary>& boundaries);
   /// Adds a step of `dt` [s] with the fluid, its `neighbours` and the friction forces of its last evaluation.
   void add(const std::vector<Boundary>& boundaries, const Particles& fluid, const ClusterList& neighbours,
@@ -52,6 +53,9 @@ class SurfaceRecord {
   std::vector<Observation> observe() const;
 
  private:
+  /// Adds the step to point s, of particle k of `body`, whose points have `area` [m] together.
+  void add_point(std::size_t s, const Boundary& body, std::size_t k, double area, const Particles& fluid,
+                 const ClusterList& neighbours, const Kernel& kernel, double dt);
   /// Depth removed so far from surface particle k, by the law that counts [m].
   double depth(std::size_t k) const { return wear_rate() * state_.sliding_pressure[k]; }
   /// Depth [m] per integral of p v dt [Pa m].
@@ -67,7 +71,10 @@ class SurfaceRecord {
   std::optional<double> sticks_;
   std::string names_;  ///< of the work pieces, joined by ";"
   std::vector<std::uint32_t> work_piece_;
-  std::vector<std::vector<std::uint32_t>> place_;  ///< by boundary: id -> place here, or `none`
+  /// By boundary: where the points of a particle begin here, by id, and where those of the last end; empty if
+  /// it is no work piece.
+  std::vector<std::vector<std::size_t>> first_;
+  std::vector<char> alone_;  ///< whether its particle has no other point
   std::vector<double> position_, normal_, area_;
   /// Integrals over time: since the last row, and since the start.
   struct State {

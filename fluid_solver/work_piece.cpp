@@ -6,27 +6,37 @@
 
 namespace toryu::fluid {
 
-std::vector<Vec> lattice_area_vectors(const std::vector<Vec>& points, double spacing) {
+std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing) {
   OccupancyIndex places(0.5 * spacing);
   places.take(points, "");
-  std::vector<Vec> area_vectors(points.size(), Vec::Zero());
+  std::vector<Faces> faces(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
-    for (int axis = 0; axis < dim; ++axis)
-      for (const double side : {-1.0, 1.0}) {
-        const Vec face = side * spacing * Vec::Unit(axis);
-        if (!places.taken(points[k] + face)) area_vectors[k] += face;
-      }
-  return area_vectors;
+    for (int axis = 0; axis < dim; ++axis) {
+      const Vec next = spacing * Vec::Unit(axis);
+      if (!places.taken(points[k] - next)) faces[k].lower[axis] = spacing;
+      if (!places.taken(points[k] + next)) faces[k].upper[axis] = spacing;
+    }
+  return faces;
 }
 
 namespace {
 
-/// Whether `point` lies in the cell of a particle of a wall that stands still.
-bool in_a_wall(const Vec& point, const std::vector<Boundary>& boundaries, double spacing) {
-  for (const auto& wall : boundaries)
-    for (std::size_t k = 0; k < wall.count && !wall.moves(); ++k)
-      if ((at(wall.x, k) - point).lpNorm<Eigen::Infinity>() < 0.501 * spacing) return true;
-  return false;
+bool same_motion(const Boundary& work_piece, const Boundary& wall) {
+  if (!wall.moves()) return !work_piece.moves() || work_piece.is_interface();
+  const auto* one = std::get_if<PrescribedMotion>(&work_piece.motion);
+  const auto* other = std::get_if<PrescribedMotion>(&wall.motion);
+  return one && other && one->motion == other->motion;
+}
+
+bool is_in(const Boundary& wall, const Vec& point, double spacing) {
+  const double half = 0.501 * spacing;
+  bool found = false;
+  wall.strips.in_box(wall.x[1], point[0] - half, point[0] + half, point[1] - half, point[1] + half,
+                     [&](std::size_t first, std::size_t last) {
+                       for (std::size_t k = first; k < last && !found; ++k)
+                         found = (at(wall.x, k) - point).lpNorm<Eigen::Infinity>() < half;
+                     });
+  return found;
 }
 
 }  // namespace
@@ -35,12 +45,41 @@ void cover_faces(Boundary& work_piece, double spacing, const std::vector<Boundar
                  double wall_spacing) {
   // Lattices that meet need not match: a little beyond the face is far enough.
   const double distance = 0.5 * spacing + 0.25 * wall_spacing;
-  for (std::size_t k = 0; k < work_piece.count; ++k)
-    for (int axis = 0; axis < dim; ++axis) {
-      double& area = work_piece.area_vector[axis][k];
-      const Vec beyond = at(work_piece.x, k) + std::copysign(distance, area) * Vec::Unit(axis);
-      if (area != 0 && in_a_wall(beyond, boundaries, wall_spacing)) area = 0;
-    }
+  for (const Boundary& wall : boundaries) {
+    if (&wall == &work_piece || !same_motion(work_piece, wall)) continue;
+    for (std::size_t k = 0; k < work_piece.count; ++k)
+      for (int axis = 0; axis < dim; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+          double& face = (side < 0 ? work_piece.lower_face : work_piece.upper_face)[axis][k];
+          if (face != 0 && is_in(wall, at(work_piece.x, k) + side * distance * Vec::Unit(axis), wall_spacing))
+            face = 0;
+        }
+  }
+}
+
+std::vector<SurfacePoint> surface_points(const Faces& faces) {
+  const Vec sum = faces.upper - faces.lower;
+  const auto opposite = (faces.lower.array() > 0 && faces.upper.array() > 0).eval();
+  if (!opposite.any()) {
+    if (sum.isZero(0)) return {};
+    return {{.area_vector = sum, .shift = Vec::Zero()}};
+  }
+  // A point for each choice of sides. Each face is shared by those that have it.
+  const double points = std::exp2(opposite.count());
+  std::vector<SurfacePoint> result{{.area_vector = sum / points, .shift = Vec::Zero(), .alone = false}};
+  for (int axis = 0; axis < dim; ++axis) {
+    if (!opposite[axis]) continue;
+    std::vector<SurfacePoint> sides;
+    for (const double side : {-1.0, 1.0})
+      for (SurfacePoint point : result) {
+        const double face = side < 0 ? faces.lower[axis] : faces.upper[axis];
+        point.area_vector[axis] = side * face * 2 / points;
+        point.shift[axis] = 0.5 * side * face;
+        sides.push_back(point);
+      }
+    result = sides;
+  }
+  return result;
 }
 
 }  // namespace toryu::fluid

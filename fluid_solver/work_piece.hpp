@@ -1,5 +1,5 @@
-/// The surface of a work piece: where the fluid's abrasive can touch it. An area vector [m per metre depth]
-/// of a particle is the sum of its cell's open faces, each its length times the outward normal; zero inside.
+/// The surface of a work piece: where the fluid's abrasive can touch it, told by the open faces of its
+/// particles' cells.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,25 @@
 
 namespace toryu::fluid {
 
-/// Area vectors of a body whose particles lie on a square lattice of `spacing` [m].
-std::vector<Vec> lattice_area_vectors(const std::vector<Vec>& points, double spacing);
+/// Open faces of a body whose particles lie on a square lattice of `spacing` [m].
+std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing);
 
-/// Where a work piece stands on a wall no fluid comes: takes off the faces of its cells, `spacing` [m] wide,
-/// that border on a cell of those `boundaries` that stand still, `wall_spacing` [m] wide.
+/// Where a work piece stands on a wall no fluid comes: closes the faces of its cells, `spacing` [m] wide,
+/// that border on a cell of those `boundaries`, `wall_spacing` [m] wide, that stand still as it does or move
+/// as it does. A solid's interface counts as still: what borders on a wall is held.
 void cover_faces(Boundary& work_piece, double spacing, const std::vector<Boundary>& boundaries,
                  double wall_spacing);
+
+/// A place where a particle of a work piece is touched.
+struct SurfacePoint {
+  Vec area_vector;    ///< of its faces: length times outward normal [m per metre depth]
+  Vec shift;          ///< of the place from the particle [m]
+  bool alone = true;  ///< whether the particle has no other
+};
+
+/// The surface of a particle with these faces: none inside; one point if all its faces look one way, along an
+/// edge or across a corner. Where two opposite faces are open, as in a body that is one row thick, each side
+/// has a point of its own, on the face.
+std::vector<SurfacePoint> surface_points(const Faces& faces);
 
 }  // namespace toryu::fluid

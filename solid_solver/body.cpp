@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/scene/fill.hpp"
 #include "common/scene/occupancy_index.hpp"
 
 namespace toryu::solid {
@@ -97,12 +98,11 @@ std::vector<std::uint32_t> Body::inside(const Box& box) const {
 std::vector<std::uint32_t> Body::near_surface(double reach) const {
   // A hair more: where a row lies at the reach itself, rounding must not choose among its particles. A layer
   // that is pushed against water would turn aside.
-  reach *= 1 + 1e-9;
+  OccupancyIndex sites(reach * (1 + 1e-9));
+  sites.take(outside, "");
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < size(); ++i)
-    if (std::any_of(outside.begin(), outside.end(),
-                    [&](const Vec& site) { return (site - X[i]).norm() <= reach; }))
-      found.push_back(static_cast<std::uint32_t>(i));
+    if (sites.taken(X[i])) found.push_back(static_cast<std::uint32_t>(i));
   return found;
 }
 

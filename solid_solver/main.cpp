@@ -13,6 +13,7 @@
 #include "common/run/provenance.hpp"
 #include "common/run/run_lock.hpp"
 #include "common/run/standard_streams.hpp"
+#include "common/scene/bodies.hpp"
 #include "solid_solver/detached_list.hpp"
 #include "solid_solver/make_model.hpp"
 #include "solid_solver/stability_warnings.hpp"
@@ -129,6 +130,7 @@ ExitCode solve(const Options& options) {
   check_start(*model, "[solid]");
   check_columns(*model, "[solid]");
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
+  for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
   if (options.check) return ExitCode::done;
   log::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
   if (!file.has("fluid")) {

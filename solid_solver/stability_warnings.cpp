@@ -29,7 +29,27 @@ void guard_artificial_stress(const Parameters& p, std::vector<std::string>& said
                     epsilon, most_epsilon));
 }
 
-/// Rows of the thinnest region that no clamp holds as a whole; round ones have none.
+/// Length along `axis` of the solid on the line through the middle of `region`: what touches it is one with
+/// it [m].
+double thickness(const Parameters& p, const Region& region, int axis) {
+  const int across = 1 - axis;
+  const double middle = 0.5 * (region.box.min[across] + region.box.max[across]), rounding = 1e-6 * p.spacing;
+  double low = region.box.min[axis], high = region.box.max[axis];
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const auto& [name, box, velocity, observed] : p.regions) {
+      const bool touches = !box.round && box.min[across] <= middle && box.max[across] > middle &&
+                           box.min[axis] <= high + rounding && box.max[axis] >= low - rounding;
+      if (!touches || (box.min[axis] >= low && box.max[axis] <= high)) continue;
+      low = std::min(low, box.min[axis]);
+      high = std::max(high, box.max[axis]);
+      grows = true;
+    }
+  }
+  return high - low;
+}
+
+/// Rows of the solid where it is thinnest and no clamp holds a region as a whole; round regions have none.
 double fewest_rows(const Parameters& p) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const auto& region : p.regions) {
@@ -38,7 +58,7 @@ double fewest_rows(const Parameters& p) {
              (clamp.box.max.array() >= region.box.max.array()).all();
     });
     if (!held && !region.box.round)
-      fewest = std::min(fewest, (region.box.max - region.box.min).minCoeff() / p.spacing);
+      fewest = std::min({fewest, thickness(p, region, 0) / p.spacing, thickness(p, region, 1) / p.spacing});
   }
   return std::round(fewest);
 }
@@ -47,14 +67,14 @@ void guard_thin_plates(const Parameters& p, std::vector<std::string>& said) {
   const double rows = fewest_rows(p), nu = p.material.poissons_ratio;
   if (rows < (p.hourglass ? 3 : 12))
     said.push_back(
-        fmt::format("a plate of {:g} rows{} bends by 6 % too little or too much, or more; see "
+        fmt::format("a plate of {:g} row{}{} bends by 6 % too little or too much, or more; see "
                     "cases/oscillating_plate/thin_map.toml",
-                    rows, p.hourglass ? "" : " without [solid.hourglass]"));
+                    rows, rows == 1 ? "" : "s", p.hourglass ? "" : " without [solid.hourglass]"));
   if (rows < 5 && nu > 0.48)
     said.push_back(
-        fmt::format("a plate of {:g} rows with Poisson's ratio {:g} is too stiff, as its volume can hardly "
+        fmt::format("a plate of {:g} row{} with Poisson's ratio {:g} is too stiff, as its volume can hardly "
                     "change; see cases/oscillating_plate/poisson_map.toml",
-                    rows, nu));
+                    rows, rows == 1 ? "" : "s", nu));
 }
 
 /// Distance of two boxes [m], 0 where they touch.

@@ -154,8 +154,17 @@ void CaseFile::ignore_sections(const std::vector<std::string>& sections) {
   content_->left_sections.insert(content_->left_sections.end(), sections.begin(), sections.end());
 }
 
-std::optional<double> CaseFile::number(const std::string& path) const {
-  return content_->root.at_path(path).value<double>();
+template <class Value>
+std::optional<Value> CaseFile::value(const std::string& path) const {
+  return content_->root.at_path(path).value<Value>();
+}
+template std::optional<bool> CaseFile::value(const std::string& path) const;
+template std::optional<double> CaseFile::value(const std::string& path) const;
+template std::optional<std::string> CaseFile::value(const std::string& path) const;
+
+std::size_t CaseFile::count(const std::string& list) const {
+  const toml::array* array = content_->root.at_path(list).as_array();
+  return array ? array->size() : 0;
 }
 
 void CaseFile::fault(const std::string& key, const std::string& message) {

@@ -49,9 +49,12 @@ class CaseFile {
 
   /// Top-level sections that belong to another participant and are not looked into.
   void ignore_sections(const std::vector<std::string>& sections);
-  /// A number in a section that belongs to another participant ("fluid.spacing",
-  /// "solid.region[0].box.min[1]"), if it is there: for estimates, never for what is computed.
-  std::optional<double> number(const std::string& path) const;
+  /// A value (double, bool, std::string) in a section that belongs to another participant ("fluid.spacing",
+  /// "solid.region[0].box.min[1]"), if it is there: for checks and estimates, never for what is computed.
+  template <class Value>
+  std::optional<Value> value(const std::string& path) const;
+  /// How many items the list of another participant ("solid.region") has.
+  std::size_t count(const std::string& list) const;
   /// Adds a fault that the owner of a section found by itself, at the place of `key`: a path with items by
   /// number or name ("fluid.region.0.box").
   void fault(const std::string& key, const std::string& message);

@@ -12,7 +12,10 @@ namespace {
 
 class Sum {
  public:
-  explicit Sum(std::uint64_t secret) { XXH3_64bits_reset_withSeed(&state_, secret); }
+  explicit Sum(std::uint64_t secret) {
+    XXH3_INITSTATE(&state_);  // else a state that the stack held of the same secret counts as prepared
+    XXH3_64bits_reset_withSeed(&state_, secret);
+  }
   std::uint64_t digest() const { return XXH3_64bits_digest(&state_); }
 
   template <class Value>

@@ -1,38 +1,228 @@
-#include <cmath>
+#include "common/scene/fill.hpp"
 
-#include "common/scene/scene.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace toryu {
 
+static_assert(dim == 2, "boxes are filled row by row in the plane");
+
 namespace {
-
-using Index = Eigen::Array<long, dim, 1>;
-
-/// Lattice points with begin <= index < end.
-struct IndexBox {
-  Index begin, end;
-  bool contains(const Index& index) const { return (index >= begin).all() && (index < end).all(); }
-};
 
 /// Rounding moves the edge of a box by far less than this share of a spacing, and no user means so little.
 constexpr double rounding = 1e-6;
-
-IndexBox lattice_range(const Box& box, const Vec& origin, double spacing) {
-  const auto first_at_or_above = [&](const Vec& corner) -> Index {
-    return ((corner - origin).array() / spacing - 0.5 - rounding).ceil().cast<long>();
-  };
-  return {first_at_or_above(box.min), first_at_or_above(box.max)};
-}
-
 /// A body of more particles is a slip of the pen, and would take all memory before anything notices.
 constexpr double largest_body = 1e8;
+/// By how much of the spacing rows that fit between faces may differ from it.
+constexpr double largest_misfit = 0.1;
+/// Faces that are nearer than this share of a spacing have no row between them.
+constexpr double least_row = 0.5;
 
-/// Whether one of `boxes`, whose lattice ranges are `ranges`, holds the lattice point `index` at x [m].
-bool in_any(const std::vector<IndexBox>& ranges, const std::vector<Box>& boxes, const Index& index,
-            const Vec& x) {
+/// Begin <= index < end.
+struct Range {
+  std::size_t begin, end;
+};
+
+/// Rows of cells along one axis.
+struct Rows {
+  std::vector<double> centre, side;  ///< [m]
+  /// Those whose centre lies between two coordinates.
+  Range between(double low, double high, double spacing) const {
+    const auto first_at_or_above = [&](double x) {
+      return static_cast<std::size_t>(std::lower_bound(centre.begin(), centre.end(), x - rounding * spacing) -
+                                      centre.begin());
+    };
+    return {first_at_or_above(low), first_at_or_above(high)};
+  }
+};
+
+/// The rows of the lattice through `origin` that may lie between two coordinates.
+Rows lattice(double origin, double low, double high, double spacing) {
+  Rows rows;
+  const double last = std::ceil((high - origin) / spacing);
+  for (double k = std::max(0.0, std::floor((low - origin) / spacing) - 1); k <= last; ++k)
+    rows.centre.push_back(origin + spacing * (k + 0.5));
+  rows.side.assign(rows.centre.size(), spacing);
+  return rows;
+}
+
+/// Rows from face to face; `faces` are in order.
+Rows fitted(const std::vector<double>& faces, int axis, double spacing, std::vector<Misfit>& misfits) {
+  Rows rows;
+  const double least = least_row * spacing, last = faces.back();
+  std::vector<double> kept{faces.front()};
+  const auto keep = [&](double face) {
+    const double nearest = std::min(face - kept.back(), face < last ? last - face : face - kept.back());
+    if (nearest >= least)
+      kept.push_back(face);
+    else if (nearest > rounding * spacing)
+      misfits.push_back({axis, face - kept.back() < least ? kept.back() : face,
+                         face - kept.back() < least ? face : last, 0});
+  };
+  for (std::size_t k = 1; k < faces.size(); ++k) keep(faces[k]);
+  for (std::size_t k = 1; k < kept.size(); ++k) {
+    const double width = kept[k] - kept[k - 1];
+    const long count = std::max(1l, std::lround(width / spacing));
+    const double side = width / static_cast<double>(count);
+    if (std::abs(side / spacing - 1) > largest_misfit) misfits.push_back({axis, kept[k - 1], kept[k], count});
+    for (long n = 0; n < count; ++n) {
+      rows.centre.push_back(kept[k - 1] + (static_cast<double>(n) + 0.5) * side);
+      rows.side.push_back(side);
+    }
+  }
+  return rows;
+}
+
+bool touch(const Box& a, const Box& b, double distance) {
+  return ((a.max - b.min).array() >= -distance).all() && ((b.max - a.min).array() >= -distance).all();
+}
+
+/// Parts whose boxes each touch another, with the holes in them.
+std::vector<Blocks> groups_of(const Blocks& body, double spacing) {
+  const auto& [boxes, holes] = body;
+  std::vector<std::size_t> group(boxes.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (std::size_t a = 0; a < boxes.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (const auto old = group[a]; group[b] != old && touch(boxes[a], boxes[b], least_row * spacing))
+        std::replace(group.begin(), group.end(), old, group[b]);
+  std::vector<Blocks> groups;
+  for (std::size_t first = 0; first < boxes.size(); ++first) {
+    Blocks found;
+    for (std::size_t b = 0; b < boxes.size(); ++b)
+      if (group[b] == first) found.boxes.push_back(boxes[b]);
+    for (const Box& hole : holes)
+      if (std::any_of(found.boxes.begin(), found.boxes.end(),
+                      [&](const Box& b) { return touch(hole, b, -rounding * spacing); }))
+        found.holes.push_back(hole);
+    if (!found.boxes.empty()) groups.push_back(std::move(found));
+  }
+  return groups;
+}
+
+/// The columns of a row in which a box has its centres.
+Range columns_in(const Box& box, const Rows& columns, double y, double spacing) {
+  Range range = columns.between(box.min[0], box.max[0], spacing);
+  if (!box.round) return range;
+  const auto begin = columns.centre.begin();
+  const auto middle = std::clamp(columns.between(0.5 * (box.min[0] + box.max[0]), box.max[0], 0).begin,
+                                 range.begin, range.end);
+  const auto at = [&](std::size_t k) { return begin + static_cast<std::ptrdiff_t>(k); };
+  const auto inside = [&](double x) { return box.in_ellipse({x, y}); };
+  const auto first = std::partition_point(at(range.begin), at(middle), [&](double x) { return !inside(x); });
+  const auto last = std::partition_point(at(middle), at(range.end), inside);
+  return {static_cast<std::size_t>(first - begin), static_cast<std::size_t>(last - begin)};
+}
+
+/// What all of `boxes` have of a row, in order and each column once.
+std::vector<Range> united(const std::vector<Box>& boxes, const std::vector<Range>& rows_of,
+                          const Rows& columns, std::size_t row, double y, double spacing) {
+  std::vector<Range> ranges, result;
   for (std::size_t b = 0; b < boxes.size(); ++b)
-    if (ranges[b].contains(index) && (!boxes[b].round || boxes[b].in_ellipse(x))) return true;
-  return false;
+    if (row >= rows_of[b].begin && row < rows_of[b].end)
+      if (const Range in = columns_in(boxes[b], columns, y, spacing); in.begin < in.end) ranges.push_back(in);
+  std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+  for (const Range& range : ranges)
+    if (result.empty() || range.begin > result.back().end)
+      result.push_back(range);
+    else
+      result.back().end = std::max(result.back().end, range.end);
+  return result;
+}
+
+void fill_group(const Blocks& group, const Rows& columns, const Rows& rows, double spacing,
+                Filling& filling) {
+  std::vector<Range> filled, empty;
+  for (const Box& box : group.boxes) filled.push_back(rows.between(box.min[1], box.max[1], spacing));
+  for (const Box& hole : group.holes) empty.push_back(rows.between(hole.min[1], hole.max[1], spacing));
+  for (std::size_t row = 0; row < rows.centre.size(); ++row) {
+    const double y = rows.centre[row];
+    const auto holes = united(group.holes, empty, columns, row, y, spacing);
+    for (const Range& range : united(group.boxes, filled, columns, row, y, spacing))
+      for (std::size_t k = range.begin; k < range.end; ++k) {
+        const auto hole = std::find_if(holes.begin(), holes.end(),
+                                       [&](const Range& h) { return k >= h.begin && k < h.end; });
+        if (hole != holes.end()) {
+          k = hole->end - 1;
+          continue;
+        }
+        filling.points.emplace_back(columns.centre[k], y);
+        filling.cells.emplace_back(columns.side[k], rows.side[row]);
+      }
+  }
+}
+
+/// Coordinates of the faces of a group along an axis, and of those beside it in its range, in order.
+std::vector<double> faces_of(const Blocks& group, const std::vector<Blocks>& beside, int axis) {
+  std::vector<double> faces;
+  for (const Box& box : group.boxes) faces.insert(faces.end(), {box.min[axis], box.max[axis]});
+  std::sort(faces.begin(), faces.end());
+  const double low = faces.front(), high = faces.back();
+  const auto add = [&](const std::vector<Box>& boxes) {
+    for (const Box& box : boxes)
+      for (const double face : {box.min[axis], box.max[axis]})
+        if (face > low && face < high) faces.push_back(face);
+  };
+  add(group.holes);
+  for (const Blocks& other : beside) {
+    const auto touches = [&](const Box& box) {
+      return std::any_of(other.boxes.begin(), other.boxes.end(),
+                         [&](const Box& b) { return touch(box, b, 0); });
+    };
+    if (std::none_of(group.boxes.begin(), group.boxes.end(), touches)) continue;
+    add(other.boxes);
+    add(other.holes);
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+bool on_lattice(const std::vector<double>& faces, double origin, double spacing) {
+  return std::all_of(faces.begin(), faces.end(), [&](double face) {
+    const double rows = (face - origin) / spacing;
+    return std::abs(rows - std::round(rows)) <= rounding;
+  });
+}
+
+/// Row by row over all groups.
+void sort_rows(Filling& filling) {
+  std::vector<std::size_t> order(filling.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const Vec &p = filling.points[a], &q = filling.points[b];
+    return p[1] != q[1] ? p[1] < q[1] : p[0] < q[0];
+  });
+  Filling sorted;
+  for (const std::size_t i : order) {
+    sorted.points.push_back(filling.points[i]);
+    sorted.cells.push_back(filling.cells[i]);
+  }
+  filling.points.swap(sorted.points);
+  filling.cells.swap(sorted.cells);
+}
+
+/// `beside`: nothing where rows need not fit between faces.
+Filling fill(const Blocks& body, double spacing, const Blocks* beside) {
+  Filling filling;
+  if (body.boxes.empty()) return filling;
+  check_size(body.boxes, spacing);
+  Vec origin = body.boxes.front().min;
+  for (const auto& box : body.boxes) origin = origin.cwiseMin(box.min);
+  const auto groups = groups_of(body, spacing);
+  const auto others = beside ? groups_of(*beside, spacing) : std::vector<Blocks>{};
+  for (const Blocks& group : groups) {
+    const auto rows = [&](int axis) {
+      const auto faces = faces_of(group, others, axis);
+      if (!beside || on_lattice(faces, origin[axis], spacing))
+        return lattice(origin[axis], faces.front(), faces.back(), spacing);
+      filling.on_lattice = false;
+      return fitted(faces, axis, spacing, filling.misfits);
+    };
+    fill_group(group, rows(0), rows(1), spacing, filling);
+  }
+  if (groups.size() > 1) sort_rows(filling);
+  return filling;
 }
 
 }  // namespace
@@ -48,29 +238,11 @@ void check_size(const std::vector<Box>& boxes, double spacing) {
 }
 
 std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing) {
-  std::vector<Vec> points;
-  if (boxes.empty()) return points;
-  check_size(boxes, spacing);
-  Vec origin = boxes.front().min;
-  for (const auto& box : boxes) origin = origin.cwiseMin(box.min);
+  return fill({boxes, holes}, spacing, nullptr).points;
+}
 
-  std::vector<IndexBox> filled, empty;
-  for (const auto& box : boxes) filled.push_back(lattice_range(box, origin, spacing));
-  for (const auto& hole : holes) empty.push_back(lattice_range(hole, origin, spacing));
-  Index end = filled.front().end;
-  for (const auto& box : filled) end = end.max(box.end);
-
-  // Counts up like the digits of a clock, the first axis fastest.
-  for (Index index = Index::Zero(); index[dim - 1] < end[dim - 1];) {
-    const Vec x = origin + spacing * (index.cast<double>() + 0.5).matrix();
-    if (in_any(filled, boxes, index, x) && !in_any(empty, holes, index, x)) points.push_back(x);
-    ++index[0];
-    for (int axis = 0; axis + 1 < dim && index[axis] >= end[axis]; ++axis) {
-      index[axis] = 0;
-      ++index[axis + 1];
-    }
-  }
-  return points;
+Filling fill_to_faces(const Blocks& body, double spacing, const Blocks& beside) {
+  return fill(body, spacing, &beside);
 }
 
 }  // namespace toryu

@@ -1,5 +1,7 @@
 #include "common/scene/reference.hpp"
 
+#include <fnmatch.h>
+
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -12,6 +14,12 @@ namespace toryu {
 namespace {
 
 const std::vector<std::string> participants = {"fluid", "solid", "coupler"};
+
+constexpr std::array results_files = {
+#include "common/scene/results_files.inc"
+};
+/// By which runs keep to themselves, find each other and are stopped.
+constexpr std::array control_files = {"run.lock", "launch.lock", "run.secret", "stop"};
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -161,13 +169,9 @@ bool is_written_by_runs(const std::filesystem::path& path) {
   if (first == "frames" || first == "checkpoint") return true;
   std::string name = normal.string();
   if (name.ends_with(".part")) name.resize(name.size() - 5);
-  for (const char* fixed : {"used_case.toml", "log.txt", "interface.h5", "surface.h5", "detached.csv",
-                            "report.html", "run.lock", "launch.lock", "run.secret", "stop"})
-    if (name == fixed) return true;
-  for (const auto& participant : participants)
-    for (const char* ending : {".csv", ".hdf.series", "_summary.toml"})
-      if (name == participant + ending) return true;
-  return false;
+  const auto matches = [&](const char* pattern) { return fnmatch(pattern, name.c_str(), FNM_PATHNAME) == 0; };
+  return std::any_of(results_files.begin(), results_files.end(), matches) ||
+         std::any_of(control_files.begin(), control_files.end(), matches);
 }
 
 }  // namespace toryu

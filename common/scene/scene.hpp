@@ -40,6 +40,7 @@ struct Motion {
   /// Change of the velocity over `length` [s] about t, by that length [m/s2]. The slope of a table at one
   /// instant says nothing of a jump that is over in the next.
   Vec mean_acceleration(double t, double length) const;
+  bool operator==(const Motion&) const = default;
 };
 void describe(ParameterTable& table, Motion& motion);
 
@@ -73,22 +74,13 @@ struct Scene {
 /// The keys of [case]; walls and references are sections of their own.
 void describe(ParameterTable& table, Scene& scene);
 /// Reads [case], [[wall]] and [[reference]], and checks that names of walls differ, that walls lie within the
-/// domain and that references can be read. Faults are collected in `file`.
+/// domain, that no two bodies of the case are in one place (check_bodies) and that references can be read.
+/// Faults are collected in `file`.
 Scene read_scene(CaseFile& file);
 /// A file of the case that lies where a run with its results in `out` would write is a fault of `file`.
 void check_folder(CaseFile& file, const std::filesystem::path& out);
 /// Copies the files of the references to `out`, so that the case written there finds them as well. Another
 /// file that is there stays beside the copy, as NAME.N.
 void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out);
-
-/// Throws BadInput if a body of `boxes` would have more than 1e8 particles.
-void check_size(const std::vector<Box>& boxes, double spacing);
-
-/// Points of the lattice origin + (i + 1/2) spacing that lie in some of `boxes` and in none of `holes`, row
-/// by row. `origin` is the smallest corner of `boxes`, so that a box whose sides are whole multiples of the
-/// spacing is filled exactly, whatever the rounding. Otherwise a particle is there if its centre is inside; a
-/// centre within 1e-6 spacings of an edge counts as on it, and belongs to the box whose smaller edge it is.
-/// Checks the size first.
-std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing);
 
 }  // namespace toryu

@@ -31,13 +31,11 @@ std::vector<std::uint32_t> StripOrder::sort(std::span<const double> x, std::span
 }
 
 void StripOrder::index(std::span<const double> x, std::size_t count) {
-  starts_.clear();
-  first_strip_ = count > 0 ? strip(x[0]) : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto s = static_cast<std::size_t>(strip(x[i]) - first_strip_);
-    while (starts_.size() <= s) starts_.push_back(static_cast<std::uint32_t>(i));
-  }
-  starts_.push_back(static_cast<std::uint32_t>(count));
+  strips_.clear();
+  for (std::size_t i = 0; i < count; ++i)
+    if (const std::int64_t s = strip(x[i]); strips_.empty() || strips_.back().number != s)
+      strips_.push_back({s, i});
+  strips_.push_back({0, count});
 }
 
 std::size_t StripOrder::find(std::span<const double> y, std::size_t first, std::size_t last, double y_0,

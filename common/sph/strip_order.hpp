@@ -32,13 +32,14 @@ class StripOrder {
   template <class Visit>
   void in_box(std::span<const double> y, double x_min, double x_max, double y_min, double y_max,
               Visit&& visit) const {
-    const auto count = static_cast<std::int64_t>(starts_.size()) - 1;
-    const auto first = std::max<std::int64_t>(strip(x_min) - first_strip_, 0);
-    const auto last = std::min<std::int64_t>(strip(x_max) - first_strip_, count - 1);
-    for (auto s = first; s <= last; ++s) {
-      const bool up = (s + first_strip_) % 2 == 0;
-      const std::size_t begin = find(y, starts_[s], starts_[s + 1], up ? y_min : y_max, up, false);
-      const std::size_t end = find(y, begin, starts_[s + 1], up ? y_max : y_min, up, true);
+    const std::int64_t last = strip(x_max);
+    const auto first = std::partition_point(strips_.begin(), strips_.end() - 1,
+                                            [&, s = strip(x_min)](const Strip& a) { return a.number < s; });
+    for (auto here = first; here != strips_.end() - 1 && here->number <= last; ++here) {
+      const bool up = here->number % 2 == 0;
+      const std::size_t strip_end = (here + 1)->begin;
+      const std::size_t begin = find(y, here->begin, strip_end, up ? y_min : y_max, up, false);
+      const std::size_t end = find(y, begin, strip_end, up ? y_max : y_min, up, true);
       if (begin < end) visit(begin, end);
     }
   }
@@ -49,9 +50,12 @@ class StripOrder {
   static std::size_t find(std::span<const double> y, std::size_t first, std::size_t last, double y_0, bool up,
                           bool behind);
 
+  struct Strip {
+    std::int64_t number;
+    std::size_t begin;  ///< its first point
+  };
   double width_;
-  std::int64_t first_strip_ = 0;
-  std::vector<std::uint32_t> starts_;  ///< one more than there are strips
+  std::vector<Strip> strips_{{0, 0}};  ///< those that hold points, and one behind them
 };
 
 }  // namespace toryu

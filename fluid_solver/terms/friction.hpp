@@ -6,7 +6,8 @@
 /// (sign and reaction mended: printed with one sign for both phases). d_s is a length:
 ///
 ///     as printed   d_s = d_0, for each particle of the work piece
-///     normalised   d_s = |A_s|/sum_f V_f W_sf, A_s the particle's area vector (none inside)
+///     normalised   d_s = |A_s|/sum_f V_f W_sf, A_s the lengths of its open faces across x and y (none
+///     inside)
 ///
 /// Normalised, a surface under the pressure p bears the traction mu_A p. As printed it bears mu_A p times a
 /// sum of kernel values, `printed_share`: 0.16, 0.22, 0.25, 0.30 at h/d_0 = 1.0, 1.2, 1.3, 1.5.

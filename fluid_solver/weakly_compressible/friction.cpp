@@ -22,7 +22,8 @@ void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& f
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k) {
       const std::size_t first = active[k] * lane_count;
-      const VecLanes A_s = load(work_piece.area_vector, first);
+      VecLanes A_s = load(work_piece.lower_face, first);
+      add_product(A_s, 1.0, load(work_piece.upper_face, first));
       Lanes sum = 0.0;
       over_neighbours(
           W, work_piece.list_for_wall.near(active[k]), load(work_piece.x, first), pointers(fluid.x),

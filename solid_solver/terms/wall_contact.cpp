@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/scene/fill.hpp"
 #include "common/sph/neighbour_loop.hpp"
 #include "common/sph/skin.hpp"
 

@@ -41,18 +41,32 @@ std::vector<std::uint32_t> joined(const Body& body, std::vector<std::uint32_t> n
 
 }  // namespace
 
-BodyIndex::BodyIndex(const Body& body) : body_(body), by_x_(body.size()) {
-  std::iota(by_x_.begin(), by_x_.end(), 0u);
-  std::stable_sort(by_x_.begin(), by_x_.end(),
+BodyIndex::BodyIndex(const Body& body)
+    : body_(body), width_(fit_reach * body.spacing), by_strip_(body.size()), rank_by_x_(body.size()) {
+  std::iota(by_strip_.begin(), by_strip_.end(), 0u);
+  std::stable_sort(by_strip_.begin(), by_strip_.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return body.X[a][0] < body.X[b][0]; });
+  std::uint32_t rank = 0;
+  for (const std::uint32_t j : by_strip_) rank_by_x_[j] = rank++;
+  std::stable_sort(by_strip_.begin(), by_strip_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(strip_of(a), body.X[a][1]) < std::pair(strip_of(b), body.X[b][1]);
+  });
 }
 
 std::vector<std::uint32_t> BodyIndex::about(const Vec& point, double reach) const {
   std::vector<std::uint32_t> found;
-  const auto first = std::partition_point(by_x_.begin(), by_x_.end(),
-                                          [&](std::uint32_t j) { return body_.X[j][0] < point[0] - reach; });
-  for (auto j = first; j != by_x_.end() && body_.X[*j][0] <= point[0] + reach; ++j)
-    if ((body_.X[*j] - point).norm() < reach) found.push_back(*j);
+  const double first = strip_at(point[0] - reach);
+  const int count = static_cast<int>(strip_at(point[0] + reach) - first) + 1;
+  for (int k = 0; k < count; ++k) {
+    const std::pair lowest(first + k, point[1] - reach);
+    auto j = std::partition_point(by_strip_.begin(), by_strip_.end(), [&](std::uint32_t i) {
+      return std::pair(strip_of(i), body_.X[i][1]) < lowest;
+    });
+    for (; j != by_strip_.end() && strip_of(*j) == first + k && body_.X[*j][1] <= point[1] + reach; ++j)
+      if ((body_.X[*j] - point).norm() < reach) found.push_back(*j);
+  }
+  std::sort(found.begin(), found.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return rank_by_x_[a] < rank_by_x_[b]; });
   return found;
 }
 

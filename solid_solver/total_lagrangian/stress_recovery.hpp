@@ -19,6 +19,7 @@
 
 #include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,17 +30,23 @@
 
 namespace toryu::solid {
 
-/// Finds particles of the unloaded body by place.
+/// Finds particles of the unloaded body by place, in a time that does not depend on how many there are along
+/// either axis.
 class BodyIndex {
  public:
   explicit BodyIndex(const Body& body);
   const Body& body() const { return body_; }
-  /// Numbers of the particles nearer to `point` than `reach` [m].
+  /// Numbers of the particles nearer to `point` than `reach` [m], in the order of x.
   std::vector<std::uint32_t> about(const Vec& point, double reach) const;
 
  private:
+  double strip_at(double x) const { return std::floor(x / width_); }
+  double strip_of(std::uint32_t j) const { return strip_at(body_.X[j][0]); }
+
   const Body& body_;
-  std::vector<std::uint32_t> by_x_;
+  double width_;                          ///< of the strips along y in which the particles lie [m]
+  std::vector<std::uint32_t> by_strip_;   ///< in a strip by y
+  std::vector<std::uint32_t> rank_by_x_;  ///< of each particle
 };
 
 /// The gradient at a point as a weighted sum of displacements.

@@ -52,6 +52,7 @@ class CaseText {
     try {
       CaseFile file(folder_, overrides);
       read_scene(file);
+      file.ignore_sections({"fluid", "solid"});
       file.throw_if_faulty();
     } catch (const BadInput& error) {
       return shortened(error.what());

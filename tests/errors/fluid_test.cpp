@@ -51,6 +51,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},
+        Fault{"ColumnOfTheResults", "fluid.observer=[{name=\"kinetic_energy\",quantity=\"front_x\"}]",
+              "[fluid]: error: two columns of the results would be named 'kinetic_energy': an observer, a "
+              "region or a wall needs another name"},
         Fault{"FrictionOnNothing", "fluid.friction.coefficient=0.3",
               "--set fluid.friction.coefficient=0.3: error: there is nothing to rub on: friction acts on a "
               "[[wall]] "
@@ -79,9 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
               "--set fluid.observer=[{name=\"q\", quantity=\"largest_void\"}]: error: a largest void needs a "
               "'box'"},
         Fault{"FluidInAWall", "fluid.region.water.box.min=[-0.1,0]",
-              "[fluid.region]: error: overlaps a wall near (-0.075, 0.975) m: fluid and wall particles must "
-              "be at "
-              "least half a spacing apart"},
+              HYDROSTATIC_TANK "/case.toml:36:1: error: the fluid's region 'water' overlaps the wall 'left' "
+                               "near (-0.05, 0.5) m"},
         Fault{
             "TwoViscosities",
             "fluid.laminar_viscosity.dynamic_viscosity=1' --set 'fluid.power_law={consistency=2, "
@@ -102,9 +104,18 @@ INSTANTIATE_TEST_SUITE_P(
               "thickens "
               "under shear has an exponent above 1"},
         Fault{"WallInAWall", "wall.left.box.min=[-0.2,-0.1]",
-              "[[wall]] 'left': error: overlaps the wall 'floor' near (-0.175, -0.075) m: particles of two "
-              "walls "
-              "must be at least half a spacing apart"},
+              HYDROSTATIC_TANK
+              "/case.toml:18:1: error: the wall 'left' overlaps the wall 'floor' near (-0.1, -0.05) m"},
+        Fault{
+            "HolesOfOneName",
+            "fluid.hole=[{name=\"a\",min=[0.2,0.2],max=[0.4,0.4]},{name=\"a\",min=[0.6,0.6],max=[0.8,0.8]}]",
+            "--set "
+            "fluid.hole=[{name=\"a\",min=[0.2,0.2],max=[0.4,0.4]},{name=\"a\",min=[0.6,0.6],max=[0.8,0.8]}]: "
+            "error: two [[fluid.hole]] are named 'a'; names must differ"},
+        Fault{"RegionWithoutParticles",
+              "fluid.region=[{name=\"film\",box={min=[0,0],max=[1,0.02]}}]' --set "
+              "'fluid.hydrostatic_start=false",
+              "[[fluid.region]] 'film': error: holds no particle at this spacing"},
         Fault{"WallWithoutParticles", "wall.left.box.max=[-0.19,1.2]",
               "[[wall]] 'left': error: holds no particle at this spacing"},
         Fault{"StartTooFast", "fluid.region.water.velocity=[40,0]",

@@ -25,7 +25,7 @@ TEST(SceneFaults, OfTheWholeCase) {
 }
 
 TEST(SceneFaults, WallsOfOneName) {
-  EXPECT_EQ(CaseText(sound_scene + "[[wall]]\nname = 'floor'\nbox = {min=[0,0], max=[2,1]}\n").scene_faults(),
+  EXPECT_EQ(CaseText(sound_scene + "[[wall]]\nname = 'floor'\nbox = {min=[0,1], max=[2,2]}\n").scene_faults(),
             "case.toml:9:1: error: two [[wall]] are named 'floor'; names must differ");
 }
 
@@ -142,8 +142,9 @@ TEST(ReferenceFault, OfTheNames) {
 }
 
 TEST(ReferenceFault, OfAnyNameThatARunWritesOrRemoves) {
-  for (const char* name : {"fluid.csv", "coupler.csv.part", "solid_summary.toml", "frames/a.hdf", "run.lock",
-                           "launch.lock", "run.secret", "stop", "./report.html"})
+  for (const char* name :
+       {"fluid.csv", "coupler.csv.part", "solid_summary.toml", "frames/a.hdf", "surface.h5.rows.part",
+        "run.lock", "launch.lock", "run.secret", "stop", "./report.html"})
     EXPECT_TRUE(is_written_by_runs(name)) << name;
   for (const char* name : {"tip.csv", "reference/fluid.csv", "run.secrets"})
     EXPECT_FALSE(is_written_by_runs(name)) << name;

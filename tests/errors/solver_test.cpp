@@ -55,6 +55,14 @@ TEST(Programs, SayTheSameOfTheCommonSections) {
               "'reference', 'solid', 'wall'\n");
 }
 
+TEST(Programs, RefuseTwoColumnsOfOneName) {
+  const Ending ending = check(solid, "--set solid.region.0.observed=true --set solid.observer.0.name=gate");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_EQ(ending.error,
+            "[solid]: error: two columns of the results would be named 'gate_displacement_x': an observer, a "
+            "region or a wall needs another name\n");
+}
+
 TEST(Programs, RefuseASpacingThatWouldTakeAllMemory) {
   const Ending of_fluid = check(fluid, "--set fluid.spacing=1e-9");
   EXPECT_EQ(of_fluid.code, 2);

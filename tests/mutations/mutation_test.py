@@ -1,7 +1,9 @@
 """Cases, references, studies and results that are damaged at random: none crashes what reads them, none hangs it, each ends
 well or with exit code 2 and a place. By hand, for more of them:
 
-    PYTHONPATH=tools:tests tests/mutations/mutation_test.py --count 5000 --seed 7 [--bin DIR] [NAME ...]
+    PYTHONPATH=tools:tests tests/mutations/mutation_test.py --count 5000 --seed 7 [--bin DIR] [--memory BYTES] [NAME ...]
+
+Programs under the address sanitizer want more address space than there is memory: --memory -1.
 """
 
 import argparse
@@ -31,9 +33,8 @@ from toryu_testing import made_up_run
 HERE = pathlib.Path(__file__).resolve().parent
 CASES = HERE.parents[1] / "cases"
 LIMIT = 60  # [s] within which a check ends
-MEMORY = 4_000_000_000  # [bytes] that a check may take
 PLACED = re.compile(r".+: error: .+")
-options = argparse.Namespace(count=40, seed=1, bin=PROGRAMS)
+options = argparse.Namespace(count=40, seed=1, bin=PROGRAMS, memory=4_000_000_000)  # [bytes] that a check may take
 
 
 class Mutations(unittest.TestCase):
@@ -49,7 +50,7 @@ class Mutations(unittest.TestCase):
 
     def check(self, program, path, what):
         done = subprocess.run([options.bin / program, path, "--check"], capture_output=True, timeout=LIMIT, cwd=self.folder,
-                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY)))
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (options.memory, options.memory)))
         words = done.stderr.decode(errors="replace")
         short_of_memory = done.returncode == MACHINE and "memory" in words
         self.assertTrue(done.returncode in (DONE, BAD_INPUT) or short_of_memory, f"{what}: {done.returncode}: {words}")
@@ -208,5 +209,6 @@ if __name__ == "__main__":
     parser.add_argument("--count", type=int, default=options.count)
     parser.add_argument("--seed", type=int, default=options.seed)
     parser.add_argument("--bin", type=pathlib.Path, default=PROGRAMS)
+    parser.add_argument("--memory", type=int, default=options.memory)
     options, rest = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *rest])

@@ -10,10 +10,12 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 
 import h5py
 
+from toryu import program
 from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, MACHINE, PEER_LOST, PHYSICS_FAILED
 from toryu_testing import trio
 from toryu_testing.process_case import LIMIT, NAMES, ProcessCase
@@ -50,6 +52,46 @@ class GoodEnd(ProcessCase):
             with h5py.File(run.out / "interface.h5") as file:
                 records.append({name: file[name][:].tobytes() for name in file})
         self.assertEqual(*records)
+
+
+class Neighbours(ProcessCase):
+    """Runs beside each other."""
+
+    def container(self, out, kept, end_time):
+        """Starts a run by the launcher in file and process namespaces of its own, with its own disk at the path `out`; its
+        summary is kept."""
+        contained = ["unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc", "--map-root-user"]
+        script = ('out=$1 kept=$2; shift 2; mount -t tmpfs none "$out" && "$@"; code=$?; '
+                  'cp "$out/coupler_summary.toml" "$kept"; exit $code')
+        launch = program.python("launch", trio.CASE, f"--bin={self.bin}", f"--out={out}", f"--end-time={end_time}",
+                                "--no-report", "--set=case.frame_interval=0")
+        return self.enterContext(subprocess.Popen([*contained, "sh", "-c", script, "sh", out, kept, *launch],
+                                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True))
+
+    def test_two_containers_of_one_network_may_give_their_results_one_path(self):
+        if subprocess.run(["unshare", "--mount", "--pid", "--fork", "--mount-proc", "--map-root-user", "true"],
+                          capture_output=True).returncode != 0:
+            self.skipTest("no namespaces can be had here")
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (folder / "out").mkdir()
+        end_times = (0.1, 0.08)
+        runs = [self.container(folder / "out", folder / f"{end_time}.toml", end_time) for end_time in end_times]
+        for run, end_time in zip(runs, end_times):
+            words = run.communicate(timeout=2 * LIMIT)[1]
+            self.assertEqual(run.returncode, DONE, words)
+            summary = tomllib.loads((folder / f"{end_time}.toml").read_text())
+            self.assertAlmostEqual(summary["simulated_time"], end_time)
+
+    def test_eight_may_meet_in_one_domain(self):
+        domain = 42  # follows from the first number of the secret
+        runs = [self.run_of_three(end_time="0.005") for _ in range(8)]
+        for number, run in enumerate(runs):
+            (run.out / "run.secret").write_text(f"{domain + 100 * number:016x}{number:016x}\n")
+        for run in runs:
+            run.start_all()
+        for run in runs:
+            self.assert_all_end(run, DONE)
+            self.assertAlmostEqual(self.summary(run)["simulated_time"], 0.005)
 
 
 class Schemes(ProcessCase):

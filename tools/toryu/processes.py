@@ -11,10 +11,10 @@ import sys
 import time
 from dataclasses import dataclass, field
 
-GRACE = 2.0  # [s] in which the others end by themselves after one has failed: they notice by the link
+GRACE = 1.0  # [s] in which the others end by themselves after one has failed: once joined they notice by the link at once
 PATIENCE = 60.0  # [s] to end in order when asked to: the last checkpoint, frame and series are written
 QUIET = 3.0  # [s] after a request to end in which nothing is said of those that have not ended yet
-LAST_PATIENCE = 3.0  # [s] between the request and the kill for those that outlived their grace
+LAST_PATIENCE = 4.0  # [s] between the request and the kill for those that outlived their grace
 
 # Exit codes, as in common/error/failure.hpp.
 DONE, BUG, BAD_INPUT, PHYSICS_FAILED, PEER_LOST, MACHINE, INTERRUPTED = 0, 1, 2, 3, 4, 5, 130

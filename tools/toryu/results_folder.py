@@ -6,15 +6,12 @@ import pathlib
 import re
 import shutil
 
-from toryu.results import PARTICIPANTS
-
 CHECKPOINTS = "checkpoint"  # holds a folder of each checkpoint: 000001, 000002, ...
 MANIFEST = "manifest.toml"  # put in place last: a checkpoint that has one is whole
+LIST = pathlib.Path(__file__).resolve().parents[2] / "common/scene/results_files.inc"
 # All that the programs and the report write into a results folder, but for the checkpoints; nothing else there is ever
 # moved or removed.
-WRITTEN = ["used_case.toml", "log.txt", "interface.h5", "surface.h5", "detached.csv", "report.html"]
-WRITTEN += [pattern.format(p) for p in PARTICIPANTS
-            for pattern in ("{}.csv", "{}.hdf.series", "{}_summary.toml", "frames/{}_??????.hdf")]
+WRITTEN = re.findall(r'^"(.+)",$', LIST.read_text(encoding="utf-8"), re.MULTILINE)
 
 
 def written(out):

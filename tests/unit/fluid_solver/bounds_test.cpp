@@ -88,19 +88,8 @@ TEST(Bodies, MustNotOverlap) {
   setting.scene.walls = {{"floor", {Vec(-0.1, -0.15), Vec(0.3, 0.0)}, {}}};
   EXPECT_EQ(refusal(setting), "none");
   setting.scene.walls.front().box.max[1] = 0.05;
-  EXPECT_THAT(refusal(setting), testing::HasSubstr("[fluid.region]: error: overlaps a wall near ("));
-}
-
-TEST(Bodies, AreWallsThatDoNotOverlapEachOther) {
-  Setting setting = one_block();
-  setting.scene.walls = {{"floor", {Vec(-0.15, -0.15), Vec(0.3, 0.0)}, {}},
-                         {"left", {Vec(-0.15, -0.15), Vec(0.0, 0.3)}, {}}};
-  EXPECT_EQ(refusal(setting),
-            "[[wall]] 'left': error: overlaps the wall 'floor' near (-0.125, -0.125) m: particles of two "
-            "walls must "
-            "be at least half a spacing apart");
-  setting.scene.walls[1].box.min[1] = 0.0;
-  EXPECT_EQ(refusal(setting), "none");
+  EXPECT_THAT(refusal(setting),
+              testing::HasSubstr("[fluid.region]: error: overlaps the wall 'walls' near ("));
 }
 
 TEST(Bodies, AreWallsOfSomeParticles) {
@@ -126,8 +115,12 @@ TEST(Bodies, AreToldApartByName) {
 
 TEST(Bodies, MustHoldFluid) {
   Setting setting = one_block();
-  setting.parameters.holes = {{Vec(-1, -1), Vec(1, 1)}};
-  EXPECT_EQ(refusal(setting), "[fluid.region]: error: the regions hold no particle at this spacing");
+  const auto block = setting.parameters.regions.front();
+  setting.parameters.regions.push_back({"film", {Vec(1, 1), Vec(1.02, 2)}});
+  EXPECT_EQ(refusal(setting), "[[fluid.region]] 'film': error: holds no particle at this spacing");
+  setting.parameters.regions = {block};
+  setting.parameters.holes = {{{Vec(-1, -1), Vec(1, 1)}, "all"}};
+  EXPECT_THAT(refusal(setting), testing::EndsWith(": error: holds no particle at this spacing"));
 }
 
 }  // namespace

@@ -277,5 +277,39 @@ TEST(WeaklyCompressible, BringsWaterBackToTheFloorThatItLeft) {
   EXPECT_NEAR(height(0.5), height(0.0), 0.02 * 0.05);
 }
 
+/// Largest speed from 0.5 to 0.6 s of water 0.5 m deep in a tank `width` [m] wide with walls `thickness` [m]
+/// thick, around a post that is `post` [m] wide.
+double speed_at_rest(double width, double thickness, double post) {
+  Setting s = empty_space();
+  s.scene.gravity = Vec(0, -9.81);
+  s.parameters.sound_speed = 30;
+  s.parameters.smoothing_ratio = 1.25;
+  s.parameters.wall_model.slip = WallSlip::free_slip;
+  s.parameters.hydrostatic_start = HydrostaticStart{0.5};
+  const Box stump{Vec(0.3, 0), Vec(0.3 + post, 0.2)};
+  s.scene.walls = {{"floor", {Vec(-thickness, -thickness), Vec(width + thickness, 0)}, {}},
+                   {"left", {Vec(-thickness, 0), Vec(0, 0.8)}, {}},
+                   {"right", {Vec(width, 0), Vec(width + thickness, 0.8)}, {}},
+                   {"post", stump, {}}};
+  s.parameters.regions = {{"water", {Vec(0, 0), Vec(width, 0.5)}, Vec::Zero()}};
+  s.parameters.holes = {{stump, ""}};
+  WeaklyCompressible solver = s.solver();
+  const auto& V = solver.particles().V;
+  EXPECT_NEAR(std::reduce(V.begin(), V.end()), 0.5 * width - 0.2 * post, 1e-12);
+  double largest = 0;
+  for (const double time : {0.5, 0.52, 0.54, 0.56, 0.58, 0.6}) {
+    run_until(solver, time);
+    for (std::size_t i = 0; i < solver.particles().count; ++i)
+      largest = std::max(largest, at(solver.particles().v, i).norm());
+  }
+  return largest;
+}
+
+TEST(WaterAtRest, IsAsQuietBetweenFacesThatAreNoWholeNumberOfSpacingsApart) {
+  EXPECT_LT(speed_at_rest(1.0, 0.15, 0.3), 0.006) << "whole numbers";
+  EXPECT_LT(speed_at_rest(1.03, 0.15, 0.3), 0.006);
+  EXPECT_LT(speed_at_rest(1.0, 0.16, 0.333), 0.01) << "rows of walls and post are off by up to 7 %";
+}
+
 }  // namespace
 }  // namespace toryu::fluid

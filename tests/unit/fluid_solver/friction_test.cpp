@@ -53,10 +53,11 @@ Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& poi
   strips.index(fluid.x[0], fluid.count);
 
   Boundary boundary;
-  std::vector<Vec> places, area_vectors;
-  for (const auto& s : piece) places.push_back(s.x), area_vectors.push_back(s.area_vector);
+  std::vector<Vec> places;
+  std::vector<Faces> faces;
+  for (const auto& s : piece) places.push_back(s.x), faces.push_back(faces_of(s.area_vector));
   boundary.place(places, std::vector<double>(piece.size(), d_0 * d_0), 1000, 0.3);
-  boundary.make_work_piece(area_vectors);
+  boundary.make_work_piece(faces);
   boundary.move_to([&](std::uint32_t k) { return Kinematics{piece[k].x, piece[k].v, Vec::Zero()}; });
   boundary.list_for_wall.build(boundary.x, boundary.count, fluid.x, strips, 1.1 * kernel.support());
   boundary.list_for_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, 1.1 * kernel.support());

@@ -28,7 +28,7 @@ struct Contacting {
     Boundary& body = boundaries.emplace_back();
     body.name = "piece";
     body.place({Vec(0, 0), Vec(0, -d_0)}, {d_0 * d_0, d_0 * d_0}, 1000, 0.3);
-    body.make_work_piece({Vec(0, d_0), Vec(0, 0)});
+    body.make_work_piece({faces_of(Vec(0, d_0)), faces_of(Vec(0, 0))});
     resize(body.friction_force, padded(body.count));
     body.move_to([&](std::uint32_t id) {
       return Kinematics{Vec(0, id == 0 ? 0.0 : -d_0), surface_velocity, Vec::Zero()};
@@ -123,7 +123,8 @@ TEST(SurfaceRecord, ADryFaceDoesNotCount) {
   Contacting one({{Vec(0, 0.16), Vec(3, 0), 50, 0.01}});
   const auto alone = one.after(preston);
   EXPECT_NEAR(alone.at("wetted_length"), d_0, 1e-15);
-  one.boundaries.front().make_work_piece({Vec(0, d_0), Vec(0, -2 * d_0)});  // the lower one: none in reach
+  one.boundaries.front().make_work_piece(
+      {faces_of(Vec(0, d_0)), faces_of(Vec(0, -2 * d_0))});  // the lower one: none in reach
   SurfaceRecord record(preston);
   record.attach(one.boundaries);
   ASSERT_EQ(record.size(), 2u);

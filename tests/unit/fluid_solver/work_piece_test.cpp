@@ -27,7 +27,8 @@ const Boundary& boundary_of(const WeaklyCompressible& solver, const std::string&
 /// Area vectors over the spacing, by id: row by row from the smallest corner.
 std::vector<Vec> faces(const Boundary& piece) {
   std::vector<Vec> by_id(piece.count);
-  for (std::size_t k = 0; k < piece.count; ++k) by_id[piece.id[k]] = at(piece.area_vector, k) / 0.05;
+  for (std::size_t k = 0; k < piece.count; ++k)
+    by_id[piece.id[k]] = (at(piece.upper_face, k) - at(piece.lower_face, k)) / 0.05;
   return by_id;
 }
 
@@ -102,6 +103,58 @@ TEST(WorkPiece, IsTheSolidLessTheFacesOnWalls) {
   solver.attach(interface);
   expect_near(faces(boundary_of(solver, "interface")),
               {{-0.5, 0}, {0, 0}, {0.5, 0}, {-0.5, 0.5}, {0, 0.5}, {0.5, 0.5}});
+}
+
+double length(const std::vector<SurfacePoint>& points) {
+  double sum = 0;
+  for (const auto& point : points) sum += point.area_vector.norm();
+  return sum;
+}
+
+/// All surface points of a body, by id.
+std::vector<SurfacePoint> points_of(const Boundary& piece) {
+  std::vector<SurfacePoint> all;
+  for (std::size_t k = 0; k < piece.count; ++k)
+    for (const auto& point : surface_points({at(piece.lower_face, k), at(piece.upper_face, k)}))
+      all.push_back(point);
+  return all;
+}
+
+TEST(WorkPiece, OfOneRowHasTwoSides) {
+  Setting setting = piece_on_a_floor();
+  setting.scene.walls[1].box = {Vec(0, 0.2), Vec(0.5, 0.25)};
+  const WeaklyCompressible solver = setting.solver();
+  const auto points = points_of(boundary_of(solver, "piece"));
+  EXPECT_EQ(points.size(), 20u);
+  Vec sum = Vec::Zero();
+  for (const auto& point : points) sum += point.area_vector;
+  EXPECT_LT(sum.norm(), 1e-12) << "closed";
+  // both faces of 8 in the middle, corners cut at the ends
+  EXPECT_NEAR(length(points), 16 * 0.05 + 4 * 0.05 * std::sqrt(1.25), 1e-12);
+}
+
+TEST(WorkPiece, OfRowsThatAreStackedHasItsOuterFaces) {
+  Setting setting = piece_on_a_floor();
+  setting.scene.walls[1].box = {Vec(0, 0), Vec(0.5, 0.05)};
+  setting.scene.walls.push_back(
+      {.name = "upper", .box = {Vec(0, 0.05), Vec(0.5, 0.1)}, .motion = {}, .work_piece = true});
+  for (const bool moving : {false, true}) {
+    for (Wall& wall : setting.scene.walls)
+      if (moving) wall.motion = Motion{{{0.0, 0.4, 0.0}}};
+    const WeaklyCompressible solver = setting.solver();
+    EXPECT_EQ(points_of(boundary_of(solver, "piece")).size(), 2u) << "its ends";
+    EXPECT_EQ(points_of(boundary_of(solver, "upper")).size(), 10u) << "its upper side";
+  }
+}
+
+TEST(SurfacePoints, ShareEachFaceAmongThem) {
+  EXPECT_TRUE(surface_points({}).empty());
+  EXPECT_EQ(surface_points({Vec(1, 0), Vec(0, 1)}).size(), 1u) << "a corner";
+  const auto all = surface_points({Vec(1, 1), Vec(1, 1)});
+  EXPECT_EQ(all.size(), 4u);
+  double faces = 0;
+  for (const auto& point : all) faces += point.area_vector.lpNorm<1>();
+  EXPECT_DOUBLE_EQ(faces, 4) << "a particle by itself has four";
 }
 
 }  // namespace

@@ -35,6 +35,22 @@ TEST(Guards, TellOfBodiesThatStandLessThanASpacingApart) {
   EXPECT_THAT(stability_warnings(p), ElementsAre()) << "they touch";
 }
 
+TEST(Guards, TakeTheThicknessOfAllRegionsTogether) {
+  Parameters p = free_plate(6);
+  const double d = p.spacing;
+  const auto box = [&](double x0, double y0, double x1, double y1) -> Box {
+    return {d * Vec(x0, y0), d * Vec(x1, y1)};
+  };
+  p.regions = {{"lower", box(0, 0, 40, 1)}, {"upper", box(0, 1, 40, 6)}};
+  EXPECT_THAT(stability_warnings(p), ElementsAre());
+  p.regions = {{"long", box(0, 0, 40, 6)}, {"slice", box(40, 0, 41, 6)}, {"end", box(41, 0, 60, 6)}};
+  EXPECT_THAT(stability_warnings(p), ElementsAre());
+  p.regions = {{"lower", box(0, 0, 40, 1)}, {"upper", box(0, 1, 40, 2)}};
+  EXPECT_THAT(stability_warnings(p), ElementsAre(HasSubstr("a plate of 2 rows bends")));
+  p.regions = {{"lower", box(0, 0, 40, 1)}, {"upper", box(0, 1.5, 40, 7)}};
+  EXPECT_THAT(stability_warnings(p), testing::Contains(HasSubstr("a plate of 1 row bends"))) << "a gap";
+}
+
 TEST(Guards, NameTheMapBeyondWhoseEdgeACaseLies) {
   EXPECT_THAT(stability_warnings(updated(0.1, 1.0)),
               ElementsAre(HasSubstr("cases/stretched_bar/tensile_map.toml")));

@@ -92,8 +92,8 @@ class SpeedAgainstAccuracy(Study):
         self.assertIn("one run at a time", self.study("--jobs", "2").stderr)
 
     def test_left_out_and_not_repeated(self):
-        text = SPEED.replace("keys = []\n", 'keys = ["fluid.y"]\n').replace("repeat = 2", "repeat = 2\nrepeat_below = 1.0")
-        self.write(text[:text.index("[[metric]]")].replace("set = { fluid.x = 3 }", "set = { fluid.seconds = 1.0 }") +
+        text = SPEED.replace("keys = []\n", 'keys = ["fluid.y"]\n').replace("repeat = 2", "repeat = 2\nrepeat_below = 4.0")
+        self.write(text[:text.index("[[metric]]")].replace("set = { fluid.x = 3 }", "set = { fluid.seconds = 4.0 }") +
                    '[[leave_out]]\nspacing = [0.4, 0.1]\nscheme = "slow"\n')
         self.done()
         self.assertEqual([(row["spacing[m]"], row["scheme"]) for row in self.table()],
@@ -137,6 +137,14 @@ class Fit(unittest.TestCase):
         both = [point(1.0, 0.2, 0.1), point(1.05, 0.1, 0.0)]
         self.assertEqual([p.error for p in speed_accuracy.front(both)], [0.1])
         self.assertEqual([p.error for p in speed_accuracy.front([point(1.0, 0.2, 0.01), both[1]])], [0.2, 0.1])
+
+    def test_of_settings_that_take_the_same_time_the_most_accurate_is_taken(self):
+        def point(time, error, spread):
+            return speed_accuracy.Point(time, error, {"time_spread": spread})
+        some = [point(1.0, 0.2, 0.1), point(1.05, 0.1, 0.0), point(1.2, 0.01, 0.0)]
+        self.assertEqual(speed_accuracy.cheapest_of(some).error, 0.1)
+        self.assertEqual(speed_accuracy.cheapest_of([point(1.0, 0.2, 0.01), *some[1:]]).error, 0.2)
+        self.assertIsNone(speed_accuracy.cheapest_of([]))
 
     def test_what_is_to_be_said_of_an_exponent(self):
         def remark(k, points, factor):

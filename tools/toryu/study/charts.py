@@ -63,13 +63,20 @@ def line_chart(chart, study, table):
     for panel, (title, rows) in zip(axes, panels):
         panel.set_title(title)
         for number, (name, points) in enumerate(lines_of(chart, study, rows, x_factor, y_factor)):
-            panel.plot(*zip(*points), marker=drawing.MARKERS[number % 7], color=drawing.LINES[number % 7], label=name,
-                       linestyle="-" if one_parameter(chart, study) else "none")
+            panel.plot(*zip(*points), marker=drawing.MARKERS[number % 7], color=drawing.LINES[number % 7],
+                       label=named(name, points, chart), linestyle="-" if one_parameter(chart, study) else "none")
         scale(chart, study, panel)
         panel.set_xlabel(x_label)
     axes[0].set_ylabel(y_label)
     add_legend(chart, study, axes[-1])
     return made
+
+
+def named(name, points, chart):
+    """The name of a line in the legend, which says so where no run of it has the figure."""
+    log = ["x" in chart.log, "y" in chart.log]
+    drawn = any(all(math.isfinite(v) and (v > 0 or not of_log) for v, of_log in zip(point, log)) for point in points)
+    return name if drawn else f"{name} (none)"
 
 
 def add_legend(chart, study, panel):
@@ -91,7 +98,8 @@ def bar_chart(chart, study, table):
         thickness = 0.8 / len(lines)
         for number, (name, points) in enumerate(lines):
             places = [names.index(value_text(x, "")) + (number + 0.5) * thickness - 0.4 for x, _ in points]
-            panel.barh(places, [y for _, y in points], thickness * 0.9, color=drawing.LINES[number % 7], label=name)
+            panel.barh(places, [y for _, y in points], thickness * 0.9, color=drawing.LINES[number % 7],
+                       label=name if any(math.isfinite(y) for _, y in points) else f"{name} (none)")
         panel.set_yticks(range(len(names)), names)
         panel.grid(axis="y", visible=False)
         if "y" in chart.log:
@@ -156,7 +164,7 @@ def heat_map(chart, study, table):
                     write_cell(panel, i, j, value, norm)
         panel.set_title(title)
         panel.grid(False)
-        panel.set_xticks(range(len(across.values)), [value_text(v.name, "") for v in across.values])
+        drawing.choices(panel, [value_text(v.name, "") for v in across.values])
         panel.set_yticks(range(len(along.values)), [value_text(v.name, "") for v in along.values])
         panel.set_xlabel(drawing.readable(chart.x, across.unit))
     axes[0].set_ylabel(drawing.readable(chart.y, along.unit))

@@ -4,6 +4,7 @@ import io
 import math
 import pathlib
 import re
+import textwrap
 
 import matplotlib
 import matplotlib.figure
@@ -19,7 +20,8 @@ PALETTE = {name: colour for name, colour in re.findall(r"--(\w+): (#[0-9a-f]{6})
            if name != "accent"}  # the same as c0
 LINES = [PALETTE[f"c{i}"] for i in range(7)]
 MARKERS = "osD^vPX"
-WIDTH_OF_AXES, LETTER = 0.6, 0.085  # of the picture, beside legend and labels; [inch] of a digit of the labels
+WIDTH_OF_AXES = 0.6  # of the picture, beside legend and labels
+LETTER, LINE = 0.085, 0.2  # [inch] of a digit of the labels, and of a line of them
 WIDTH, HEIGHT = 6.2, 3.6  # [inch] of a single panel; several share twice the width, that of the page
 
 matplotlib.rcdefaults()  # not what the user has set for other charts
@@ -64,13 +66,44 @@ def for_page(text):
     return text
 
 
+class LogMarks(matplotlib.ticker.Locator):
+    """1, 2, 5, 10, ...; powers of ten, or every second or third of them, where the texts would run into each other; even
+    steps on an axis that holds hardly one of these."""
+
+    def __call__(self):
+        return self.tick_values(*self.axis.get_view_interval())
+
+    def tick_values(self, vmin, vmax):
+        low, high = (math.floor(math.log10(v)) for v in sorted((vmin, vmax)))
+        marks = [k * 10.0**n for n in range(low, high + 1) for k in (1, 2, 5)]
+        if sum(vmin <= mark <= vmax for mark in marks) < 2:
+            return matplotlib.ticker.MaxNLocator(3).tick_values(vmin, vmax)
+        step = 0
+        while not self.are_apart(marks, math.log10(vmax / vmin)) and step <= high - low:
+            step += 1
+            marks = [10.0**n for n in range(low, high + 1) if n % step == 0]
+        return marks
+
+    def are_apart(self, marks, decades):
+        box, across = self.axis.axes.get_window_extent(), self.axis.axis_name == "x"
+        decade = (box.width if across else box.height) / self.axis.figure.dpi / decades  # [inch]
+        sizes = [(len(f"{mark:g}") + 1) * LETTER if across else LINE for mark in marks]
+        return all(math.log10(b / a) * decade > (size + other) / 2
+                   for a, b, size, other in zip(marks, marks[1:], sizes, sizes[1:]))
+
+
 def logarithmic(panel, which):
-    """Makes the "x" or "y" axis logarithmic, with plain numbers at 1, 2, 5, 10, ..."""
+    """Makes the "x" or "y" axis logarithmic, with plain numbers."""
     getattr(panel, f"set_{which}scale")("log")
     axis = getattr(panel, f"{which}axis")
-    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_locator(LogMarks())
     axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
+
+
+def width_of(panel):
+    """About that of its axes [inch]."""
+    return panel.figure.get_figwidth() / panel.get_subplotspec().get_gridspec().ncols * WIDTH_OF_AXES
 
 
 def ticks(panel, values, texts):
@@ -78,13 +111,18 @@ def ticks(panel, values, texts):
     log = panel.get_xscale() == "log" and min(values) > 0
     places = [math.log(v) if log else v for v in values]
     span = (max(places) - min(places)) or 1
-    width = panel.figure.get_figwidth() / panel.get_subplotspec().get_gridspec().ncols * WIDTH_OF_AXES
     end, shown = -math.inf, {}
     for place, value, text in sorted(zip(places, values, texts)):
-        centre, half = (place - min(places)) / span * width, len(text) * LETTER / 2
+        centre, half = (place - min(places)) / span * width_of(panel), len(text) * LETTER / 2
         shown[value] = text if centre - half > end else ""
         end = centre + half + LETTER if shown[value] else end
     panel.set_xticks(values, [shown[value] for value in values])
+
+
+def choices(panel, texts):
+    """A mark for each choice, 0, 1, ...; a text is broken into lines where it is wider than its share of the axis."""
+    letters = max(int(width_of(panel) / len(texts) / LETTER) - 1, 1)
+    panel.set_xticks(range(len(texts)), [textwrap.fill(text, letters) for text in texts])
 
 
 def readable(name, unit):

@@ -92,12 +92,13 @@ def draw_edge(panel, study, mine, colour, label, marker=None):
 
 
 def draw_theories(panel, study, every, colour, theories):
-    """The theory's curves, on a fine grid of x."""
+    """The theory's curves, on a fine grid of x; none that lies beyond the picture."""
+    low, high = limits(study.map.y)
     xs = sorted({column.x for column in every})
     fine = between(xs[0], xs[-1], "x" in study.map.log) if len(xs) > 1 else xs
     for number, theory in enumerate(theories):
         values = [theory(x) for x in fine]
-        if any(map(math.isfinite, values)):
+        if any(low <= value <= high for value in values):
             panel.plot(fine, values, DASHES[number % 3], color=colour, linewidth=1.4, zorder=1, label=theory.label,
                        marker="_" if len(xs) == 1 else None, markersize=14)
 
@@ -108,16 +109,21 @@ def between(first, last, log, count=80):
     return [first + (last - first) * k / count for k in range(count + 1)]
 
 
+def limits(y):
+    """Of the picture along y: the range that was searched, and a little beyond."""
+    low, high = sorted((y.stable, y.unstable))
+    if y.log:
+        return low / (high / low) ** 0.05, high * (high / low) ** 0.05
+    return low - 0.05 * (high - low), high + 0.05 * (high - low)
+
+
 def finish(panel, study, every):
     y, made = study.map.y, study.map
     if "x" in made.log:
         drawing.logarithmic(panel, "x")
-    low, high = sorted((y.stable, y.unstable))
     if y.log:
         drawing.logarithmic(panel, "y")
-        panel.set_ylim(low / (high / low) ** 0.05, high * (high / low) ** 0.05)  # a curve of theory may leave the picture
-    else:
-        panel.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
+    panel.set_ylim(*limits(y))  # a curve of theory may leave the picture
     xs = sorted({column.x for column in every})
     if len(xs) <= 8:
         drawing.ticks(panel, xs, [f"{x:g}" for x in xs])
@@ -144,7 +150,7 @@ def cells(study, table):
                 if (a.name, b.name) in at:
                     write_cell(panel, i, j, at[a.name, b.name], made.figure)
         panel.grid(False)
-        panel.set_xticks(range(len(across.values)), [charts.value_text(v.name, "") for v in across.values])
+        drawing.choices(panel, [charts.value_text(v.name, "") for v in across.values])
         panel.set_yticks(range(len(along.values)), [charts.value_text(v.name, "") for v in along.values])
         panel.set_xlabel(drawing.readable(across.name, across.unit))
     panels[0].set_ylabel(drawing.readable(along.name, along.unit))

@@ -119,7 +119,7 @@ def sentence(chart, study, lines, wanted):
         return f"{setting(chart, study, point.row)}: {point.error:.3g} in {in_words(point.time, unit)}"
 
     staying = [p for line in lines for p in line.points if stays(line, p, wanted)]
-    cheapest, best = (min(some, key=lambda p: p.time, default=None) for some in (good, staying))
+    cheapest, best = map(cheapest_of, (good, staying))
     if best is None:
         return (f"For an error of {wanted:g} take {said(cheapest)}, but at greater cost its error is larger again: it passes "
                 "through zero.")
@@ -127,6 +127,14 @@ def sentence(chart, study, lines, wanted):
     if any(changes_sign(line, best, chart.error) for line in lines):
         passing += " Beside it on its line the error has the other sign: it is small there by passing through zero."
     return f"For an error of {wanted:g} take {said(best)}.{passing}"
+
+
+def cheapest_of(points):
+    """Of those whose times are the same as the shortest, but for what repetitions differ by, the most accurate; None of
+    none."""
+    first = min(points, key=lambda p: p.time, default=None)
+    same = [p for p in points if p.time <= first.time * (1 + spread(first, p))]
+    return min(same, key=lambda p: p.error, default=None)
 
 
 def stays(line, point, wanted):

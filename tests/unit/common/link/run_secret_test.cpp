@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -119,6 +120,23 @@ TEST(Seal, KnowsWhereASequenceOrATextEnds) {
   one.program = ab.data(), one.version = c.data();
   other.program = a.data(), other.version = bc.data();
   EXPECT_NE(dds::seal_of(one, 42), dds::seal_of(other, 42));
+}
+
+/// Leaves `value` in one of each eight words of the stack, 0 in the others.
+[[gnu::noinline]] void leave_on_the_stack(std::uint64_t value, int place) {
+  alignas(64) std::array<volatile std::uint64_t, 1024> words;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    words[k] = k % 8 == static_cast<std::size_t>(place) ? value : 0;
+}
+
+TEST(Seal, DoesNotDependOnWhatTheStackHeld) {
+  const Sample sample;
+  leave_on_the_stack(0, 0);
+  const std::uint64_t seal = dds::seal_of(sample.message, 42);
+  for (int place = 0; place < 8; ++place) {
+    leave_on_the_stack(42, place);
+    EXPECT_EQ(dds::seal_of(sample.message, 42), seal) << place;
+  }
 }
 
 TEST(Seal, NeedsTheKeyAndTheSender) {

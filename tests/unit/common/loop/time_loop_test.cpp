@@ -2,7 +2,7 @@
 
 #include "common/loop/time_loop.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -93,17 +93,29 @@ class CountingSolver : public LimitedSolver {
   Fails fails_;
 };
 
-/// The series of a run to 0.9 s with rows every `interval` [s].
-std::string series_of(Fails fails, double interval = 0.4, bool* failed = nullptr) {
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Left {
+  std::string series;
+  std::vector<double> frames;  ///< their times [s]
+  bool failed = false;
+};
+
+/// What a run to `end_time` leaves, with rows and frames every `interval` [s].
+Left left_by(Fails fails, double end_time, double interval = 0.4) {
   const auto out = std::filesystem::path(testing::TempDir()) / ("last_state_" + std::to_string(getpid()));
   std::filesystem::create_directories(out);
   Options options;
   options.out = out;
   Scene scene;
-  scene.end_time = 0.9;
-  scene.series_interval = interval;
+  scene.end_time = end_time;
+  scene.series_interval = scene.frame_interval = interval;
   scene.checkpoint_every = 0;
   CountingSolver solver(fails);
+  bool failed = false;
   {
     Timers timers;
     RunRecord record("body", options, scene, solver, {}, timers);
@@ -111,36 +123,73 @@ std::string series_of(Fails fails, double interval = 0.4, bool* failed = nullptr
     try {
       run_recorded(record, [&] { run_alone(scene, solver, record, 1, checkpoints); });
     } catch (const PhysicsFailure&) {
-      if (failed) *failed = true;
+      failed = true;
     }
   }
-  for (const char* name : {"body.csv", "body.csv.part"})
-    if (std::ifstream file(out / name); file) {
-      const std::string text{std::istreambuf_iterator<char>(file), {}};
-      std::filesystem::remove_all(out);
-      return text;
-    }
-  return "";
+  Left left{text_of(out / "body.csv") + text_of(out / "body.csv.part"), {}, failed};
+  const std::string list = text_of(out / "body.hdf.series"), key = "\"time\":";
+  for (auto at = list.find(key); at != list.npos; at = list.find(key, at + 1))
+    left.frames.push_back(std::stod(list.substr(at + key.size())));
+  std::filesystem::remove_all(out);
+  return left;
 }
 
-TEST(LastState, IsInTheSeriesAtTheEnd) {
-  EXPECT_EQ(series_of(Fails::never), "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
+using testing::ElementsAre;
+
+TEST(LastState, IsInSeriesAndFramesAtTheEnd) {
+  const Left left = left_by(Fails::never, 0.9);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8, 0.9));
 }
 
-TEST(Watch, EndsTheRunOnceTheRowIsWritten) {
-  bool failed = false;
-  EXPECT_EQ(series_of(Fails::watch, 0.4, &failed), "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n");
-  EXPECT_TRUE(failed);
+TEST(Watch, EndsTheRunOnceRowAndFrameAreWritten) {
+  const Left left = left_by(Fails::watch, 1.5);
+  EXPECT_TRUE(left.failed);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8));
 }
 
 TEST(Watch, LooksAtTheLastRowToo) {
-  bool failed = false;
-  EXPECT_EQ(series_of(Fails::watch, 5, &failed), "time[s],steps[1]\n0,0\n0.9,9\n");
-  EXPECT_TRUE(failed);
+  const Left left = left_by(Fails::watch, 0.9, 5);
+  EXPECT_TRUE(left.failed);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.9,9\n");
 }
 
-TEST(LastState, IsInTheSeriesWhereTheRunFailed) {
-  EXPECT_EQ(series_of(Fails::check), "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
+TEST(LastState, IsInSeriesAndFramesWhereTheRunFailed) {
+  const Left left = left_by(Fails::check, 0.9);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.5));
+}
+
+TEST(LastState, IsWrittenOnceWhereItIsDueAnyway) {
+  const Left left = left_by(Fails::never, 0.8);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8));
+}
+
+/// A solver that reports numbers of given names.
+class NamedSolver : public LimitedSolver {
+ public:
+  explicit NamedSolver(std::vector<std::string> names) : LimitedSolver({1}), names_(std::move(names)) {}
+  std::vector<Observation> observe() const override {
+    std::vector<Observation> row;
+    for (const auto& name : names_) row.push_back({name, "1", 0.0});
+    return row;
+  }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+TEST(Columns, NeedNamesOfTheirOwn) {
+  EXPECT_NO_THROW(check_columns(NamedSolver({"tip_x", "tip_y", "tip"}), "[body]"));
+  try {
+    check_columns(NamedSolver({"tip_x", "tip_y", "tip_x"}), "[body]");
+    FAIL() << "two columns of one name";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(error.errors()[0].place, "[body]");
+    EXPECT_THAT(error.errors()[0].message, testing::HasSubstr("would be named 'tip_x'"));
+  }
 }
 
 }  // namespace

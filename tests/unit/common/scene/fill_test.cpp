@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "common/scene/fill.hpp"
 
-#include "common/scene/scene.hpp"
+#include <gtest/gtest.h>
 
 namespace toryu {
 namespace {
@@ -98,6 +98,70 @@ TEST(Fill, SharesOneLatticeAmongBoxes) {
     EXPECT_DOUBLE_EQ(std::remainder(x.x() - 0.25, 1), 0);
     EXPECT_DOUBLE_EQ(std::remainder(x.y() - 0.5, 1), 0);
   }
+}
+
+TEST(Fill, WalksNoEmptySpaceBetweenBoxes) {
+  const auto points = fill({box(0, 0, 1, 1), box(1e7, -1e7, 1e7 + 1, 1 - 1e7)}, {}, 0.0625);
+  EXPECT_EQ(points.size(), 2u * 256u);
+}
+
+double area(const Filling& filling) {
+  double sum = 0;
+  for (const Vec& cell : filling.cells) sum += cell.prod();
+  return sum;
+}
+
+TEST(FillToFaces, IsTheLatticeWhereThatFits) {
+  const std::vector<Box> boxes{box(0, 0, 1, 0.5), box(1, 0.25, 1.5, 0.75), box(7, 3, 8, 4)};
+  const std::vector<Box> holes{box(0.3, 0.1, 0.6, 0.3)};
+  const auto filling = fill_to_faces({boxes, holes}, 0.05);
+  EXPECT_EQ(filling.points, fill(boxes, holes, 0.05));
+  EXPECT_NEAR(area(filling), 0.5 + 0.25 + 1 - 0.06, 1e-12);
+  EXPECT_TRUE(filling.misfits.empty());
+}
+
+TEST(FillToFaces, HasItsRowsHalfARowFromEachFaceAndTheAreaOfTheBoxes) {
+  for (const double width : {1.03, 0.97, 1.025, 2.001}) {
+    const auto filling = fill_to_faces({{box(0, 0, width, 0.526)}, {}}, 0.05);
+    EXPECT_NEAR(area(filling), width * 0.526, 1e-13) << width;
+    const Vec first = filling.points.front(), last = filling.points.back();
+    EXPECT_TRUE(first.isApprox(0.5 * filling.cells.front(), 1e-12)) << width;
+    EXPECT_TRUE((Vec(width, 0.526) - last).isApprox(0.5 * filling.cells.back(), 1e-12)) << width;
+    EXPECT_TRUE(filling.misfits.empty()) << width;
+  }
+}
+
+TEST(FillToFaces, FitsHolesAndBodiesApartFromEachOther) {
+  const auto filling = fill_to_faces(
+      {{box(0, 0, 1, 1), box(2.013, 0.521, 3.013, 1.521)}, {box(0.333, 0.333, 0.666, 0.666)}}, 0.05);
+  EXPECT_NEAR(area(filling), 2 - 0.333 * 0.333, 1e-12);
+  const auto in_second = [](const Vec& x) { return x[0] > 1.5; };
+  const auto second = std::find_if(filling.points.begin(), filling.points.end(), in_second);
+  EXPECT_TRUE(second->isApprox(Vec(2.013 + 0.025, 0.521 + 0.025), 1e-12)) << "it fits the spacing by itself";
+}
+
+TEST(FillToFaces, TellsWhereNoWholeNumberOfRowsIsNear) {
+  const auto thin = fill_to_faces({{box(0, 0, 1, 0.07)}, {}}, 0.05);
+  EXPECT_EQ(thin.points.size(), 20u);
+  ASSERT_EQ(thin.misfits.size(), 1u);
+  EXPECT_EQ(thin.misfits[0].axis, 1);
+  EXPECT_EQ(thin.misfits[0].rows, 1);
+  const auto close =
+      fill_to_faces({{box(0, 0, 1, 1)}, {box(0.3, 0.3, 0.52, 0.5), box(0.3, 0.5, 0.5, 0.7)}}, 0.05);
+  ASSERT_EQ(close.misfits.size(), 1u);
+  EXPECT_EQ(close.misfits[0].rows, 0);
+  EXPECT_DOUBLE_EQ(close.misfits[0].begin, 0.5);
+  EXPECT_DOUBLE_EQ(close.misfits[0].end, 0.52);
+  EXPECT_TRUE(fill_to_faces({{box(0, 0, 1, 0.01)}, {}}, 0.05).points.empty());
+}
+
+TEST(FillToFaces, IsInLineWithWhatItTouches) {
+  const Blocks water{{box(0, 0, 1.03, 0.526)}, {}};
+  const auto inside = fill_to_faces(water, 0.05),
+             floor = fill_to_faces({{box(-0.15, -0.15, 1.18, 0)}, {}}, 0.05, water);
+  for (std::size_t k = 0; k < 21; ++k) EXPECT_NEAR(floor.points[3 + k][0], inside.points[k][0], 1e-14) << k;
+  const auto elsewhere = fill_to_faces({{box(-0.15, -2, 1.15, -1)}, {}}, 0.05, water);
+  EXPECT_TRUE(elsewhere.on_lattice);
 }
 
 }  // namespace

@@ -34,6 +34,23 @@ TEST(StripOrder, IsAPermutationAndKeepsClustersCompact) {
   EXPECT_EQ(order, identity);
 }
 
+TEST(StripOrder, TakesNoMemoryForEmptySpace) {
+  StripOrder strips(1e-3);
+  Field x{-1e12, 0.0, 1e-4, 1e12}, y{0, 0, 1, 0};
+  strips.index(x, x.size());
+  std::vector<std::size_t> seen;
+  const auto look = [&](double x_min, double x_max) {
+    seen.clear();
+    strips.in_box(y, x_min, x_max, -2, 2, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) seen.push_back(i);
+    });
+    return seen.size();
+  };
+  EXPECT_EQ(look(-1, 1), 2u);
+  EXPECT_EQ(look(-2e12, 2e12), 4u);
+  EXPECT_EQ(look(5, 6), 0u);
+}
+
 TEST(ClusterList, HoldsEverySourceWithinReachOfACluster) {
   StripOrder strips(0.2);
   const std::size_t targets = 403, sources = 1001;

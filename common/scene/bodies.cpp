@@ -1,0 +1,267 @@
+#include "common/scene/bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/scene/meeting.hpp"
+
+namespace toryu {
+
+namespace {
+
+/// Over the finest spacing: bodies that share less than this touch, and so do those that stand no farther
+/// off.
+constexpr double touching = 0.1;
+/// Over the fluid's spacing: who stands so far off does not seem to touch.
+constexpr double apart = 0.9;
+
+struct Body {
+  std::string name;  ///< as a sentence calls it
+  std::string key;   ///< of its box in the case file
+  Part part;
+  const Motion* motion = nullptr;
+};
+
+std::optional<Vec> corner(const CaseFile& file, const std::string& key) {
+  Vec x;
+  for (int axis = 0; axis < dim; ++axis)
+    if (const auto value = file.value<double>(fmt::format("{}[{}]", key, axis)))
+      x[axis] = *value;
+    else
+      return {};
+  return x;
+}
+
+std::optional<Box> box_at(const CaseFile& file, const std::string& key) {
+  const auto min = corner(file, key + ".min"), max = corner(file, key + ".max");
+  if (!min || !max || (max->array() <= min->array()).any()) return {};
+  return Box{*min, *max, file.value<bool>(key + ".round").value_or(false)};
+}
+
+/// A box of a list of the case.
+struct Item {
+  std::string name, key;
+  Box box;
+};
+
+/// The boxes of the list `section`, each in the key `box`, or without one if that is empty.
+std::vector<Item> items(const CaseFile& file, const std::string& section, const std::string& box = ".box") {
+  std::vector<Item> found;
+  for (std::size_t i = 0; i < file.count(section); ++i) {
+    const std::string item = fmt::format("{}[{}]", section, i);
+    if (const auto read = box_at(file, item + box))
+      found.push_back({file.value<std::string>(item + ".name").value_or(""),
+                       fmt::format("{}.{}{}", section, i, box), *read});
+  }
+  return found;
+}
+
+std::vector<Box> boxes_of(const std::vector<Item>& items) {
+  std::vector<Box> boxes;
+  for (const auto& item : items) boxes.push_back(item.box);
+  return boxes;
+}
+
+std::vector<Body> walls_of(const Scene& scene) {
+  std::vector<Body> walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    if ((wall.box.max.array() <= wall.box.min.array()).any()) continue;
+    walls.push_back({fmt::format("the wall '{}'", wall.name),
+                     fmt::format("wall.{}.box", i),
+                     {{wall.box}, {}},
+                     wall.motion && !wall.motion->velocity.empty() ? &*wall.motion : nullptr});
+  }
+  return walls;
+}
+
+/// The regions of `participant` less its holes.
+std::vector<Body> regions_of(const CaseFile& file, const std::string& participant) {
+  const auto holes = boxes_of(items(file, participant + ".hole", participant == "fluid" ? "" : ".box"));
+  std::vector<Body> regions;
+  for (const auto& [name, key, box] : items(file, participant + ".region"))
+    regions.push_back({fmt::format("the {}'s region '{}'", participant, name), key, {{box}, holes}});
+  return regions;
+}
+
+/// What the clamps hold of the regions.
+std::vector<Body> held_parts(const CaseFile& file, const std::vector<Body>& regions) {
+  std::vector<Body> held;
+  for (const auto& [name, key, box] : items(file, "solid.clamp"))
+    for (Body region : regions) {
+      region.part.within.push_back(box);
+      held.push_back({fmt::format("the solid's clamp '{}'", name), key, region.part});
+    }
+  return held;
+}
+
+std::vector<Body> free_parts(const CaseFile& file, std::vector<Body> regions) {
+  const auto clamps = boxes_of(items(file, "solid.clamp"));
+  for (Body& region : regions)
+    region.part.without.insert(region.part.without.end(), clamps.begin(), clamps.end());
+  return regions;
+}
+
+double finest_spacing(const CaseFile& file) {
+  double finest = 0;
+  for (const char* spacing : {"fluid.spacing", "solid.spacing"})
+    if (const double value = file.value<double>(spacing).value_or(0); value > 0)
+      finest = finest > 0 ? std::min(finest, value) : value;
+  return finest;
+}
+
+/// The fluid's face that stands off the other body, the body's and how far they are apart along `axis`.
+struct Gap {
+  int axis;
+  double face, other;  ///< [m]
+  double width() const { return std::abs(other - face); }
+};
+
+/// Whether one side of `held` lies on the wall all along.
+bool is_fixed_on(const Part& held, const Box& wall, double tolerance) {
+  const Box box = bounds_of(held);
+  for (int axis = 0; axis < dim; ++axis) {
+    const int across = 1 - axis;
+    const bool touches = std::abs(box.min[axis] - wall.max[axis]) <= tolerance ||
+                         std::abs(wall.min[axis] - box.max[axis]) <= tolerance;
+    if (touches && wall.min[across] <= box.min[across] + tolerance &&
+        wall.max[across] >= box.max[across] - tolerance)
+      return (box.max.array() > box.min.array()).all();
+  }
+  return false;
+}
+
+std::optional<Gap> gap_between(const Box& fluid, const Box& other, double least) {
+  if (fluid.round || other.round) return {};
+  for (int axis = 0; axis < dim; ++axis) {
+    const int across = 1 - axis;
+    const double shared =
+        std::min(fluid.max[across], other.max[across]) - std::max(fluid.min[across], other.min[across]);
+    if (shared <= least) continue;
+    if (fluid.min[axis] - other.max[axis] > least) return Gap{axis, fluid.min[axis], other.max[axis]};
+    if (other.min[axis] - fluid.max[axis] > least) return Gap{axis, fluid.max[axis], other.min[axis]};
+  }
+  return {};
+}
+
+class Bodies {
+ public:
+  Bodies(const CaseFile& file, const Scene& scene)
+      : file_(file),
+        end_time_(scene.end_time),
+        walls_(walls_of(scene)),
+        fluid_(regions_of(file, "fluid")),
+        solid_(regions_of(file, "solid")),
+        tolerance_(touching * finest_spacing(file)) {
+    const Vec side = (scene.domain.max - scene.domain.min).cwiseMax(0.0);
+    if (scene.periodic == Periodic::x || scene.periodic == Periodic::xy) period_[0] = side[0];
+    if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy) period_[1] = side[1];
+  }
+
+  /// Key and message of each fault.
+  using Faults = std::vector<std::pair<std::string, std::string>>;
+  Faults faults() const {
+    Faults found;
+    for (std::size_t i = 0; i < walls_.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) keep_apart(walls_[i], walls_[k], end_time_, "", found);
+    for (const Body& region : fluid_)
+      for (const auto* bodies : {&walls_, &solid_})
+        for (const Body& other : *bodies) keep_apart(region, other, 0, "", found);
+    const auto free = free_parts(file_, solid_), held = held_parts(file_, solid_);
+    for (const Body& wall : walls_) {
+      for (const Body& part : free)
+        keep_apart(wall, part, 0, "; what a wall holds of a solid is a [[solid.clamp]]", found);
+      for (const Body& part : held) keep_at_rest(wall, part, found);
+    }
+    return found;
+  }
+
+  std::vector<std::string> passages() const {
+    std::vector<std::string> said;
+    if (file_.has("solid.wall_contact")) return said;
+    for (const Body& wall : walls_)
+      for (const Body& part : free_parts(file_, solid_)) {
+        if (!wall.motion) continue;
+        if (const auto found = meeting(wall, part, end_time_))
+          said.push_back(
+              fmt::format("{} comes to where {} is at the start at t = {:.4g} s near ({:.6g}, {:.6g}) m, and "
+                          "without [solid.wall_contact] passes through it",
+                          wall.name, part.name, found->time, found->place[0], found->place[1]));
+      }
+    return said;
+  }
+
+  std::vector<std::string> gaps() const {
+    const double spacing = file_.value<double>("fluid.spacing").value_or(0);
+    std::vector<std::string> said;
+    for (const Body& region : fluid_)
+      for (const auto* bodies : {&walls_, &solid_})
+        for (const Body& other : *bodies)
+          if (const auto gap = gap_between(region.part.within[0], other.part.within[0], touching * spacing);
+              gap && gap->width() < apart * spacing)
+            said.push_back(fmt::format(
+                "{} ends at {} = {:.6g} m, {:.2g} spacings off {}: it does not rest on it, but moves into "
+                "the "
+                "gap; let it end at {:.6g} m, or a spacing or more apart",
+                region.name, "xy"[gap->axis], gap -> face, gap -> width() / spacing, other.name, gap->other));
+    return said;
+  }
+
+ private:
+  std::optional<Meeting> meeting(const Body& a, const Body& b, double end_time) const {
+    const Pair pair{a.part, b.part, end_time > 0 ? a.motion : nullptr, end_time > 0 ? b.motion : nullptr};
+    return first_meeting(pair, tolerance_, end_time, period_);
+  }
+
+  void keep_apart(const Body& a, const Body& b, double end_time, const std::string& hint,
+                  Faults& faults) const {
+    const auto found = meeting(a, b, end_time);
+    if (!found) return;
+    const std::string what =
+        found->time == 0 ? fmt::format("{} overlaps {}", a.name, b.name)
+                         : fmt::format("{} runs into {} at t = {:.4g} s", a.name, b.name, found->time);
+    faults.emplace_back(
+        a.key, fmt::format("{} near ({:.6g}, {:.6g}) m{}", what, found->place[0], found->place[1], hint));
+  }
+
+  /// A clamp stands still, and so must a wall that it lies in or is fixed on.
+  void keep_at_rest(const Body& wall, const Body& held, Faults& faults) const {
+    if (!wall.motion || !moves(*wall.motion)) return;
+    if (meeting(wall, held, 0) || is_fixed_on(held.part, wall.part.within[0], tolerance_))
+      faults.emplace_back(
+          wall.key, fmt::format("{} moves, and {}, which it holds, stands still", wall.name, held.name));
+    else
+      keep_apart(wall, held, end_time_, "", faults);
+  }
+
+  bool moves(const Motion& motion) const {
+    std::vector<double> times{0, end_time_};
+    for (const auto& row : motion.velocity) times.push_back(std::clamp(row[0] * motion.time, 0.0, end_time_));
+    return std::any_of(times.begin(), times.end(),
+                       [&](double t) { return !motion.velocity_at(t).isZero(0); });
+  }
+
+  const CaseFile& file_;
+  double end_time_;
+  std::vector<Body> walls_, fluid_, solid_;
+  double tolerance_;
+  Vec period_ = Vec::Zero();
+};
+
+}  // namespace
+
+void check_bodies(CaseFile& file, const Scene& scene) {
+  if (file.kind() == Kind::study) return;
+  for (const auto& [key, message] : Bodies(file, scene).faults()) file.fault(key, message);
+}
+
+std::vector<std::string> passage_warnings(const CaseFile& file, const Scene& scene) {
+  return Bodies(file, scene).passages();
+}
+
+std::vector<std::string> gap_warnings(const CaseFile& file, const Scene& scene) {
+  return Bodies(file, scene).gaps();
+}
+
+}  // namespace toryu

@@ -1,0 +1,24 @@
+/// The bodies of a case as all participants see them: which of them are in one place.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.hpp"
+
+namespace toryu {
+
+/// Adds a fault of `file` for each two bodies of the case (fluid, solid, walls, clamps) that overlap at the
+/// start, and for each wall that runs into another or into a clamp by the end of the run. Bodies may touch. A
+/// clamp may lie in a wall, which is what holds it, if the wall stands still. Looks into [fluid] and [solid]
+/// wherever they are boxes with corners: what else is wrong there their owners tell.
+void check_bodies(CaseFile& file, const Scene& scene);
+
+/// A sentence for each region of the fluid that stands off a wall or the solid by less than a spacing: it
+/// does not rest on what it seems to touch.
+std::vector<std::string> gap_warnings(const CaseFile& file, const Scene& scene);
+
+/// A sentence for each wall that comes to where the solid is at the start while nothing makes them touch.
+std::vector<std::string> passage_warnings(const CaseFile& file, const Scene& scene);
+
+}  // namespace toryu

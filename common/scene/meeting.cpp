@@ -1,0 +1,218 @@
+#include "common/scene/meeting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toryu {
+
+static_assert(dim == 2, "places are looked for in the plane");
+
+namespace {
+
+/// Into so many parts the extent of round parts is cut, and the time for which their boxes overlap.
+constexpr int round_parts = 32;
+
+Box grown(const Box& box, double distance) {
+  return {box.min.array() - distance, box.max.array() + distance, box.round};
+}
+
+Box moved(const Box& box, const Vec& by) {
+  return {box.min + by, box.max + by, box.round};
+}
+
+Part joined(const Part& a, const Part& b, const Vec& a_by, const Vec& b_by) {
+  Part both;
+  for (const auto& [part, by] : {std::pair(&a, a_by), std::pair(&b, b_by)}) {
+    for (const Box& box : part->within) both.within.push_back(moved(box, by));
+    for (const Box& box : part->without) both.without.push_back(moved(box, by));
+  }
+  return both;
+}
+
+bool is_empty(const Box& box) {
+  return (box.max.array() <= box.min.array()).any();
+}
+
+bool has_round(const Part& part) {
+  const auto is_round = [](const Box& box) { return box.round; };
+  return std::any_of(part.within.begin(), part.within.end(), is_round) ||
+         std::any_of(part.without.begin(), part.without.end(), is_round);
+}
+
+/// Coordinates along `axis` of which one lies in each stretch between edges of boxes.
+std::vector<double> samples(const Box& bounds, const std::vector<Box>& without, int axis, int cuts) {
+  std::vector<double> edges{bounds.min[axis], bounds.max[axis]};
+  for (const Box& box : without)
+    for (const double edge : {box.min[axis], box.max[axis]})
+      if (edge > bounds.min[axis] && edge < bounds.max[axis]) edges.push_back(edge);
+  for (int k = 1; k < cuts; ++k)
+    edges.push_back(bounds.min[axis] + k * (bounds.max[axis] - bounds.min[axis]) / cuts);
+  std::sort(edges.begin(), edges.end());
+  std::vector<double> middles;
+  for (std::size_t k = 1; k < edges.size(); ++k)
+    if (edges[k] > edges[k - 1]) middles.push_back(0.5 * (edges[k - 1] + edges[k]));
+  return middles;
+}
+
+}  // namespace
+
+Box bounds_of(const Part& part) {
+  Box bounds = part.within.front();
+  for (const Box& box : part.within)
+    bounds = {bounds.min.cwiseMax(box.min), bounds.max.cwiseMin(box.max), false};
+  return bounds;
+}
+
+std::optional<Vec> place_in(const Part& part, double tolerance) {
+  Part firm;
+  for (const Box& box : part.within) {
+    firm.within.push_back(grown(box, -0.5 * tolerance));
+    if (is_empty(firm.within.back())) return {};
+  }
+  for (const Box& box : part.without) firm.without.push_back(grown(box, 0.5 * tolerance));
+  const Box bounds = bounds_of(firm);
+  if (is_empty(bounds)) return {};
+  const int cuts = has_round(firm) ? round_parts : 1;
+  const auto ys = samples(bounds, firm.without, 1, cuts);
+  for (const double x : samples(bounds, firm.without, 0, cuts))
+    for (const double y : ys) {
+      const auto holds = [&](const Box& box) { return box.contains({x, y}); };
+      if (std::all_of(firm.within.begin(), firm.within.end(), holds) &&
+          std::none_of(firm.without.begin(), firm.without.end(), holds))
+        return Vec(x, y);
+    }
+  return {};
+}
+
+namespace {
+
+/// A stretch of time in which both velocities are linear, and how the one body moves against the other:
+/// r + v s + a s^2/2 at the time s from its beginning.
+struct Stretch {
+  double begin, length;  ///< [s]
+  Vec r, v, a;           ///< [m], [m/s], [m/s2]
+  Vec at(double s) const { return r + s * v + 0.5 * s * s * a; }
+};
+
+Vec velocity(const Motion* motion, double t) {
+  return motion ? motion->velocity_at(t) : Vec(Vec::Zero());
+}
+
+std::vector<Stretch> stretches_of(const Pair& pair, double end_time) {
+  std::vector<double> times{0, end_time};
+  for (const Motion* motion : {pair.motion_a, pair.motion_b})
+    if (motion)
+      for (const auto& row : motion->velocity)
+        if (const double t = row[0] * motion->time; t > 0 && t < end_time) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  std::vector<Stretch> stretches;
+  Vec r = Vec::Zero();
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double length = times[k] - times[k - 1];
+    if (!(length > 0)) continue;
+    const auto against = [&](double t) -> Vec {
+      return velocity(pair.motion_a, t) - velocity(pair.motion_b, t);
+    };
+    const Vec v = against(times[k - 1]), v_end = against(times[k]);
+    stretches.push_back({times[k - 1], length, r, v, (v_end - v) / length});
+    r = stretches.back().at(length);
+  }
+  return stretches;
+}
+
+/// Adds the times from 0 to `length` [s] at which a coordinate r + v s + a s^2/2 is c.
+void add_roots(std::vector<double>& times, double length, double r, double v, double a, double c) {
+  const double rest = r - c, discriminant = v * v - 2 * a * rest;
+  const double q = -(v + std::copysign(std::sqrt(discriminant), v));  // without cancellation
+  for (const double s : {q / a, 2 * rest / q})
+    if (s > 0 && s < length) times.push_back(s);
+}
+
+/// Where the boxes of two bodies overlap while the one is displaced by what lies in `open` [m].
+class Approach {
+ public:
+  Approach(const Pair& pair, double tolerance)
+      : pair_(pair), tolerance_(tolerance), a_(bounds_of(pair.a)), b_(bounds_of(pair.b)) {
+    const Part both = joined(pair.a, pair.b, Vec::Zero(), Vec::Zero());
+    parts_ = has_round(both) || !both.without.empty() ? round_parts : 1;
+  }
+
+  std::optional<Meeting> during(const Stretch& stretch, const Vec& shift) const {
+    const Box open{b_.min + shift - a_.max + Vec::Constant(tolerance_),
+                   b_.max + shift - a_.min - Vec::Constant(tolerance_)};
+    std::vector<double> times{0, stretch.length};
+    for (int axis = 0; axis < dim; ++axis)
+      for (const double edge : {open.min[axis], open.max[axis]})
+        add_roots(times, stretch.length, stretch.r[axis], stretch.v[axis], stretch.a[axis], edge);
+    std::sort(times.begin(), times.end());
+    for (std::size_t k = 1; k < times.size(); ++k)
+      if (times[k] > times[k - 1] && open.contains(stretch.at(0.5 * (times[k - 1] + times[k]))))
+        if (const auto meeting = between(stretch, times[k - 1], times[k], shift)) return meeting;
+    return {};
+  }
+
+  /// The shifts by whole periods at which the two may meet in a stretch.
+  std::vector<Vec> shifts(const Stretch& stretch, const Vec& period) const {
+    std::vector<Vec> found{Vec::Zero()};
+    for (int axis = 0; axis < dim; ++axis) {
+      if (period[axis] == 0) continue;
+      double turn = stretch.a[axis] == 0 ? 0 : -stretch.v[axis] / stretch.a[axis];
+      turn = std::clamp(turn, 0.0, stretch.length);
+      const auto [least, most] =
+          std::minmax({stretch.r[axis], stretch.at(turn)[axis], stretch.at(stretch.length)[axis]});
+      const double first = std::ceil((least + a_.min[axis] - b_.max[axis]) / period[axis]);
+      const double last = std::floor((most + a_.max[axis] - b_.min[axis]) / period[axis]);
+      std::vector<Vec> shifted;
+      // after some periods all meetings are repeats
+      for (int n = 0; n < most_periods && first + n <= last; ++n)
+        for (Vec shift : found) {
+          shift[axis] += (first + n) * period[axis];
+          shifted.push_back(shift);
+        }
+      found = shifted;
+    }
+    return found;
+  }
+
+ private:
+  static constexpr int most_periods = 1000;
+
+  std::optional<Meeting> between(const Stretch& stretch, double begin, double end, const Vec& shift) const {
+    for (int k = 0; k < parts_; ++k) {
+      const double s = begin + (k + 0.5) * (end - begin) / parts_, first = parts_ == 1 ? begin : s;
+      const auto place = place_at(stretch, s, shift, tolerance_);
+      // where they meet: boxes share just the tolerance then
+      if (place)
+        return Meeting{stretch.begin + first,
+                       place_at(stretch, first, shift, 0.5 * tolerance_).value_or(*place)};
+    }
+    return {};
+  }
+
+  std::optional<Vec> place_at(const Stretch& stretch, double s, const Vec& shift, double tolerance) const {
+    const Vec b_by = pair_.motion_b ? pair_.motion_b->displacement_at(stretch.begin + s) : Vec(Vec::Zero());
+    return place_in(joined(pair_.a, pair_.b, b_by + stretch.at(s) - shift, b_by), tolerance);
+  }
+
+  const Pair& pair_;
+  double tolerance_;
+  Box a_, b_;
+  int parts_;
+};
+
+}  // namespace
+
+std::optional<Meeting> first_meeting(const Pair& pair, double tolerance, double end_time, const Vec& period) {
+  const Approach approach(pair, tolerance);
+  const Stretch start{0, 0, Vec::Zero(), Vec::Zero(), Vec::Zero()};
+  for (const Vec& shift : approach.shifts(start, period))
+    if (const auto place = place_in(joined(pair.a, pair.b, -shift, Vec::Zero()), tolerance))
+      return Meeting{0, *place};
+  if (!pair.motion_a && !pair.motion_b) return {};
+  for (const Stretch& stretch : stretches_of(pair, end_time))
+    for (const Vec& shift : approach.shifts(stretch, period))
+      if (const auto meeting = approach.during(stretch, shift)) return meeting;
+  return {};
+}
+
+}  // namespace toryu

@@ -1,0 +1,122 @@
+// Bodies of a case that are in one place: at the start, as all programs see them, and as walls move.
+#include <gtest/gtest.h>
+
+#include "tests/errors/case_text.hpp"
+
+namespace toryu {
+namespace {
+
+/// Water from x = 0 to 1 beside a gate from 1 to 1.2, whose upper half is held.
+const std::string gate =
+    "[case]\ntitle='A'\nend_time=2\ndomain={min=[-4,-4], max=[4,4]}\n"
+    "[fluid]\nspacing=0.1\n[[fluid.region]]\nname='water'\nbox={min=[0,0], max=[1,1]}\n"
+    "[solid]\nspacing=0.05\n[[solid.region]]\nname='gate'\nbox={min=[1,0], max=[1.2,2]}\n"
+    "[[solid.clamp]]\nname='root'\nbox={min=[1,1], max=[1.2,2]}\n";
+
+std::string wall(const std::string& name, const std::string& box, const std::string& motion = "") {
+  return "[[wall]]\nname='" + name + "'\nbox={" + box + "}\n" +
+         (motion.empty() ? "" : "motion={velocity=[" + motion + "]}\n");
+}
+
+struct Scenery {
+  const char* name;
+  std::string text;
+  const char* expected;
+};
+
+class BodyFaults : public testing::TestWithParam<Scenery> {};
+
+TEST_P(BodyFaults, NameBothAndThePlace) {
+  EXPECT_EQ(CaseText(GetParam().text).scene_faults(), GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    AtTheStart, BodyFaults,
+    testing::Values(
+        Scenery{"NoneThatTouch", gate + wall("floor", "min=[-1,-1], max=[2,0]"), ""},
+        Scenery{"NoneWithinATenthOfASpacing", gate + wall("floor", "min=[-1,-1], max=[2,0.004]"), ""},
+        Scenery{"NoneOfAClampInAWall", gate + wall("lid", "min=[0.9,1], max=[1.3,2.1]"), ""},
+        Scenery{"NoneInAHole",
+                gate + "[[fluid.hole]]\nmin=[0.3,0.3]\nmax=[0.6,0.6]\n" +
+                    wall("post", "min=[0.3,0.3], max=[0.6,0.6]"),
+                ""},
+        Scenery{"NoneOfDiscsAtACorner",
+                gate + wall("a", "min=[-3,-3], max=[-1,-1], round=true") +
+                    wall("b", "min=[-1.25,-1.25], max=[-1,-1]"),
+                ""},
+        Scenery{
+            "WaterInAWall", gate + wall("post", "min=[0.4,0.4], max=[0.6,3]"),
+            "case.toml:9:1: error: the fluid's region 'water' overlaps the wall 'post' near (0.5, 0.7) m"},
+        Scenery{"WaterInTheSolid", gate + "[[fluid.region]]\nname='more'\nbox={min=[1,0], max=[1.1,0.5]}\n",
+                "case.toml:20:1: error: the fluid's region 'more' overlaps the solid's region 'gate' near "
+                "(1.05, 0.25) m"},
+        Scenery{"WaterAroundAHoleThatIsTooSmall",
+                gate + "[[fluid.hole]]\nmin=[0.3,0.3]\nmax=[0.5,0.6]\n" +
+                    wall("post", "min=[0.3,0.3], max=[0.6,0.6]"),
+                "case.toml:9:1: error: the fluid's region 'water' overlaps the wall 'post' near (0.55, "
+                "0.45) m"},
+        Scenery{"AFreeGateInAWall", gate + wall("post", "min=[1,0.5], max=[1.1,1.5]"),
+                "case.toml:20:1: error: the wall 'post' overlaps the solid's region 'gate' near (1.05, "
+                "0.75) m; what a wall holds of a solid is a [[solid.clamp]]"},
+        Scenery{"TwoWalls",
+                gate + wall("a", "min=[-2,-2], max=[-1,-1]") + wall("b", "min=[-2,-1.5], max=[-1,0]"),
+                "case.toml:23:1: error: the wall 'b' overlaps the wall 'a' near (-1.5, -1.25) m"},
+        Scenery{"DiscsThatMeet",
+                gate + wall("a", "min=[-3,-3], max=[-1,-1], round=true") +
+                    wall("b", "min=[-1.5,-2.1], max=[-1,-1.9]"),
+                "case.toml:23:1: error: the wall 'b' overlaps the wall 'a' near (-1.48977, -2.09445) m"},
+        Scenery{"AWallThatLeavesTheClampInIt",
+                gate + wall("lid", "min=[0.9,1], max=[1.3,2.1]", "[0,0,0],[1,0,1]"),
+                "case.toml:20:1: error: the wall 'lid' moves, and the solid's clamp 'root', which it holds, "
+                "stands still"},
+        Scenery{"AWallThatLeavesTheClampOnIt",
+                gate + wall("lid", "min=[0.9,2], max=[1.3,2.1]", "[0,0,0],[1,1,0]"),
+                "case.toml:20:1: error: the wall 'lid' moves, and the solid's clamp 'root', which it holds, "
+                "stands still"}),
+    name_of<Scenery>);
+
+INSTANTIATE_TEST_SUITE_P(
+    AlongMotions, BodyFaults,
+    testing::Values(
+        Scenery{"NoneOfAWallWhoseTableIsAllZero",
+                gate + wall("lid", "min=[0.9,1], max=[1.3,2.1]", "[0,0,0],[1,0,0]"), ""},
+        Scenery{"NoneOfAPistonThatSlidesAlongAClamp",
+                gate + wall("piston", "min=[1.2,1], max=[1.6,1.5]", "[0,0,0.1]"), ""},
+        Scenery{"NoneThatMoveAlike",
+                gate + wall("a", "min=[-2,-2], max=[-1,-1]", "[0,1,0]") +
+                    wall("b", "min=[-1,-2], max=[0,-1]", "[0,1,0]"),
+                ""},
+        Scenery{"NoneOfAPistonThatEntersWater", gate + wall("piston", "min=[-1,0], max=[0,1]", "[0,0.1,0]"),
+                ""},
+        Scenery{"NoneThatTurnsBackInTime",
+                gate + wall("post", "min=[2,0], max=[3,1]") +
+                    wall("piston", "min=[1.4,0], max=[1.5,1]", "[0,1,0],[1,-1,0],[2,0,0]"),
+                ""},
+        Scenery{"NoneAfterTheEnd",
+                gate + wall("post", "min=[2,0], max=[3,1]") +
+                    wall("piston", "min=[1.4,0], max=[1.5,1]", "[0,0.2,0]"),
+                ""},
+        Scenery{
+            "APistonThatRunsIntoAWall",
+            gate + wall("post", "min=[2,0], max=[3,1]") +
+                wall("piston", "min=[1.4,0], max=[1.5,1]", "[0,0.5,0]"),
+            "case.toml:23:1: error: the wall 'piston' runs into the wall 'post' at t = 1.01 s near (2.0025, "
+            "0.5) m"},
+        Scenery{"APistonThatPassesAWallBetweenTwoRows",
+                gate + wall("post", "min=[2,0], max=[2.1,1]") +
+                    wall("piston", "min=[1.4,0], max=[1.5,1]", "[0,0,0],[0.01,200,0],[0.02,0,0],[1,0,0]"),
+                "case.toml:23:1: error: the wall 'piston' runs into the wall 'post' at t = 0.007106 s near "
+                "(2.0025, 0.5) m"},
+        Scenery{"APistonThatRunsIntoAClamp", gate + wall("piston", "min=[2,1.2], max=[2.5,1.5]", "[0,-1,0]"),
+                "case.toml:20:1: error: the wall 'piston' runs into the solid's clamp 'root' at t = 0.805 s "
+                "near (1.1975, 1.35) m"},
+        Scenery{"OfAPeriod",
+                "[case]\ntitle='A'\nend_time=3\nperiodic='x'\ndomain={min=[0,0], "
+                "max=[4,4]}\n[fluid]\nspacing=0.1\n" +
+                    wall("post", "min=[0,0], max=[1,1]") + wall("plate", "min=[2,0], max=[3,1]", "[0,1,0]"),
+                "case.toml:13:1: error: the wall 'plate' runs into the wall 'post' at t = 1.01 s near "
+                "(0.005, 0.5) m"}),
+    name_of<Scenery>);
+
+}  // namespace
+}  // namespace toryu
