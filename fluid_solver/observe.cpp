@@ -14,6 +14,8 @@ namespace {
 
 /// Over the sound speed: lattices and surfaces settle with less.
 constexpr double speed_of_settling = 0.003;
+/// So many particles may be faster than what counts as fast: a few splash.
+constexpr std::size_t least_fast = 3;
 
 }  // namespace
 
@@ -147,7 +149,8 @@ RunFigures FluidModel::run_figures(double time) const {
     held += 0.5 * fluid.m[i] * p_rho * p_rho / (c_0 * c_0);
   }
   for (const Boundary& boundary : state_.boundaries) moved += std::abs(boundary.work);
-  const auto fast = speed.end() - 1 - static_cast<std::ptrdiff_t>(fluid.count / 100);
+  const std::size_t faster = std::min(std::max(fluid.count / 100, least_fast), fluid.count - 1);
+  const auto fast = speed.end() - 1 - static_cast<std::ptrdiff_t>(faster);
   std::nth_element(speed.begin(), fast, speed.end());
   return {.time = time,
           .fast = *fast,
