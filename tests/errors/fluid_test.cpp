@@ -54,6 +54,12 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"ColumnOfTheResults", "fluid.observer=[{name=\"kinetic_energy\",quantity=\"front_x\"}]",
               "[fluid]: error: two columns of the results would be named 'kinetic_energy': an observer, a "
               "region or a wall needs another name"},
+        Fault{"ColumnOfTheRemoval",
+              "wall.0.work_piece=true' --set 'fluid.friction.coefficient=0.3' --set "
+              "'fluid.removal.preston_coefficient=1e-9' --set "
+              "'fluid.observer=[{name=\"removed_area\",quantity=\"front_x\"}]",
+              "[fluid]: error: two columns of the results would be named 'removed_area': an observer, a "
+              "region or a wall needs another name"},
         Fault{"FrictionOnNothing", "fluid.friction.coefficient=0.3",
               "--set fluid.friction.coefficient=0.3: error: there is nothing to rub on: friction acts on a "
               "[[wall]] "

@@ -17,7 +17,7 @@ from toryu_testing.process_case import LIMIT
 SIDES = {"fluid": "fluid_solver", "solid": "solid_solver"}
 ALL = ("coupler", "fluid", "solid")
 FLUID, SOLID = ("fluid",), ("solid",)
-GRACE = 4  # seconds in which the others end by themselves; run.sh gives them as long
+GRACE = 4  # seconds in which the others end by themselves
 IMPLICIT = "coupling.scheme=serial_implicit"
 
 # case, who computes it, end time [s], settings

@@ -105,7 +105,7 @@ class Map(Study):
 
     def test_a_run_that_hangs_is_ended_and_told(self):
         self.write(MAP.replace('keys = ["fluid.step"]', 'keys = ["fluid.hangs"]')
-                   .replace("stable = 0.1\n", "stable = 0\n", 1).replace("grid = [4.0]", "").replace("[1, 16]", "[1]").replace('log = ["x"]', "time_limit = 1.5")
+                   .replace("stable = 0.1\n", "stable = 0\n", 1).replace("grid = [4.0]", "").replace("[1, 16]", "[1]").replace('log = ["x"]', "time_limit = 4")
                    .replace("unstable = 10\nresolution = 0.4", "unstable = 1\nresolution = 0.9"))
         ended = self.study()
         self.assertEqual(ended.returncode, 1, ended.stderr)
