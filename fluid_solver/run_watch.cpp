@@ -18,7 +18,7 @@ constexpr double fast_to_warn_of = 0.15;
 constexpr double share_to_warn_of = 0.001;   ///< of the particles, in walls
 constexpr std::size_t count_to_warn_of = 3;  ///< and so many
 constexpr std::size_t count_to_stop_at = 10;
-constexpr double change_to_warn_of = 0.02;  ///< of the mean density
+constexpr double change_to_warn_of = 0.03;  ///< of the mean density
 constexpr double gain_to_warn_of = 0.1;     ///< over the energy turned over
 
 }  // namespace

@@ -5,7 +5,7 @@
 ///     speed     that a hundredth of the fluid exceeds, above 0.15 c_0: the density changes by more than 2 %
 ///               (single particles of a splash press on nothing). The run ends at c_0, of any particle.
 ///     walls     particles inside (wall_penetration.hpp), 3 and more than a thousandth of the fluid
-///     density   mass over volume of the fluid against the start, more than 2 % off
+///     density   mass over volume of the fluid against the start, more than 3 % off
 ///     energy    what it has gained since its lowest beyond the work of the boundaries and what terms have
 ///               given back, above a tenth of the largest energy that was turned over: kinetic, from gravity,
 ///               by boundaries and terms, held by pressure, sum_i m_i p_i^2/(2 rho_i^2 c_0^2); or, at rest,

@@ -96,11 +96,11 @@ TEST(RunWatch, WarnsOfADensityThatCreepsAndStops) {
   RunWatch of = watch();
   RunFigures creeping = well();
   of.look(creeping);
-  for (const double density : {1019.0, 1021.0, 1022.0}) {
+  for (const double density : {1029.0, 1031.0, 1032.0}) {
     creeping.mean_density = density;
     of.look(creeping);
   }
-  EXPECT_EQ(said.times("the mean density of the fluid has crept from 1000 to 1021 kg/m3, by 2.1 %"), 1)
+  EXPECT_EQ(said.times("the mean density of the fluid has crept from 1000 to 1031 kg/m3, by 3.1 %"), 1)
       << said.text();
   EXPECT_EQ(said.times("crept"), 1);
   creeping.mean_density = 890;
