@@ -43,6 +43,11 @@ inline Faces faces_of(const Vec& area_vector) {
   return {(-area_vector).cwiseMax(0.0), area_vector.cwiseMax(0.0)};
 }
 
+/// Distance of each particle of a body from the end of the body along either direction of each axis [m].
+struct FaceDepths {
+  std::vector<Vec> up, down;
+};
+
 struct Boundary {
   std::string name;
   std::variant<Still, PrescribedMotion, MovingInterface> motion;
@@ -58,10 +63,13 @@ struct Boundary {
   /// inside, empty if this is no work piece.
   Declared<VecField> lower_face{"lower_face", "m", FieldKind::state, Presence::on_demand};
   Declared<VecField> upper_face{"upper_face", "m", FieldKind::state, Presence::on_demand};
+  /// Distance from where the body ends along either direction of each axis (wall_extrapolation.hpp).
+  Declared<VecField> depth_up{"depth_up", "m", FieldKind::state, Presence::on_demand},
+      depth_down{"depth_down", "m", FieldKind::state, Presence::on_demand};
   // extrapolated from the fluid
   Declared<Field> p{"pressure", "Pa", FieldKind::derived},
       p_rho2{"p/rho^2", "m5/(kg.s2)", FieldKind::derived};
-  /// v_w-f = 2 v_w - v~_w, which the viscous terms use (28).
+  /// v_w-f, which the viscous terms use (28).
   Declared<VecField> v_viscous{"viscous_velocity", "m/s", FieldKind::derived};
   /// As of the fluid's particles, where the medium is not Newtonian.
   Declared<Field> eta{"viscosity", "Pa.s", FieldKind::derived, Presence::on_demand};
@@ -89,6 +97,9 @@ struct Boundary {
   /// Makes it a work piece with these open faces, by id.
   void make_work_piece(const std::vector<Faces>& faces);
   bool is_work_piece() const { return !lower_face[0].empty(); }
+  /// Tells it where its body ends, by id.
+  void know_faces(const FaceDepths& depths);
+  bool knows_faces() const { return !depth_up[0].empty(); }
   bool moves() const { return !std::holds_alternative<Still>(motion); }
   /// Whether a cluster of the fluid is in reach.
   bool acts_on(std::size_t cluster) const {
@@ -123,12 +134,12 @@ void Boundary::move_to(Of&& kinematics) {
 /// All but the lists, which follow from where they were built, and what one evaluation leaves.
 template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
-  auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, p, p_rho2, v_viscous,
-         eta, eta_grad_v, force, friction_length, friction_force, force_on_fluid, impulse, work, counted,
-         list_for_wall, list_for_fluid, strips] = boundary;
+  auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
+         p, p_rho2, v_viscous, eta, eta_grad_v, force, friction_length, friction_force, force_on_fluid,
+         impulse, work, counted, list_for_wall, list_for_fluid, strips] = boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
-  archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, p, p_rho2, v_viscous, eta,
-          eta_grad_v, force, friction_length, friction_force, impulse, work, counted);
+  archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, p, p_rho2,
+          v_viscous, eta, eta_grad_v, force, friction_length, friction_force, impulse, work, counted);
 }
 
 inline Sources sources(const Boundary& b) {
@@ -143,11 +154,5 @@ inline Sources sources(const Boundary& b) {
           .eta = b.eta.data(),
           .eta_grad_v = pointers(b.eta_grad_v)};
 }
-
-/// Extrapolates pressure (29) and velocity (27) from the fluid to the particles of `boundary` near it.
-void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity);
-
-/// Extrapolates viscosity and eta grad v of a medium that is not Newtonian likewise, as kernel means.
-void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel);
 
 }  // namespace toryu::fluid

@@ -7,6 +7,7 @@
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/initial_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
+#include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/wall_rows.hpp"
 #include "fluid_solver/work_piece.hpp"
 
@@ -89,6 +90,8 @@ void FluidModel::fill_walls() {
     if (wall && wall->motion)
       boundary.motion = PrescribedMotion{*wall->motion, points, reach() / parameters_.sound_speed};
     boundary.place(points, volumes, parameters_.density, parameters_.strip_width());
+    if (parameters_.wall_model.extrapolation == WallExtrapolation::fit)
+      boundary.know_faces(lattice_face_depths(points, parameters_.spacing, 2 * reach()));
     if (wall && wall->work_piece) boundary.make_work_piece(lattice_faces(points, parameters_.spacing));
   };
   for (const auto& wall : scene_.walls) {

@@ -68,8 +68,15 @@ void describe(ParameterTable& table, WallModel& model) {
   table.choice("density", model.density, {"rest", "from_pressure"},
                {.help = "density of wall particles: the rest density, or that of their pressure (Adami, Hu & "
                         "Adams 2012)"});
+  table.choice(
+      "extrapolation", model.extrapolation, {"mean", "fit"},
+      {.help = "velocity and viscosity that rigid walls show to viscous terms: kernel means (Adami, Hu "
+               "& Adams 2012), or a parabola and a line fitted through the wall's face"});
   table.flag("suction", model.suction,
              "whether walls hold a fluid whose pressure is negative; false where air can come between them");
+  table.require(model.extrapolation == WallExtrapolation::mean || model.slip == WallSlip::no_slip,
+                "extrapolation",
+                "a 'fit' is of what viscous terms see at walls: it needs slip = \"no_slip\"");
 }
 
 void describe(ParameterTable& table, Limits& limits) {

@@ -44,9 +44,11 @@ void describe(ParameterTable& table, HydrostaticStart& start);
 
 enum class WallSlip { no_slip, free_slip };
 enum class WallDensity { rest, from_pressure };
+enum class WallExtrapolation { mean, fit };
 struct WallModel {
   WallSlip slip = WallSlip::no_slip;
   WallDensity density = WallDensity::rest;
+  WallExtrapolation extrapolation = WallExtrapolation::mean;
   bool suction = true;  ///< false: walls push and never pull
 };
 void describe(ParameterTable& table, WallModel& model);

@@ -35,7 +35,8 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
   texts.push_back(
       {"walls", "pressure and velocity extrapolated from the fluid",
        "Adami, Hu & Adams 2012; thesis eq. 27-29",
-       fmt::format("{}{}", parameters_.wall_model.slip == WallSlip::no_slip ? "no slip" : "free slip",
+       fmt::format("{}{}{}", parameters_.wall_model.slip == WallSlip::no_slip ? "no slip" : "free slip",
+                   parameters_.wall_model.extrapolation == WallExtrapolation::fit ? ", fitted" : "",
                    parameters_.wall_model.suction ? "" : ", no suction")});
   if (const Vec& g = body_force_.gravity; g.norm() > 0)
     texts.push_back({"gravity", "g", "", fmt::format("({}, {}) m/s2", g[0], g[1])});

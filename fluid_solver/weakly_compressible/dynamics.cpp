@@ -2,6 +2,7 @@
 
 #include "fluid_solver/terms/density_gradient.hpp"
 #include "fluid_solver/terms/velocity_gradient.hpp"
+#include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 #include "fluid_solver/weakly_compressible/further_forces.hpp"
 

@@ -48,6 +48,10 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"MissingKeyOfATerm", "fluid.laminar_viscosity={}",
               "--set fluid.laminar_viscosity={}: error: missing key 'dynamic_viscosity' in "
               "[fluid.laminar_viscosity]: a number [Pa.s] of at least 0, mu (Morris, Fox & Zhu 1997)"},
+        Fault{"FitWithoutSlip", "fluid.wall_model={slip=\"free_slip\", extrapolation=\"fit\"}",
+              "--set fluid.wall_model={slip=\"free_slip\", extrapolation=\"fit\"}: error: a 'fit' is of what "
+              "viscous "
+              "terms see at walls: it needs slip = \"no_slip\""},
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},

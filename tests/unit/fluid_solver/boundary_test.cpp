@@ -1,9 +1,11 @@
 // Pressure and velocity that walls take from the fluid, (27)-(29).
-#include "fluid_solver/boundary.hpp"
-
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <numeric>
+
+#include "fluid_solver/wall_extrapolation.hpp"
 
 namespace toryu::fluid {
 namespace {
@@ -42,9 +44,10 @@ struct Taken {
   std::vector<Vec> v_viscous;
 };
 Taken extrapolated(const std::vector<Vec>& places, const Fluid& fluid, const Vec& g, const Vec& v_w = {0, 0},
-                   const Vec& a_w = {0, 0}) {
+                   const Vec& a_w = {0, 0}, bool fitted = false) {
   Boundary boundary;
   boundary.place(places, std::vector<double>(places.size(), d_0 * d_0), 1000, 0.3);
+  if (fitted) boundary.know_faces(lattice_face_depths(places, d_0, 4 * kernel.support()));
   boundary.move_to([&](std::uint32_t k) { return Kinematics{places[k], v_w, a_w}; });
   const auto ordered = in_order(fluid);
   const Particles& particles = ordered.first;
@@ -126,6 +129,87 @@ TEST(WallExtrapolation, LeavesAWallWithoutFluidUnderNoPressure) {
   EXPECT_GT(taken.p[0], 0);
   EXPECT_EQ(taken.p[1], 0);
   EXPECT_EQ(taken.p[2], 0);
+}
+
+/// Fluid on a lattice over a wall of three rows, both disordered as `disorder` says, with a velocity of the
+/// distance from the face.
+std::pair<Fluid, std::vector<Vec>> shear_over_wall(double disorder, const std::function<double(double)>& u) {
+  Fluid fluid;
+  std::vector<Vec> wall;
+  for (int a = 0; a < 12; ++a) {
+    for (int b = 0; b < 8; ++b) {
+      const Vec shift = disorder * d_0 * Vec(std::sin(5 * a + 3 * b), std::cos(7 * a - 2 * b));
+      fluid.x.push_back(Vec((a + 0.5) * d_0, (b + 0.5) * d_0) + shift);
+      fluid.v.emplace_back(u(fluid.x.back()[1]), 0);
+      fluid.p.push_back(100);
+      fluid.rho.push_back(1000);
+    }
+    for (int b = 1; b <= 3; ++b) wall.emplace_back((a + 0.5) * d_0, (0.5 - b) * d_0);
+  }
+  return {fluid, wall};
+}
+
+TEST(WallFit, ContinuesAShearExactlyHoweverTheFluidLies) {
+  for (const Vec& v_w : {Vec(0, 0), Vec(0.7, 0)}) {
+    const auto [fluid, wall] = shear_over_wall(0.2, [&](double y) { return v_w[0] + 3 * y; });
+    const Taken taken = extrapolated(wall, fluid, g, v_w, {0, 0}, true);
+    for (std::size_t k = 3 * 4; k < 3 * 8 + 2; ++k)  // two rows that see fluid
+      if (k % 3 < 2) {
+        EXPECT_LT((taken.v_viscous[k] - v_w - Vec(3 * wall[k][1], 0)).norm(), 1e-12);
+      }
+  }
+}
+
+TEST(WallFit, ContinuesAParabolaBetterThanTheMean) {
+  const auto u = [](double y) { return 3 * y - 2 * y * y; };
+  const auto [fluid, wall] = shear_over_wall(0, u);
+  const Taken fit = extrapolated(wall, fluid, g, {0, 0}, {0, 0}, true), mean = extrapolated(wall, fluid, g);
+  const double first = u(wall[3 * 5][1]), second = u(wall[3 * 5 + 1][1]);
+  EXPECT_NEAR(fit.v_viscous[3 * 5][0] / first, 1.0, 0.03);
+  EXPECT_NEAR(fit.v_viscous[3 * 5 + 1][0] / second, 1.0, 0.15) << "sees a single row: a line";
+  EXPECT_LT(mean.v_viscous[3 * 5 + 1][0] / second, 0.5);
+}
+
+TEST(WallFit, OfASingleRowIsALine) {
+  const Fluid one{{{0.02, 0.05}}, {{0.3, -0.7}}, {500}, {1003}};
+  const Taken taken = extrapolated({{0, -0.08}}, one, g, {0, 0}, {0, 0}, true);  // its face at -0.03
+  EXPECT_LT((taken.v_viscous[0] + 0.05 / 0.08 * one.v[0]).norm(), 1e-12);
+}
+
+TEST(WallFit, LeavesTheMeanBehindAnInnerCorner) {
+  std::vector<Vec> corner;
+  for (int a = -3; a < 6; ++a)
+    for (int b = -3; b < 6; ++b)
+      if (a < 0 || b < 0) corner.emplace_back((a + 0.5) * d_0, (b + 0.5) * d_0);
+  Fluid fluid;
+  for (int a = 0; a < 6; ++a)
+    for (int b = 0; b < 6; ++b) {
+      fluid.x.emplace_back((a + 0.5) * d_0, (b + 0.5) * d_0);
+      fluid.v.emplace_back(fluid.x.back()[0] * fluid.x.back()[1], 0);
+      fluid.p.push_back(100);
+      fluid.rho.push_back(1000);
+    }
+  const Taken fit = extrapolated(corner, fluid, g, {0, 0}, {0, 0}, true);
+  const Taken mean = extrapolated(corner, fluid, g);
+  const Vec inner(-0.05, -0.05), beside(-0.05, 0.25);
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    if ((corner[k] - inner).norm() < 1e-9) {
+      EXPECT_EQ(fit.v_viscous[k], mean.v_viscous[k]);
+    }
+    if ((corner[k] - beside).norm() < 1e-9) {
+      EXPECT_NE(fit.v_viscous[k], mean.v_viscous[k]);
+    }
+  }
+}
+
+TEST(FaceDepths, AreHowFarTheBodyGoesOn) {
+  const std::vector<Vec> L = {{0.5, 0.5}, {1.5, 0.5}, {0.5, 1.5}, {0.5, 2.5}};
+  const FaceDepths depths = lattice_face_depths(L, 1.0, 10);
+  EXPECT_EQ(depths.up[0], Vec(1.5, 2.5));
+  EXPECT_EQ(depths.down[0], Vec(0.5, 0.5));
+  EXPECT_EQ(depths.up[1], Vec(0.5, 0.5));
+  EXPECT_EQ(depths.down[3], Vec(0.5, 2.5));
+  EXPECT_EQ(lattice_face_depths(L, 1.0, 2).up[0], Vec(1.5, 2.0)) << "no farther than is asked for";
 }
 
 }  // namespace

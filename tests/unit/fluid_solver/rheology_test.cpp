@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "fluid_solver/terms/velocity_gradient.hpp"
+#include "fluid_solver/wall_extrapolation.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 

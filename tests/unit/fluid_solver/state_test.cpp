@@ -135,6 +135,12 @@ const Variant variants[] = {
      }},
     {"Wendland", [](Setting& s) { s.parameters.kernel = KernelForm::wendland_c2; }},
     {"WallDensity", [](Setting& s) { s.parameters.wall_model.density = WallDensity::from_pressure; }},
+    {"FittedWalls",
+     [](Setting& s) {
+       s.parameters.wall_model.extrapolation = WallExtrapolation::fit;
+       s.parameters.carreau = Carreau{5, 0.1, 0.1, 0.5};
+       s.scene.walls[1].motion = Motion{{{0, 0, 0}, {0.1, 1, 0}}};
+     }},
     {"NoSuction", [](Setting& s) { s.parameters.wall_model.suction = false; }},
     {"Repulsion", [](Setting& s) { s.parameters.wall_repulsion = WallRepulsion{}; }},
     {"Shifting", [](Setting& s) { s.parameters.particle_shifting = ParticleShifting{}; }},

@@ -1,0 +1,259 @@
+#include "fluid_solver/wall_extrapolation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/scene/occupancy_index.hpp"
+#include "common/sph/neighbour_loop.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+// A sum of kernel values below this share of W(0) means that no fluid is in reach.
+constexpr double smallest_share = 1e-9;
+// What lies nearer to the face counts as this far, over the spacing: the velocity there is divided by it.
+constexpr double least_distance = 0.25;
+// Rows whose distances from the face spread less than this share tell no bend; the line in steps of h^2.
+constexpr double least_bend = 0.01, least_spread = 0.005;
+
+/// The face through which they see the fluid, if there is one.
+struct Face {
+  VecLanes normal = zero_vector();
+  Lanes depth = 0.0, separation = 0.0;
+  Lanes::Mask found() const { return separation > 0.0; }
+  /// Of a particle of the fluid at x_w - x_i, if it is before the face.
+  TORYU_INLINE Lanes distance(const VecLanes& x_wi) const { return -dot(normal, x_wi) - depth; }
+};
+
+/// The mean of x_w - x_i.
+template <class W>
+VecLanes mean_distance(const Boundary& boundary, const Particles& fluid, const W& kernel,
+                       std::size_t cluster) {
+  Lanes sum_W = 0.0;
+  VecLanes sum_x = zero_vector();
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, cluster * lane_count),
+                  pointers(fluid.x), [&](std::uint32_t, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes W_wi = kernel.value(n.r);
+                    sum_W += W_wi;
+                    add_product(sum_x, W_wi, n.x_ij);
+                  });
+  return product(inverse(max(sum_W, smallest_share * kernel.value(0.0))), sum_x);
+}
+
+template <class W>
+Face face_towards(const Boundary& boundary, const Particles& fluid, const W& kernel, std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  const VecLanes x_wi = mean_distance(boundary, fluid, kernel, cluster);
+  Face face;
+  for (int a = 0; a < dim; ++a)
+    for (const double side : {1.0, -1.0}) {
+      const Lanes depth = load((side > 0 ? boundary.depth_up : boundary.depth_down)[a], first);
+      const Lanes separation = -side * x_wi[a] - depth;
+      const auto better = separation > face.separation;
+      for (int b = 0; b < dim; ++b) face.normal[b] = select(better, b == a ? side : 0.0, face.normal[b]);
+      face.depth = select(better, depth, face.depth);
+      face.separation = select(better, separation, face.separation);
+    }
+  return face;
+}
+
+/// v = g d + c d^2.
+class ParabolaFit {
+ public:
+  TORYU_INLINE void add(const Lanes& W, const Lanes& d, const VecLanes& v) {
+    const Lanes W_d = W * d, W_d2 = W_d * d;
+    d2_ += W_d2, d3_ += W_d2 * d, d4_ += W_d2 * d * d;
+    add_product(dv_, W_d, v);
+    add_product(d2v_, W_d2, v);
+  }
+  /// At the depth `d` behind the face, of component a. A single row has no bend.
+  TORYU_INLINE Lanes behind(const Lanes& d, int a) const {
+    const Lanes stiff = (1 + least_bend) * d4_;
+    const Lanes share = inverse(max(d2_ * stiff - d3_ * d3_, 1e-300));
+    const Lanes g = share * (stiff * dv_[a] - d3_ * d2v_[a]), c = share * (d2_ * d2v_[a] - d3_ * dv_[a]);
+    return (c * d - g) * d;
+  }
+
+ private:
+  Lanes d2_ = 0.0, d3_ = 0.0, d4_ = 0.0;
+  VecLanes dv_ = zero_vector(), d2v_ = zero_vector();
+};
+
+/// Lines in d through several values at once.
+template <std::size_t count>
+class LineFits {
+ public:
+  TORYU_INLINE void add(const Lanes& W, const Lanes& d, const std::array<double, count>& values) {
+    const Lanes W_d = W * d;
+    sum_ += W, d_ += W_d, d2_ += W_d * d;
+    for (std::size_t k = 0; k < count; ++k) {
+      value_[k] += W * values[k];
+      d_value_[k] += W_d * values[k];
+    }
+  }
+  /// The values at the depth `d` behind the face. Distances that spread by less than the square root of
+  /// `spread` [m2] tell no slope.
+  TORYU_INLINE std::array<Lanes, count> behind(const Lanes& d, const Lanes& spread) const {
+    const Lanes share = inverse(max(sum_, 1e-300)), middle = share * d_;
+    const Lanes steepness = inverse(share * d2_ - middle * middle + spread);
+    std::array<Lanes, count> values;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Lanes mean = share * value_[k], slope = steepness * (share * d_value_[k] - middle * mean);
+      values[k] = mean - slope * (d + middle);
+    }
+    return values;
+  }
+
+ private:
+  Lanes sum_ = 0.0, d_ = 0.0, d2_ = 0.0;
+  std::array<Lanes, count> value_ = filled(), d_value_ = filled();
+  static std::array<Lanes, count> filled() {
+    std::array<Lanes, count> zeros;
+    zeros.fill(0.0);
+    return zeros;
+  }
+};
+
+template <class W>
+void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel, const Vec& gravity,
+                            std::size_t cluster) {
+  const double smallest_sum = smallest_share * kernel.value(0.0);
+  const std::size_t first = cluster * lane_count;
+  Lanes sum_W = 0.0, sum_p = 0.0;
+  VecLanes sum_v = zero_vector(), sum_rho_x = zero_vector();
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes W_wi = kernel.value(n.r);
+                    sum_W += W_wi;
+                    sum_p += fluid.p[i] * W_wi;
+                    for (int a = 0; a < dim; ++a) {
+                      sum_v[a] += fluid.v[a][i] * W_wi;
+                      sum_rho_x[a] += (fluid.rho[i] * W_wi) * n.x_ij[a];
+                    }
+                  });
+  const Lanes share = inverse(max(sum_W, smallest_sum));
+  const VecLanes a_w = load(boundary.acceleration, first), v_w = load(boundary.v, first);
+  Lanes p_w = sum_p;
+  for (int a = 0; a < dim; ++a) {
+    p_w += (gravity[a] - a_w[a]) * sum_rho_x[a];
+    store(2.0 * v_w[a] - sum_v[a] * share, boundary.v_viscous[a], first);
+  }
+  p_w *= share;
+  const Lanes inverse_rho = inverse(load(boundary.rho, first));
+  store(p_w, boundary.p, first);
+  store(p_w * inverse_rho * inverse_rho, boundary.p_rho2, first);
+}
+
+/// Puts the fits in the place of the mean velocities.
+template <class W>
+void fit_velocity_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel,
+                             std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  const Face face = face_towards(boundary, fluid, kernel, cluster);
+  const Lanes least = least_distance * square_root(load(boundary.V, first));
+  const VecLanes v_w = load(boundary.v, first);
+  ParabolaFit fit;
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes d = face.distance(n.x_ij);
+                    const Lanes W_wi = select(d > 0.0, kernel.value(n.r), 0.0);
+                    fit.add(W_wi, max(d, least), product(-1.0, difference(v_w, pointers(fluid.v), i)));
+                  });
+  for (int a = 0; a < dim; ++a)
+    store(select(face.found(), v_w[a] + fit.behind(face.depth, a), load(boundary.v_viscous[a], first)),
+          boundary.v_viscous[a], first);
+}
+
+template <class W>
+void extrapolate_viscosity_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel,
+                                      std::size_t cluster) {
+  const double smallest_sum = smallest_share * kernel.value(0.0);
+  const std::size_t first = cluster * lane_count;
+  Lanes sum_W = 0.0, sum_eta = 0.0;
+  TensorLanes mean = zero_tensor();
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes W_wi = kernel.value(n.r);
+                    sum_W += W_wi;
+                    sum_eta += fluid.eta[i] * W_wi;
+                    for (int a = 0; a < dim; ++a)
+                      for (int b = 0; b < dim; ++b) mean[a][b] += fluid.eta_grad_v[a][b][i] * W_wi;
+                  });
+  const Lanes share = inverse(max(sum_W, smallest_sum));
+  for (auto& row : mean)
+    for (auto& component : row) component *= share;
+  store(sum_eta * share, boundary.eta, first);
+  store(mean, boundary.eta_grad_v, first);
+}
+
+/// The same of viscosity and eta grad v.
+template <class W>
+void fit_viscosity_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel,
+                              std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  const Face face = face_towards(boundary, fluid, kernel, cluster);
+  LineFits<1 + dim * dim> fits;
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes d = face.distance(n.x_ij);
+                    std::array<double, 1 + dim * dim> values{std::log(fluid.eta[i])};
+                    for (int a = 0; a < dim; ++a)
+                      for (int b = 0; b < dim; ++b)
+                        values[static_cast<std::size_t>(1 + dim * a + b)] = fluid.eta_grad_v[a][b][i];
+                    fits.add(select(d > 0.0, kernel.value(n.r), 0.0), d, values);
+                  });
+  const auto values = fits.behind(face.depth, least_spread * load(boundary.V, first));
+  Lanes eta = 0.0;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) eta.value[lane] = std::exp(values[0][lane]);
+  store(select(face.found(), eta, load(boundary.eta, first)), boundary.eta, first);
+  for (int a = 0; a < dim; ++a)
+    for (int b = 0; b < dim; ++b)
+      store(select(face.found(), values[static_cast<std::size_t>(1 + dim * a + b)],
+                   load(boundary.eta_grad_v[a][b], first)),
+            boundary.eta_grad_v[a][b], first);
+}
+
+}  // namespace
+
+FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, double far) {
+  OccupancyIndex places(0.5 * spacing);
+  places.take(points, "");
+  const auto depth = [&](const Vec& x, const Vec& direction) {
+    double steps = 1;
+    while ((steps - 0.5) * spacing < far && places.taken(x + steps * spacing * direction)) ++steps;
+    return std::min((steps - 0.5) * spacing, far);
+  };
+  FaceDepths depths{points, points};
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (int a = 0; a < dim; ++a) {
+      depths.up[k][a] = depth(points[k], Vec::Unit(a));
+      depths.down[k][a] = depth(points[k], -Vec::Unit(a));
+    }
+  return depths;
+}
+
+void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity) {
+  const auto& active = boundary.list_for_wall.active();
+  kernel.visit([&](const auto& W) {
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      extrapolate_to_cluster(boundary, fluid, W, gravity, active[k]);
+      if (boundary.knows_faces()) fit_velocity_to_cluster(boundary, fluid, W, active[k]);
+    }
+  });
+}
+
+void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel) {
+  const auto& active = boundary.list_for_wall.active();
+  kernel.visit([&](const auto& W) {
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      extrapolate_viscosity_to_cluster(boundary, fluid, W, active[k]);
+      if (boundary.knows_faces()) fit_viscosity_to_cluster(boundary, fluid, W, active[k]);
+    }
+  });
+}
+
+}  // namespace toryu::fluid
