@@ -66,10 +66,23 @@ void Boundary::move(double time) {
       motion);
 }
 
-void Boundary::count_impulse(double dt) {
+void Boundary::count_force(double dt) {
   impulse.total += dt * force_on_fluid.force();
   impulse.friction += dt * force_on_fluid.friction();
+  work += dt * power();
   counted = true;
+}
+
+double Boundary::power() const {
+  if (!moves()) return 0;
+  if (!is_interface()) return force_on_fluid.force().dot(at(v, 0));  // rigid
+  const bool rubbed = !friction_force[0].empty();
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    sum -= at(force, k).dot(at(v, k));
+    if (rubbed) sum -= at(friction_force, k).dot(at(v, k));
+  }
+  return sum;
 }
 
 }  // namespace toryu::fluid

@@ -84,6 +84,7 @@ struct Boundary {
 
   ForceOnFluid force_on_fluid;  ///< of the last evaluation that asked for it
   Impulse impulse;              ///< of what was counted
+  double work = 0;              ///< done on the fluid likewise [J per metre depth]
   bool counted = false;         ///< whether anything was
 
   ClusterList list_for_wall;   ///< for clusters of this boundary: the fluid's particles
@@ -113,8 +114,11 @@ struct Boundary {
   /// The same to `kinematics(id)`.
   template <class Of>
   void move_to(Of&& kinematics);
-  /// Counts what the last evaluation did to the fluid for `dt` [s].
-  void count_impulse(double dt);
+  /// What the last evaluation does on the fluid [W per metre depth].
+  double power() const;
+  /// Counts what the last evaluation did to the fluid for `dt` [s]; of the interface `force` and
+  /// `friction_force` must be there.
+  void count_force(double dt);
 };
 
 template <class Of>
@@ -132,10 +136,10 @@ template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
   auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
          p, p_rho2, v_viscous, eta, eta_grad_v, force, friction_length, friction_force, force_on_fluid,
-         impulse, counted, list_for_wall, list_for_fluid, strips] = boundary;
+         impulse, work, counted, list_for_wall, list_for_fluid, strips] = boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
   archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, p, p_rho2,
-          v_viscous, eta, eta_grad_v, force, friction_length, friction_force, impulse, counted);
+          v_viscous, eta, eta_grad_v, force, friction_length, friction_force, impulse, work, counted);
 }
 
 inline Sources sources(const Boundary& b) {

@@ -28,11 +28,14 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
       period_(scene, parameters.spacing, (1 + parameters.neighbour_skin) * 2 * parameters.h()),
       state_{.neighbours = Neighbours(2 * parameters.h(), parameters.neighbour_skin * 2 * parameters.h(),
                                       parameters.strip_width(), period_.shifts())} {
+  state_.run_watch.emplace(parameters.limits, parameters.sound_speed);
   if (!parameters.particle_shifting) state_.suction_watch.emplace(parameters.spacing, equation_of_state_);
   fill_regions();
   fill_walls();
   check_overlaps();
   start_momentum_ = momentum();
+  start_energy_ = energy();
+  start_potential_ = potential_energy();
 }
 
 void FluidModel::save() {
@@ -66,6 +69,7 @@ void FluidModel::attach(const Interface& interface) {
   boundary.make_work_piece(faces);
   cover_faces(boundary, interface.spacing, state_.boundaries, parameters_.spacing);
   check_overlaps();
+  state_.balance = EnergyBalance(powers());
 }
 
 MovingInterface& FluidModel::interface() {
@@ -81,6 +85,7 @@ void FluidModel::begin_window(const InterfaceMotion& motion, double dt) {
   const GivenImpulse given = give_impulse(motion.impulse, boundary, state_.fluid, kernel_);
   interface().note_impulse(given.not_given, given.received, given.work);
   boundary.impulse.total += given.received;
+  boundary.work += given.work;
 }
 
 InterfaceLoad FluidModel::take_load() {
@@ -99,7 +104,9 @@ void FluidModel::move_back_into_domain() {
   if (!period_.any()) return;
   for (std::size_t i = 0; i < state_.fluid.count; ++i) {
     const Vec x = at(state_.fluid.x, i);
-    set(state_.fluid.x, i, x + period_.back_into_domain(x));
+    const Vec back = x + period_.back_into_domain(x);
+    state_.potential_of_moves += state_.fluid.m[i] * (potential(x) - potential(back));
+    set(state_.fluid.x, i, back);
   }
   for (Boundary& boundary : state_.boundaries)
     if (auto* prescribed = std::get_if<PrescribedMotion>(&boundary.motion))
@@ -125,8 +132,17 @@ void FluidModel::record_surface(const std::filesystem::path& out) {
 }
 
 void FluidModel::record(double time) {
+  {
+    const auto timer = timers_.measure("energy balance");
+    state_.balance.add(time, powers());
+    state_.penetration = penetration(state_.fluid, state_.boundaries);
+  }
   if (state_.surface_record) state_.surface_record->write(time);
+}
+
+void FluidModel::watch(double time) {
   if (state_.suction_watch) watch_suction(time);
+  state_.run_watch->look(run_figures(time));
 }
 
 void FluidModel::complete_records() {
@@ -143,8 +159,8 @@ void FluidModel::watch_suction(double time) {
   state_.suction_watch.reset();
 }
 
-void FluidModel::count_impulses(double dt) {
-  for (Boundary& boundary : state_.boundaries) boundary.count_impulse(dt);
+void FluidModel::count_forces(double dt) {
+  for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
   state_.gravity_impulse += dt * std::reduce(state_.fluid.m.begin(), state_.fluid.m.end()) * scene_.gravity;
 }
 

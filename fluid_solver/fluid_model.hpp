@@ -9,10 +9,12 @@
 #include "common/run/timers.hpp"
 #include "common/scene/fill.hpp"
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/energy_balance.hpp"
 #include "fluid_solver/free_surface.hpp"
 #include "fluid_solver/neighbours.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/period.hpp"
+#include "fluid_solver/run_watch.hpp"
 #include "fluid_solver/suction_watch.hpp"
 #include "fluid_solver/surface_record.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
@@ -43,8 +45,10 @@ class FluidModel : public Solver {
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;
-  /// A row of surface.h5, where `record_surface` was called. Warns of suction that the fluid does not bear.
+  /// Integrates the energy balance; a row of surface.h5, where `record_surface` was called.
   void record(double time) override;
+  /// Warns of suction that the fluid does not bear, and of all that run_watch.hpp looks at.
+  void watch(double time) override;
   void complete_records() override;
   std::size_t particle_count() const override { return state_.fluid.count; }
 
@@ -64,11 +68,14 @@ class FluidModel : public Solver {
 
   double time() const { return state_.time; }
   double kinetic_energy() const;
-  double potential_energy() const;  ///< against gravity [J per metre]
-  double elastic_energy() const;    ///< of compression [J per metre]
+  /// Of gravity and of a central force; where space repeats itself, as if it went on [J per metre].
+  double potential_energy() const;
+  double elastic_energy() const;  ///< of compression [J per metre]
   Vec momentum() const;
   /// What the press adds to the pressure of an enclosed medium [Pa].
   double pressure_offset() const;
+  /// What each term of the case takes from these energies.
+  virtual std::vector<Power> powers() const = 0;
   const Particles& particles() const { return state_.fluid; }
   const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
   /// Where rows of the fluid do not fit between faces.
@@ -85,19 +92,25 @@ class FluidModel : public Solver {
     std::vector<Boundary> boundaries = {};
     Neighbours neighbours;
     Vec gravity_impulse = Vec::Zero();  ///< since the start [N.s per metre]
+    /// What moves by a period have taken from the sum over places [J per metre].
+    double potential_of_moves = 0;
+    EnergyBalance balance = {};
+    Penetration penetration = {};  ///< where the last row was written
     Extremes largest = {};
     bool density_rate_known = false;  ///< of the symplectic step, from the last one
     bool contact_changed = false;     ///< since then: the velocity at the interface
     bool impedance_wanted = false;    ///< with the load of the present window
     std::optional<SurfaceRecord> surface_record = {};
     std::optional<SuctionWatch> suction_watch = {};
+    std::optional<RunWatch> run_watch = {};
   };
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
-    auto& [time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known, contact_changed,
-           impedance_wanted, surface_record, suction_watch] = state;
-    archive(time, fluid, boundaries, neighbours, gravity_impulse, largest, density_rate_known,
-            contact_changed, impedance_wanted);
+    auto& [time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, penetration,
+           largest, density_rate_known, contact_changed, impedance_wanted, surface_record, suction_watch,
+           run_watch] = state;
+    archive(time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, largest,
+            density_rate_known, contact_changed, impedance_wanted, *run_watch);
     if (surface_record) archive(*surface_record);
     bool watched = suction_watch.has_value();  // until it has warned
     archive(watched);
@@ -110,7 +123,7 @@ class FluidModel : public Solver {
   void move_boundaries(double time);
   /// Counts what the last evaluation is about to do in `dt` [s], so that the sum is the change of momentum to
   /// rounding.
-  void count_impulses(double dt);
+  void count_forces(double dt);
 
   Parameters parameters_;
   Scene scene_;
@@ -129,6 +142,13 @@ class FluidModel : public Solver {
   void move_back_into_domain();
   void watch_suction(double time);
   MovingInterface& interface();
+  /// Energy over mass at `x` [m2/s2].
+  double potential(const Vec& x) const;
+  double energy() const { return kinetic_energy() + potential_energy() + elastic_energy(); }
+  /// By how much the energy has changed beyond the work of the boundaries [J per metre].
+  double energy_gained() const;
+  double mean_density() const;  ///< by mass over volume [kg/m3]
+  RunFigures run_figures(double time) const;
   /// What no force gave the fluid: shifting, tensile control, consistent gradients [N.s per metre].
   Vec numerical_impulse() const;
   void check_particle(std::size_t particle, double time, double least_density, double most_density,
@@ -137,6 +157,7 @@ class FluidModel : public Solver {
                          const std::string& limit) const;
 
   Vec start_momentum_ = Vec::Zero();
+  double start_energy_ = 0, start_potential_ = 0;  ///< [J per metre]
   std::vector<Misfit> misfits_;
   std::optional<State> saved_;
 };

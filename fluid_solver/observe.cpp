@@ -1,5 +1,6 @@
 /// What the fluid tells of itself: bounds, frames, energies and observers.
 
+#include <algorithm>
 #include <cmath>
 
 #include "fluid_solver/fluid_model.hpp"
@@ -8,6 +9,15 @@
 namespace toryu::fluid {
 
 static_assert(dim == 2, "columns have the components of the plane");
+
+namespace {
+
+/// Over the sound speed: lattices and surfaces settle with less.
+constexpr double speed_of_settling = 0.003;
+/// So many particles may be faster than what counts as fast: a few splash.
+constexpr std::size_t least_fast = 3;
+
+}  // namespace
 
 void FluidModel::fail(std::size_t i, double time, const std::string& quantity, double value,
                       const std::string& limit) const {
@@ -87,10 +97,32 @@ double FluidModel::kinetic_energy() const {
 }
 
 double FluidModel::potential_energy() const {
-  double sum = 0;
+  double sum = state_.potential_of_moves;
   for (std::size_t i = 0; i < state_.fluid.count; ++i)
-    sum -= state_.fluid.m[i] * scene_.gravity.dot(at(state_.fluid.x, i));
+    sum += state_.fluid.m[i] * potential(at(state_.fluid.x, i));
   return sum;
+}
+
+double FluidModel::potential(const Vec& x) const {
+  double value = -scene_.gravity.dot(x);
+  if (const auto& pull = parameters_.central_force)
+    value += 0.5 * pull->rate * pull->rate * (x - pull->centre).squaredNorm();
+  return value;
+}
+
+double FluidModel::mean_density() const {
+  double mass = 0, volume = 0;
+  for (std::size_t i = 0; i < state_.fluid.count; ++i) {
+    mass += state_.fluid.m[i];
+    volume += state_.fluid.m[i] / state_.fluid.rho[i];
+  }
+  return mass / volume;
+}
+
+double FluidModel::energy_gained() const {
+  double gained = energy() - start_energy_;
+  for (const Boundary& boundary : state_.boundaries) gained -= boundary.work;
+  return gained;
 }
 
 double FluidModel::elastic_energy() const {
@@ -104,6 +136,32 @@ double FluidModel::elastic_energy() const {
     sum += state_.fluid.m[i] / s.rho_0 * (s.p_0() * (growth + 1 / ratio - 1) + s.p_b * (1 - 1 / ratio));
   }
   return sum;
+}
+
+RunFigures FluidModel::run_figures(double time) const {
+  const Particles& fluid = state_.fluid;
+  const double c_0 = parameters_.sound_speed, stored = state_.balance.taken(Taken::stored);
+  std::vector<double> speed(fluid.count);
+  double mass = 0, held = 0, moved = 0;
+  for (std::size_t i = 0; i < fluid.count; ++i) {
+    speed[i] = at(fluid.v, i).norm();
+    mass += fluid.m[i];
+    const double p_rho = equation_of_state_.pressure(fluid.rho[i]) / fluid.rho[i];
+    held += 0.5 * fluid.m[i] * p_rho * p_rho / (c_0 * c_0);
+  }
+  for (const Boundary& boundary : state_.boundaries) moved += std::abs(boundary.work);
+  const std::size_t faster = std::min(std::max(fluid.count / 100, least_fast), fluid.count - 1);
+  const auto fast = speed.end() - 1 - static_cast<std::ptrdiff_t>(faster);
+  std::nth_element(speed.begin(), fast, speed.end());
+  return {.time = time,
+          .fast = *fast,
+          .mean_density = mean_density(),
+          .count = fluid.count,
+          .penetration = state_.penetration,
+          .gained = energy_gained() + stored,
+          .turned_over = std::max({kinetic_energy(), std::abs(potential_energy() - start_potential_), moved,
+                                   std::abs(stored), held}),
+          .least_energy = 0.5 * mass * std::pow(speed_of_settling * c_0, 2)};
 }
 
 Vec FluidModel::momentum() const {
@@ -130,7 +188,9 @@ std::vector<Observation> FluidModel::observe() const {
                                {"elastic_energy", "J/m", elastic_energy()},
                                {"momentum_x", "N.s/m", p[0]},
                                {"momentum_y", "N.s/m", p[1]},
-                               {"largest_speed", "m/s", state_.largest.speed}};
+                               {"largest_speed", "m/s", state_.largest.speed},
+                               {"mean_density", "kg/m3", mean_density()},
+                               {"particles_in_walls", "1", static_cast<double>(state_.penetration.count)}};
   const auto push = [&](const std::string& name, const std::string& unit, const Vec& value) {
     row.push_back({name + "_x", unit, value[0]});
     row.push_back({name + "_y", unit, value[1]});
@@ -139,12 +199,14 @@ std::vector<Observation> FluidModel::observe() const {
     const ForceOnFluid& given = boundary.force_on_fluid;
     push("force_from_" + boundary.name, "N/m", boundary.counted ? given.force() : Vec(Vec::Zero()));
     push("impulse_from_" + boundary.name, "N.s/m", boundary.impulse.total);
+    if (boundary.moves()) row.push_back({"work_from_" + boundary.name, "J/m", boundary.work});
     if (!parameters_.friction || !boundary.is_work_piece()) continue;
     push("friction_from_" + boundary.name, "N/m", boundary.counted ? given.friction() : Vec(Vec::Zero()));
     push("friction_impulse_from_" + boundary.name, "N.s/m", boundary.impulse.friction);
   }
   if (scene_.gravity.norm() > 0) push("impulse_of_gravity", "N.s/m", state_.gravity_impulse);
   if (parameters_.seeks_free_surface()) push("impulse_of_corrections", "N.s/m", numerical_impulse());
+  for (const auto& energy : state_.balance.observe(energy_gained())) row.push_back(energy);
   for (const auto& observer : parameters_.observers)
     row.push_back(
         toryu::fluid::observe(observer, {state_.fluid, state_.boundaries, parameters_, kernel_,

@@ -88,6 +88,20 @@ void describe(ParameterTable& table, Limits& limits) {
                 .maximum = 1,
                 .above_minimum = true,
                 .help = "a particle whose |rho/rho_0 - 1| is larger stops the run"});
+  table.number(
+      "largest_mean_density_change", limits.largest_mean_density_change,
+      {.minimum = 0,
+       .above_minimum = true,
+       .help = "a mean density that differs by a larger share from that at the start stops the run"});
+  table.number("largest_share_in_walls", limits.largest_share_in_walls,
+               {.minimum = 0,
+                .help = "a larger share of the particles inside walls or the solid, and ten at least, stops "
+                        "the run"});
+  table.number("largest_energy_gain", limits.largest_energy_gain,
+               {.minimum = 0,
+                .above_minimum = true,
+                .help = "energy that no boundary gave the fluid stops the run where it exceeds so many times "
+                        "the largest that it has turned over"});
 }
 
 void describe(ParameterTable& table, Observer& observer) {

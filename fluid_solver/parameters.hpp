@@ -58,6 +58,10 @@ void describe(ParameterTable& table, WallModel& model);
 struct Limits {
   double largest_speed = 0;             ///< [m/s]; 0: the speed of sound
   double largest_density_change = 0.3;  ///< |rho/rho_0 - 1|
+  // see run_watch.hpp
+  double largest_mean_density_change = 0.1;  ///< of mass over volume since the start
+  double largest_share_in_walls = 0.05;      ///< of the particles
+  double largest_energy_gain = 1;            ///< over the largest energy turned over
 };
 void describe(ParameterTable& table, Limits& limits);
 
@@ -77,7 +81,7 @@ enum class KernelForm { cubic_spline, wendland_c2 };
 enum class Integrator { midpoint, symplectic };
 
 struct Parameters : OptionalTerms {
-  double density = 1000.0;       ///< rho_0 [kg/m3]
+  double density = 1000.0;  ///< rho_0 [kg/m3]
   std::optional<Similarity> similarity;
   double sound_speed = 0;        ///< c_0 [m/s]
   int stiffness_exponent = 7;    ///< gamma of (3)

@@ -18,6 +18,7 @@ constexpr double first_row = 1.0;  ///< what is nearer to the face, over the spa
 
 /// Kernel means about one surface particle.
 struct Contact {
+  bool there = false;
   double pressure = 0;         ///< [Pa]
   Vec velocity = Vec::Zero();  ///< of the medium against the surface [m/s]
 };
@@ -41,6 +42,7 @@ Contact contact_of(const Boundary& surface, std::size_t k, const Vec& side, cons
     }
   }
   if (sum < least_contact_sum) return {};
+  mean.there = true;
   mean.pressure /= sum;
   mean.velocity /= sum;
   return mean;
@@ -149,6 +151,7 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
   for (auto* sum : {&state_.pressure, &state_.speed, &state_.friction_work, &state_.sliding_pressure})
     sum->assign(size(), 0.0);
   state_.traction.assign(dim * size(), 0.0);
+  state_.wetted.assign(size(), 0);
 }
 
 void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid, double p_offset,
@@ -172,6 +175,7 @@ void SurfaceRecord::add_point(std::size_t s, const Boundary& body, std::size_t k
   const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
   const Contact contact =
       contact_of(body, k, alone_[s] ? Vec(Vec::Zero()) : Vec(n_s), fluid, p_offset, kernel);
+  if (contact.there) state_.wetted[s] = 1;
   const double sliding =
       sticks_ ? removal_.grain_length * shear_rate_at(body, k, {at(body.x, k), at(body.v, k), n_s, *sticks_},
                                                       fluid, neighbours, kernel)
@@ -223,20 +227,26 @@ void SurfaceRecord::write(double time) {
 }
 
 std::vector<Observation> SurfaceRecord::observe() const {
-  double surface = 0, removed = 0, largest = 0, rough = 0;
+  double wetted = 0, integral = 0, largest = 0, rough = 0;
   const auto& ra = removal_.roughness;
   for (std::size_t k = 0; k < size(); ++k) {
-    const double h = depth(k);
-    surface += area_[k];
-    removed += area_[k] * h;
-    largest = std::max(largest, h);
-    if (ra) rough += area_[k] * (ra->final + (ra->initial - ra->final) * std::exp(-h / ra->decay_depth));
+    if (!state_.wetted[k]) continue;
+    wetted += area_[k];
+    integral += area_[k] * state_.sliding_pressure[k];
+    largest = std::max(largest, state_.sliding_pressure[k]);
+    if (ra)
+      rough += area_[k] * (ra->final + (ra->initial - ra->final) * std::exp(-depth(k) / ra->decay_depth));
   }
-  if (surface == 0) surface = 1;  // nothing to wear
-  std::vector<Observation> row{{"removed_depth_mean", "m", removed / surface},
-                               {"removed_depth_largest", "m", largest},
-                               {"removed_area", "m2", removed}};
-  if (ra) row.push_back({"roughness_mean", "m", rough / surface});
+  const double mean = wetted > 0 ? integral / wetted : 0.0;
+  std::vector<Observation> row{{"removed_depth_mean", "m", wear_rate() * mean},
+                               {"removed_depth_largest", "m", wear_rate() * largest},
+                               {"removed_area", "m2", wear_rate() * integral},
+                               {"wetted_length", "m", wetted}};
+  if (has_both_laws()) {
+    row.push_back({"archard_depth_mean", "m", archard_rate() * mean});
+    row.push_back({"archard_depth_largest", "m", archard_rate() * largest});
+  }
+  if (ra) row.push_back({"roughness_mean", "m", wetted > 0 ? rough / wetted : ra->initial});
   return row;
 }
 

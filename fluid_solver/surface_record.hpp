@@ -48,7 +48,9 @@ class SurfaceRecord {
   void complete() { file_->complete(); }
 
   std::size_t size() const { return area_.size(); }
-  /// Removed depth (mean over the surface, largest) [m], area [m2 per metre depth], roughness [m].
+  /// Removed depth (mean over what has been wetted, largest) [m], area [m2 per metre depth], the length that
+  /// was wetted [m], roughness [m]; by Preston's law, and where Archard's is given too the depths by that as
+  /// well.
   std::vector<Observation> observe() const;
 
  private:
@@ -61,6 +63,7 @@ class SurfaceRecord {
   double wear_rate() const {
     return removal_.preston_coefficient > 0 ? removal_.preston_coefficient : archard_rate();
   }
+  bool has_both_laws() const { return removal_.preston_coefficient > 0 && removal_.archard; }
   double archard_rate() const {
     return removal_.archard ? removal_.archard->wear_coefficient / removal_.archard->hardness : 0.0;
   }
@@ -78,13 +81,14 @@ class SurfaceRecord {
   struct State {
     std::vector<double> pressure, speed, traction;        ///< [Pa s], [m], [Pa s]
     std::vector<double> friction_work, sliding_pressure;  ///< [J/m2], [Pa m]
+    std::vector<std::uint8_t> wetted;                     ///< 1 where the fluid has been in contact
     double since_row = 0;                                 ///< [s]
   };
   template <class Archive>
   friend void serialize(Archive& archive, SurfaceRecord& record) {
-    auto& [pressure, speed, traction, friction_work, sliding_pressure, since_row] = record.state_;
+    auto& [pressure, speed, traction, friction_work, sliding_pressure, wetted, since_row] = record.state_;
     HdfSeriesFile::State file = record.file_ ? record.file_->state() : HdfSeriesFile::State{};
-    archive(pressure, speed, traction, friction_work, sliding_pressure, since_row, file);
+    archive(pressure, speed, traction, friction_work, sliding_pressure, wetted, since_row, file);
     if constexpr (Archive::is_loading::value)
       if (record.file_) record.file_->resume(file);
   }

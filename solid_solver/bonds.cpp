@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "common/error/failure.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 /// Over the spacing: side and diagonal of a lattice's cell, also where a region's cells are a little longer.
 constexpr double reach_of_adjacent = 1.5;
+/// Of the moment of a particle's bonds, over the square of its trace: those of a corner have 3/16.
+constexpr double least_determinant = 0.01;
 
 }  // namespace
 
@@ -25,15 +28,54 @@ Bonds::Bonds(const Body& body, const BondLimits& limits) : limits_(limits) {
       const Vec first = body.X[j] - body.X[i];
       if (i < j && body.shape.joins(body.X[i], body.X[j])) bonds_.push_back({i, j, first, first.norm()});
     });
+  inverse_moment_.assign(body.size(), Mat::Zero());
+  for (const auto& bond : bonds_)
+    for (const std::uint32_t k : {bond.i, bond.j}) inverse_moment_[k] += bond.first * bond.first.transpose();
+  for (Mat& moment : inverse_moment_) {
+    const double size = moment.trace();
+    moment = moment.determinant() > least_determinant * size * size ? Mat(moment.inverse()) : Mat::Zero();
+  }
+}
+
+std::vector<Mat> Bonds::deformations(const std::vector<Vec>& x) const {
+  std::vector<Mat> F(x.size(), Mat::Zero());
+  for (const auto& bond : bonds_) {
+    const Mat product = (x[bond.j] - x[bond.i]) * bond.first.transpose();  // the same from either side
+    F[bond.i] += product;
+    F[bond.j] += product;
+  }
+  for (std::size_t k = 0; k < F.size(); ++k)
+    F[k] = inverse_moment_[k].isZero(0) ? Mat(Mat::Identity()) : Mat(F[k] * inverse_moment_[k]);
+  return F;
+}
+
+double Bonds::largest_turn(const std::vector<Mat>& F) const {
+  static_assert(dim == 2, "a rotation is one angle");
+  std::vector<Vec> direction(F.size()), mean;
+  for (std::size_t k = 0; k < F.size(); ++k)
+    direction[k] = Vec(F[k](0, 0) + F[k](1, 1), F[k](1, 0) - F[k](0, 1)).normalized();
+  mean = direction;
+  for (const auto& bond : bonds_) {
+    mean[bond.i] += direction[bond.j];
+    mean[bond.j] += direction[bond.i];
+  }
+  double largest = 0;
+  for (const Vec& d : mean) largest = std::max(largest, std::abs(std::atan2(d[1], d[0])));
+  return largest;
 }
 
 Stretches Bonds::stretches(const std::vector<Vec>& x) const {
   Stretches found;
-  double least_cosine = 1.0;
+  const std::vector<Mat> F = deformations(x);
+  found.turn = largest_turn(F);
   for (const auto& bond : bonds_) {
     const Vec now = x[bond.j] - x[bond.i];
-    const double length = now.norm(), stretch = length / bond.length;
-    if (length > 0) least_cosine = std::min(least_cosine, now.dot(bond.first) / (length * bond.length));
+    const double stretch = now.norm() / bond.length;
+    const Vec deformed = 0.5 * (F[bond.i] + F[bond.j]) * bond.first;
+    if (const double rest = (now - deformed).norm() / bond.length; rest > found.rearranged) {
+      found.rearranged = rest;
+      found.displaced = bond.i;
+    }
     if (stretch > found.largest) {
       found.largest = stretch;
       found.longest = bond.i;
@@ -45,7 +87,6 @@ Stretches Bonds::stretches(const std::vector<Vec>& x) const {
     found.torn += stretch > limits_.torn_at;
     found.clumped += stretch < limits_.clumped_at;
   }
-  found.turn = std::acos(std::max(least_cosine, -1.0));
   return found;
 }
 
@@ -70,17 +111,31 @@ void BondWatch::check(State& state, const std::vector<Vec>& x, double time) cons
         what, time, count, than, limit, particle, x[particle][0], x[particle][1]);
   };
   warn_of_stress(state, found, time);
+  if (found.torn + found.clumped == 0) warn_of_rearrangement(state, found, x[found.displaced], time);
   worst.turn = std::max(worst.turn, found.turn);
+  worst.rearranged = std::max(worst.rearranged, found.rearranged);
   worst.largest = std::max(worst.largest, found.largest);
   worst.smallest = std::min(worst.smallest, found.smallest);
   warn(found.torn, state.warned_torn, "torn", "longer", limits_.torn_at, found.longest);
   warn(found.clumped, state.warned_clumped, "clumped", "shorter", limits_.clumped_at, found.shortest);
 }
 
+void BondWatch::warn_of_rearrangement(const State& state, const Stretches& found, const Vec& place,
+                                      double time) const {
+  if (!(found.rearranged > edges_.rearranged && state.worst.rearranged <= edges_.rearranged)) return;
+  log::warn(
+      "particles of the solid have left their arrangement at t = {:.6g} s: near ({:.4g}, {:.4g}) m bonds "
+      "differ by {:.2g} of their length from what the body around them does, beyond the edge at {:g}; "
+      "artificial stress, or tension without enough of it, moves them, and shape and stiffness drift from "
+      "then "
+      "on; take formulation = \"total_lagrangian\" or more artificial viscosity",
+      time, place[0], place[1], found.rearranged, edges_.rearranged);
+}
+
 void BondWatch::warn_of_stress(const State& state, const Stretches& found, double time) const {
   if (found.turn > edges_.turn && state.worst.turn <= edges_.turn)
     log::warn(
-        "bonds of the solid have turned by {:.3g} rad at t = {:.6g} s: plain gradients take a turn near a "
+        "the solid has turned by {:.3g} rad at t = {:.6g} s: plain gradients take a turn near a "
         "surface for a strain, beyond the edge at {:g} rad; take gradients = \"renormalised\" or formulation "
         "= "
         "\"total_lagrangian\", see cases/rigid_rotation/turn_map.toml",

@@ -17,7 +17,8 @@ std::vector<std::pair<std::string, double>> SolidModel::figures() const {
           {"clumped_bonds", static_cast<double>(worst.clumped)},
           {"largest_energy_gain", state_.energy.largest_gain},
           {"largest_bond_strain", worst.strain()},
-          {"largest_bond_turn", worst.turn}};
+          {"largest_bond_turn", worst.turn},
+          {"largest_rearrangement", worst.rearranged}};
 }
 
 void SolidModel::observe_regions(std::vector<Observation>& row) const {

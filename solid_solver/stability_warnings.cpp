@@ -103,7 +103,7 @@ double courant_edge(const Parameters& p) {
 
 StressEdges stress_edges(const Parameters& p) {
   if (p.formulation == Formulation::total_lagrangian) return {};
-  StressEdges edges{.strain = 0.30};
+  StressEdges edges{.strain = 0.30, .rearranged = 0.1};
   if (p.gradients == Gradients::plain) edges.turn = 0.2;
   return edges;
 }

@@ -53,8 +53,10 @@ void RunRecord::check(double time) {
 void RunRecord::write(double time) {
   solver_.accept();
   state_.time = time;
-  if (series_due_.reached(time) || every_step_) write_row(time);
+  const bool row = series_due_.reached(time) || every_step_;
+  if (row) write_row(time);
   if (frames_due_.reached(time)) write_frame(time);
+  if (row) solver_.watch(time);
 }
 
 void RunRecord::write_last() {
@@ -63,10 +65,16 @@ void RunRecord::write_last() {
   if (frames_due_.state().interval > 0 && frame_written_ != reached_) write_frame(*reached_);
 }
 
+void RunRecord::write_end() {
+  const auto before = row_written_;
+  write_last();
+  if (row_written_ != before) solver_.watch(*reached_);
+}
+
 void RunRecord::write_row(double time) {
   const auto scope = timers_.measure("series");
-  series_.write(time, solver_.observe());
   solver_.record(time);
+  series_.write(time, solver_.observe());
   row_written_ = time;
 }
 

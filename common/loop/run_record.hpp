@@ -38,6 +38,8 @@ class RunRecord {
   /// or not, if there is none yet: the last state of a run is always there. A checkpoint that was written
   /// before does not know of them, and a run that goes on from it replaces them.
   void write_last();
+  /// The same at the end of a run that went well; lets the solver look at a row that was still to be written.
+  void write_end();
   /// Counts sub-steps of length `dt` [s].
   void count_steps(long steps, double dt);
   /// The next time at which something is due [s].

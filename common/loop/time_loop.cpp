@@ -109,7 +109,7 @@ void run_recorded(RunRecord& record, const std::function<void()>& body, const st
   record.measure_waiting(waiting_time);
   try {
     body();
-    record.write_last();
+    record.write_end();
     record.complete();
   } catch (...) {
     if (leave) leave();

@@ -69,8 +69,11 @@ class Solver {
   virtual Frame frame() const = 0;
   /// Energies, momentum, observers; the same names in the same order at each call.
   virtual std::vector<Observation> observe() const = 0;
-  /// Adds rows to files of the solver's own, as often as the series.
+  /// Adds rows to files of the solver's own, as often as the series, and before it asks for observations.
   virtual void record(double /*time*/) {}
+  /// Looks, after a row was written, at what shows over a run alone: warns, and throws PhysicsFailure where
+  /// the result is spoiled.
+  virtual void watch(double /*time*/) {}
   /// Gives those files their final names: no row follows. Throws MachineFailure if that fails.
   virtual void complete_records() {}
   virtual std::vector<ActiveTerm> active_terms() const = 0;

@@ -43,7 +43,8 @@ inline void describe(ParameterTable& table, Roughness& roughness) {
                 .help = "removed depth after which Ra - Ra_final has fallen to 1/e"});
 }
 
-/// What comes off the work pieces. One law gives the depth; with both, Preston's counts.
+/// What comes off the work pieces. One law gives the depth; with both, Preston's counts, and Archard's has
+/// columns of its own.
 struct Removal {
   static constexpr const char* section = "removal";
   static constexpr const char* help = "what comes off the work pieces; writes surface.h5";

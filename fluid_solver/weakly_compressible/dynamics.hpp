@@ -8,6 +8,7 @@
 
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
+#include "fluid_solver/energy_balance.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/rheology.hpp"
@@ -42,6 +43,10 @@ class Dynamics {
 
   /// Of a medium that is held at a mean pressure: what contact adds to p [Pa].
   double pressure_offset(const Particles& fluid) const;
+  /// What each term of the case takes from the fluid's energy, with the fields of the last evaluation;
+  /// nothing before the first step.
+  std::vector<Power> powers(const Particles& fluid, const ClusterList& neighbours,
+                            const std::vector<Boundary>& boundaries) const;
 
   const Medium& medium() const { return medium_; }
   const Kernel& kernel() const { return medium_.kernel; }

@@ -94,6 +94,34 @@ void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, cons
   store(sum, work_piece.friction_force, first);
 }
 
+double WorkPieceFriction::power(const Particles& fluid, double p_offset,
+                                const std::vector<Boundary>& boundaries) const {
+  double sum = 0;
+  kernel_.visit([&](const auto& W) {
+    for (const Boundary& boundary : boundaries)
+      if (boundary.is_work_piece())
+        for (const auto c : boundary.list_for_fluid.active())
+          sum += power_of_cluster(W, fluid, p_offset, boundary, c);
+  });
+  return sum;
+}
+
+template <class W>
+double WorkPieceFriction::power_of_cluster(const W& kernel, const Particles& fluid, double p_offset,
+                                           const Boundary& work_piece, std::size_t cluster) const {
+  const std::size_t first = cluster * lane_count;
+  const VecLanes v_f = load(fluid.v, first);
+  const Lanes p_f = load(fluid.p, first) + p_offset;
+  const Positions v_s = pointers(work_piece.v);
+  Lanes sum = 0.0;
+  over_neighbours(kernel, work_piece.list_for_fluid.near(cluster), load(fluid.x, first),
+                  pointers(work_piece.x), [&](std::uint32_t s, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const VecLanes v_fs = difference(v_f, v_s, s);
+                    sum += dot(term_.per_volume(kernel, work_piece.friction_length[s], p_f, n.r, v_fs), v_fs);
+                  });
+  return sum_of(load(fluid.V, first) * sum);  // V_f = 0 in idle lanes
+}
+
 double WorkPieceFriction::rate(double p, double rho) const {
   const double share = form_ == FrictionForm::as_printed ? printed_share(kernel_, spacing_) : 1.0;
   return share * term_.mu_A * std::max(p, 0.0) / (rho * spacing_ * term_.eps);

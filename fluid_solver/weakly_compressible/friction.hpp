@@ -20,6 +20,9 @@ class WorkPieceFriction {
   /// Fills `work_piece.friction_force`, the exact reaction.
   void drag_work_piece(Boundary& work_piece, const Particles& fluid, double p_offset) const;
 
+  /// What friction takes from the fluid's energy, sum F_fs . v_fs [W per metre depth].
+  double power(const Particles& fluid, double p_offset, const std::vector<Boundary>& boundaries) const;
+
   /// The fastest rate [1/s] at which friction brakes fluid of density `rho` under the pressure `p`: that of
   /// the linear drag at rest, on the row next to a plane interface.
   double rate(double p, double rho) const;
@@ -28,6 +31,9 @@ class WorkPieceFriction {
   template <class W>
   Vec brake_cluster(const W& kernel, Particles& fluid, double p_offset, const Boundary& work_piece,
                     std::size_t cluster) const;
+  template <class W>
+  double power_of_cluster(const W& kernel, const Particles& fluid, double p_offset,
+                          const Boundary& work_piece, std::size_t cluster) const;
   template <class W>
   void drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid, double p_offset,
                     std::size_t cluster) const;

@@ -63,6 +63,7 @@ WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene
   dynamics_.allocate(state_.fluid);
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
+  state_.balance = EnergyBalance(powers());
   state_.largest.viscosity = dynamics_.viscosity_at_rest();
   note_extremes();
 }
@@ -154,7 +155,7 @@ void WeaklyCompressible::accumulate_reaction(double dt) {
       interface->add_load(boundary, boundary.force_on_fluid.force(), dt);
     }
   note_surface(dt);
-  count_impulses(dt);
+  count_forces(dt);
 }
 
 void WeaklyCompressible::note_surface(double dt) {

@@ -125,6 +125,27 @@ TEST(SurfaceRecord, ArchardCountsWherePrestonIsNotGiven) {
   EXPECT_NEAR(one.after(archard)["removed_depth_mean"], 2e-3 / 4e8 * 50 * 3 * dt, 1e-20);
 }
 
+TEST(SurfaceRecord, ADryFaceDoesNotCount) {
+  Contacting one({{Vec(0, 0.16), Vec(3, 0), 50, 0.01}});
+  const auto alone = one.after(preston);
+  EXPECT_NEAR(alone.at("wetted_length"), d_0, 1e-15);
+  one.boundaries.front().make_work_piece(
+      {faces_of(Vec(0, d_0)), faces_of(Vec(0, -2 * d_0))});  // the lower one: none in reach
+  SurfaceRecord record(preston);
+  record.attach(one.boundaries);
+  ASSERT_EQ(record.size(), 2u);
+  record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
+  for (const auto& seen : record.observe()) EXPECT_NEAR(seen.value, alone.at(seen.name), 1e-15) << seen.name;
+}
+
+TEST(SurfaceRecord, TellsTheDepthsOfBothLaws) {
+  const Removal both{.preston_coefficient = 1e-6, .archard = Archard{2e-3, 4e8}, .roughness = {}};
+  const auto seen = Contacting({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}}).after(both);
+  EXPECT_NEAR(seen.at("removed_depth_mean"), 1e-6 * 50 * 3 * dt, 1e-15);
+  EXPECT_NEAR(seen.at("archard_depth_mean"), 2e-3 / 4e8 * 50 * 3 * dt, 1e-20);
+  EXPECT_NEAR(seen.at("archard_depth_largest"), 2e-3 / 4e8 * 50 * 3 * dt, 1e-20);
+}
+
 TEST(SurfaceRecord, RoughnessDecaysWithTheDepth) {
   const double depth = 1e-6 * 50 * 3 * dt;
   Removal removal = preston;

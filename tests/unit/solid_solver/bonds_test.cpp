@@ -55,10 +55,45 @@ TEST(Bonds, KnowHowFarTheyTurn) {
     EXPECT_NEAR(found.turn, std::abs(angle), 1e-7);
     EXPECT_NEAR(found.strain(), 0, 1e-12);
   }
-  // sheared: sides along y lean by atan 0.55, diagonals become 1.304 times as long
+  // sheared: the body turns by atan 0.55/2, diagonals become 1.304 times as long
   const Stretches found = bonds.stretches(moved(body.X, sheared_by(0.55)));
-  EXPECT_NEAR(found.turn, std::atan(0.55), 1e-7);
+  EXPECT_NEAR(found.turn, std::atan(0.55 / 2), 1e-7);
   EXPECT_NEAR(found.strain(), std::sqrt((1.55 * 1.55 + 1) / 2) - 1, 1e-12);
+}
+
+TEST(Bonds, TellAMovedLatticeFromATurn) {
+  const Body body = body_of(free_plate(4));
+  const Bonds bonds(body, {});
+  const auto zigzag = [&](double share) {  // rows slide past each other to and fro
+    auto x = body.X;
+    for (std::size_t i = 0; i < body.size(); ++i)
+      x[i][0] += share * body.spacing * (std::lround(body.X[i][1] / body.spacing - 0.5) % 2 == 0 ? 1 : -1);
+    return x;
+  };
+  const Stretches found = bonds.stretches(zigzag(0.1));
+  EXPECT_GT(found.rearranged, 0.1);
+  EXPECT_LT(found.turn, 0.08) << "the bonds between rows lean by 0.2 rad";
+  for (const Mat& F : {turned_by(1.0), sheared_by(0.5)})
+    EXPECT_LT(bonds.stretches(moved(body.X, F)).rearranged, 1e-12);
+  EXPECT_GT(bonds.stretches(moved(zigzag(0.1), turned_by(1.0))).rearranged, 0.1);
+}
+
+TEST(BondWatch, BlamesNoTurnWhereTheLatticeHasMoved) {
+  const Body body = body_of(free_plate(4));
+  std::ostringstream said;
+  const auto logger = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_st>(said)));
+  const BondWatch watch(body, {}, {.turn = 0.2, .strain = 0.3, .rearranged = 0.1});
+  BondWatch::State state;
+  auto x = body.X;
+  x[20] += Vec(0.3 * body.spacing, 0);  // one particle: bonds beside it lean by 0.3 rad
+  for (int n = 0; n < 2; ++n) watch.check(state, x, 0.5);
+  spdlog::set_default_logger(logger);
+  EXPECT_EQ(said.str().find("has turned"), std::string::npos) << said.str();
+  const auto first = said.str().find("particles of the solid have left their arrangement at t = 0.5 s");
+  ASSERT_NE(first, std::string::npos) << said.str();
+  EXPECT_EQ(said.str().find("left their arrangement", first + 40), std::string::npos) << "once";
 }
 
 TEST(BondWatch, SaysOnceThatTheStressIsBeyondAnEdge) {
@@ -67,7 +102,7 @@ TEST(BondWatch, SaysOnceThatTheStressIsBeyondAnEdge) {
   const auto logger = spdlog::default_logger();
   spdlog::set_default_logger(
       std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_st>(said)));
-  const BondWatch watch(body, {}, {.turn = 0.7, .strain = 0.3});
+  const BondWatch watch(body, {}, {.turn = 0.7, .strain = 0.3, .rearranged = 0.1});
   BondWatch::State state;
   watch.check(state, moved(body.X, turned_by(0.6)), 0.1);
   watch.check(state, moved(body.X, sheared_by(0.5)), 0.2);
@@ -112,7 +147,7 @@ TEST(UpdatedLagrangian, WatchesItsBondsUnasked) {
   p.formulation = Formulation::updated_lagrangian;
   p.hourglass.reset();
   const auto model = model_of(p);
-  ASSERT_EQ(model->figures().size(), 5u);
+  ASSERT_EQ(model->figures().size(), 6u);
   EXPECT_EQ(model->figures()[0], std::make_pair(std::string("torn_bonds"), 0.0));
   const auto total = model_of(free_plate(4));
   EXPECT_TRUE(total->figures().empty()) << "neighbours for ever: its strain is checked";

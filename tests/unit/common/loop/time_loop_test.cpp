@@ -72,19 +72,26 @@ TEST_F(AdvanceWindow, TakesLongerStepsWhereTheLimitRises) {
   EXPECT_EQ(steps_of(LimitedSolver({1.0, 2.0}), 3.0), (std::vector<double>{1.0, 2.0}));
 }
 
-/// A solver that fails at its fifth step of 0.1 s, or never, and shows the number of its steps.
+enum class Fails { never, check, watch };
+/// A solver whose check fails at its fifth step of 0.1 s, its watch at the sixth or after, or nothing ever;
+/// it shows the number of its steps.
 class CountingSolver : public LimitedSolver {
  public:
-  explicit CountingSolver(bool fails) : LimitedSolver({0.1}), fails_(fails) {}
+  explicit CountingSolver(Fails fails) : LimitedSolver({0.1}), fails_(fails) {}
   void check(double time) const override {
-    if (fails_ && steps.size() == 5) throw PhysicsFailure("body", -1, time, "steps", "5", "4");
+    if (fails_ == Fails::check && steps.size() == 5)
+      throw PhysicsFailure("body", -1, time, "steps", "5", "4");
+  }
+  void watch(double time) override {
+    if (fails_ == Fails::watch && steps.size() >= 6)
+      throw PhysicsFailure("body", -1, time, "steps", "6", "5");
   }
   std::vector<Observation> observe() const override {
     return {{"steps", "1", static_cast<double>(steps.size())}};
   }
 
  private:
-  bool fails_;
+  Fails fails_;
 };
 
 std::string text_of(const std::filesystem::path& path) {
@@ -95,19 +102,21 @@ std::string text_of(const std::filesystem::path& path) {
 struct Left {
   std::string series;
   std::vector<double> frames;  ///< their times [s]
+  bool failed = false;
 };
 
-/// What a run to `end_time` leaves, with rows and frames every 0.4 s.
-Left left_by(bool fails, double end_time) {
+/// What a run to `end_time` leaves, with rows and frames every `interval` [s].
+Left left_by(Fails fails, double end_time, double interval = 0.4) {
   const auto out = std::filesystem::path(testing::TempDir()) / ("last_state_" + std::to_string(getpid()));
   std::filesystem::create_directories(out);
   Options options;
   options.out = out;
   Scene scene;
   scene.end_time = end_time;
-  scene.series_interval = scene.frame_interval = 0.4;
+  scene.series_interval = scene.frame_interval = interval;
   scene.checkpoint_every = 0;
   CountingSolver solver(fails);
+  bool failed = false;
   {
     Timers timers;
     RunRecord record("body", options, scene, solver, {}, timers);
@@ -115,9 +124,10 @@ Left left_by(bool fails, double end_time) {
     try {
       run_recorded(record, [&] { run_alone(scene, solver, record, 1, checkpoints); });
     } catch (const PhysicsFailure&) {
+      failed = true;
     }
   }
-  Left left{text_of(out / "body.csv") + text_of(out / "body.csv.part"), {}};
+  Left left{text_of(out / "body.csv") + text_of(out / "body.csv.part"), {}, failed};
   const std::string list = text_of(out / "body.hdf.series"), key = "\"time\":";
   for (auto at = list.find(key); at != list.npos; at = list.find(key, at + 1))
     left.frames.push_back(std::stod(list.substr(at + key.size())));
@@ -128,19 +138,32 @@ Left left_by(bool fails, double end_time) {
 using testing::ElementsAre;
 
 TEST(LastState, IsInSeriesAndFramesAtTheEnd) {
-  const Left left = left_by(false, 0.9);
+  const Left left = left_by(Fails::never, 0.9);
   EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n0.9,9\n");
   EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8, 0.9));
 }
 
+TEST(Watch, EndsTheRunOnceRowAndFrameAreWritten) {
+  const Left left = left_by(Fails::watch, 1.5);
+  EXPECT_TRUE(left.failed);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n");
+  EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8));
+}
+
+TEST(Watch, LooksAtTheLastRowToo) {
+  const Left left = left_by(Fails::watch, 0.9, 5);
+  EXPECT_TRUE(left.failed);
+  EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.9,9\n");
+}
+
 TEST(LastState, IsInSeriesAndFramesWhereTheRunFailed) {
-  const Left left = left_by(true, 0.9);
+  const Left left = left_by(Fails::check, 0.9);
   EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.5,5\n");
   EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.5));
 }
 
 TEST(LastState, IsWrittenOnceWhereItIsDueAnyway) {
-  const Left left = left_by(false, 0.8);
+  const Left left = left_by(Fails::never, 0.8);
   EXPECT_EQ(left.series, "time[s],steps[1]\n0,0\n0.4,4\n0.8,8\n");
   EXPECT_THAT(left.frames, ElementsAre(0, 0.4, 0.8));
 }

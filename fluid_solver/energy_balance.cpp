@@ -1,0 +1,33 @@
+#include "fluid_solver/energy_balance.hpp"
+
+namespace toryu::fluid {
+
+void EnergyBalance::add(double time, const std::vector<Power>& powers) {
+  std::vector<double> now;
+  for (const Power& power : powers) now.push_back(power.value);
+  const std::vector<double>& before = state_.power ? *state_.power : now;
+  for (std::size_t n = 0; n < now.size(); ++n)
+    state_.energy[n] += 0.5 * (before[n] + now[n]) * (time - state_.time);
+  state_.power = std::move(now);
+  state_.time = time;
+}
+
+double EnergyBalance::taken(Taken kind) const {
+  double sum = 0;
+  for (std::size_t n = 0; n < terms_.size(); ++n)
+    if (terms_[n].taken == kind) sum += state_.energy[n];
+  return sum;
+}
+
+std::vector<Observation> EnergyBalance::observe(double gained) const {
+  const double stored = taken(Taken::stored), dissipated = taken(Taken::dissipated);
+  std::vector<Observation> row{{"dissipated_energy", "J/m", -gained - stored}};
+  for (std::size_t n = 0; n < terms_.size(); ++n) {
+    const std::string verb = terms_[n].taken == Taken::stored ? "stored_by_" : "dissipated_by_";
+    row.push_back({verb + terms_[n].term, "J/m", state_.energy[n]});
+  }
+  row.push_back({"energy_remainder", "J/m", gained + stored + dissipated});
+  return row;
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,184 @@
+/// What each term takes from the energy of the fluid, see energy_balance.hpp. A term is summed in a loop of
+/// its own: the loops by which the fluid advances carry nothing of it.
+
+#include <numeric>
+
+#include "fluid_solver/terms/continuity.hpp"
+#include "fluid_solver/terms/pressure.hpp"
+#include "fluid_solver/weakly_compressible/dynamics.hpp"
+#include "fluid_solver/weakly_compressible/further_forces.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+struct Bodies {
+  const Particles& fluid;
+  const ClusterList& neighbours;
+  const std::vector<Boundary>& boundaries;
+};
+
+/// Sums what `of_cluster(c)` gives, in the same order whatever the threads.
+template <class OfCluster>
+double sum_over_clusters(const Particles& fluid, OfCluster&& of_cluster) {
+  std::vector<double> sums(fluid.clusters());
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::size_t c = 0; c < sums.size(); ++c) sums[c] = of_cluster(c);
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+/// - sum F_ij . v_ij over the pairs of the fluid and those with its boundaries. `between(c)` gives the force
+/// as cluster c feels it, with functions as those of further_forces.hpp.
+template <class W, class Between>
+double power_of_pairs(const W& kernel, const Bodies& bodies, Between&& between) {
+  const auto& [fluid, neighbours, boundaries] = bodies;
+  const Sources own = sources(fluid);
+  return sum_over_clusters(fluid, [&](std::size_t c) {
+    const auto force = between(c);
+    const Targets i = load_targets(fluid, c * lane_count);
+    Lanes of_fluid = 0.0, of_walls = 0.0;
+    if constexpr (requires(const Pair& pair, Rates& rates) { force.momentum(i, own, 0, pair, rates); })
+      over_pairs<PairsOf::fluid>(kernel, neighbours.near(c), i, own,
+                                 [&](std::uint32_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+                                   Rates rates;
+                                   force.momentum(i, own, j, pair, rates);
+                                   rates.close(pair, own.m[j]);
+                                   of_fluid += dot(rates.a, pair.v_ij);
+                                 });
+    if constexpr (requires(const Pair& pair, Rates& rates) { force.at_wall(i, own, 0, pair, rates); })
+      for (const Boundary& boundary : boundaries) {
+        const Sources wall = sources(boundary);
+        over_pairs(kernel, boundary.list_for_fluid.near(c), i, wall,
+                   [&](std::uint32_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+                     Rates rates;
+                     force.at_wall(i, wall, j, pair, rates);
+                     rates.close(pair, wall.m[j]);
+                     of_walls += dot(rates.a, pair.v_ij);
+                   });
+      }
+    // each pair of the fluid is met from both sides
+    return -sum_of(load(fluid.m, c * lane_count) * (0.5 * of_fluid + of_walls));
+  });
+}
+
+/// A viscous term as such a force; it acts at walls where they have no slip.
+template <class Term>
+struct Viscous {
+  const Term& term;
+  bool at_walls;
+  TORYU_INLINE void momentum(const Targets& i, const Sources& s, std::uint32_t j, const Pair& pair,
+                             Rates& rates) const {
+    term.viscous(i, s, j, pair, rates);
+  }
+  TORYU_INLINE void at_wall(const Targets& i, const Sources& s, std::uint32_t j, const Pair& pair,
+                            Rates& rates) const {
+    if (at_walls) term.viscous(i, s, j, pair, rates);
+  }
+};
+
+/// - sum_i m_i p_i/rho_i^2 D_i.
+template <class W, class Term>
+double power_of_diffusion(const W& kernel, const Bodies& bodies, const EquationOfState& state,
+                          const Term& term) {
+  const Particles& fluid = bodies.fluid;
+  const Sources own = sources(fluid);
+  return sum_over_clusters(fluid, [&](std::size_t c) {
+    const Targets i = load_targets(fluid, c * lane_count);
+    Rates rates;
+    over_pairs<PairsOf::fluid>(kernel, bodies.neighbours.near(c), i, own,
+                               [&](std::uint32_t j, const Pair& pair)
+                                   TORYU_INLINE_LAMBDA { term.diffusion(i, own, j, pair, rates); });
+    double sum = 0;
+    for (std::size_t k = c * lane_count; k < std::min((c + 1) * lane_count, fluid.count); ++k)
+      sum -= fluid.m[k] * state.pressure(fluid.rho[k]) / (fluid.rho[k] * fluid.rho[k]) *
+             rates.diffusion[k - c * lane_count];
+    return sum;
+  });
+}
+
+/// What is lost where the fluid meets walls: sum_w F_iw . v_iw by pressure, less what density gains there.
+template <class W>
+double power_of_walls(const W& kernel, const Bodies& bodies, const Pressure& pressure,
+                      const Continuity& continuity) {
+  const Particles& fluid = bodies.fluid;
+  return sum_over_clusters(fluid, [&](std::size_t c) {
+    const Targets i = load_targets(fluid, c * lane_count);
+    Lanes of_pressure = 0.0;
+    Rates density;
+    for (const Boundary& boundary : bodies.boundaries) {
+      const Sources wall = sources(boundary);
+      over_pairs(kernel, boundary.list_for_fluid.near(c), i, wall,
+                 [&](std::uint32_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+                   Rates rates;
+                   pressure.at_wall(i, wall, j, pair, rates);
+                   rates.close(pair, wall.m[j]);
+                   of_pressure += dot(rates.a, pair.v_ij);
+                   continuity.density_at_wall(i, wall, j, pair, density);
+                 });
+    }
+    return -sum_of(load(fluid.m, c * lane_count) * (of_pressure + i.p_rho2 * i.rho * density.compression));
+  });
+}
+
+template <class Term>
+constexpr bool is_there = !std::is_same_v<Term, Absent>;
+
+}  // namespace
+
+std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& neighbours,
+                                    const std::vector<Boundary>& boundaries) const {
+  const Bodies bodies{fluid, neighbours, boundaries};
+  const bool known = neighbours.clusters() > 0;  // before the first step nobody knows who is near
+  std::vector<Power> found;
+  const auto note = [&](const char* term, Taken taken, auto&& power) {
+    const auto of_kernel = [&](const auto& W) { return known ? power(W) : 0.0; };
+    found.push_back({term, taken, medium_.kernel.visit(of_kernel)});
+  };
+  const auto note_viscous = [&](const char* name, const auto& chosen) {
+    std::visit(
+        [&]<class Term>(const Term& term) {
+          if constexpr (is_there<Term>)
+            note(name, Taken::dissipated, [&](const auto& W) {
+              return power_of_pairs(W, bodies, [&](auto) { return Viscous<Term>{term, viscous_walls()}; });
+            });
+        },
+        chosen);
+  };
+  if (!boundaries.empty())
+    note("walls", Taken::dissipated, [&](const auto& W) {
+      const bool suction = parameters_.wall_model.suction;
+      return power_of_walls(W, bodies, Pressure(suction), Continuity(parameters_.density, suction));
+    });
+  std::visit(
+      [&]<class Term>(const Term& term) {
+        if constexpr (is_there<Term>)
+          note(DensityDiffusion::section, Taken::dissipated,
+               [&](const auto& W) { return power_of_diffusion(W, bodies, state_, term); });
+      },
+      terms_.diffusion);
+  note_viscous(ArtificialViscosity::section, terms_.artificial);
+  note_viscous("viscosity", terms_.viscous);
+  if (friction_)
+    note(Friction::section, Taken::dissipated,
+         [&](const auto&) { return friction_->power(fluid, pressure_offset(fluid), boundaries); });
+  std::visit(
+      [&]<class Term>(const Term& term) {
+        if constexpr (is_there<Term>)
+          note(WallRepulsion::section, Taken::stored,
+               [&](const auto& W) { return power_of_pairs(W, bodies, [&](auto) { return term; }); });
+      },
+      terms_.repulsion);
+  for_each_term(parameters_, [&]<class Term>(const std::optional<Term>& term) {
+    if constexpr (requires { pair_force(*term, medium_); })
+      if (term)
+        note(Term::section, Taken::stored, [&](const auto& W) {
+          auto force = pair_force(*term, medium_);
+          if constexpr (requires { force.prepare(W, fluid, neighbours, boundaries); })
+            force.prepare(W, fluid, neighbours, boundaries);
+          return power_of_pairs(W, bodies, [&](std::size_t c) { return seen_from(force, c * lane_count); });
+        });
+  });
+  return found;
+}
+
+}  // namespace toryu::fluid
