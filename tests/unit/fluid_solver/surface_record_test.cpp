@@ -134,7 +134,7 @@ TEST(SurfaceRecord, ADryFaceDoesNotCount) {
   SurfaceRecord record(preston);
   record.attach(one.boundaries);
   ASSERT_EQ(record.size(), 2u);
-  record.add(one.boundaries, one.fluid, one.neighbours, kernel, dt);
+  record.add(one.boundaries, one.fluid, 0, one.neighbours, kernel, dt);
   for (const auto& seen : record.observe()) EXPECT_NEAR(seen.value, alone.at(seen.name), 1e-15) << seen.name;
 }
 
