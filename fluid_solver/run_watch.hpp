@@ -7,7 +7,7 @@
 ///     walls     particles inside (wall_penetration.hpp), 3 and more than a thousandth of the fluid
 ///     density   mass over volume of the fluid against the start, more than 3 % off
 ///     energy    what it has gained since its lowest beyond the work of the boundaries and what terms have
-///               given back, above a tenth of the largest energy that was turned over: kinetic, from gravity,
+///               given back, above half of the largest energy that was turned over: kinetic, from gravity,
 ///               by boundaries and terms, held by pressure, sum_i m_i p_i^2/(2 rho_i^2 c_0^2); or, at rest,
 ///               that of a speed of 0.003 c_0, with which lattices and surfaces settle
 #pragma once

@@ -36,7 +36,8 @@ double energy_left(const std::vector<std::string>& form, double turns, double& l
   const auto bar = solid_case("rigid_rotation", form);
   const double start = observed(*bar, "kinetic_energy");
   run_to(*bar, turns * 0.05);
-  largest_turn = bar->figures().back().second;
+  for (const auto& [name, value] : bar->figures())
+    if (name == "largest_bond_turn") largest_turn = value;
   return observed(*bar, "kinetic_energy") / start;
 }
 
