@@ -149,6 +149,12 @@ void FluidModel::complete_records() {
   if (state_.surface_record) state_.surface_record->complete();
 }
 
+bool FluidModel::is_enclosed() {
+  update_neighbours(0);
+  free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+  return is_closed(state_.fluid);
+}
+
 /// Who has a free surface in reach is not known in every run, and asked where it matters alone.
 void FluidModel::watch_suction(double time) {
   const auto suction = state_.suction_watch->look(state_.fluid, time);

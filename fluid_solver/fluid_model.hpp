@@ -74,6 +74,8 @@ class FluidModel : public Solver {
   Vec momentum() const;
   /// What the press adds to the pressure of an enclosed medium [Pa].
   double pressure_offset() const;
+  /// Whether the fluid has no free surface as it stands.
+  bool is_enclosed();
   /// What each term of the case takes from these energies.
   virtual std::vector<Power> powers() const = 0;
   const Particles& particles() const { return state_.fluid; }

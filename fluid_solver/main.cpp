@@ -129,7 +129,7 @@ ExitCode solve(const Options& options) {
     log::info("{}", made);
     if (options.check) print("[fluid]: " + made + '\n');
   }
-  if (const auto creeps = fluid::creeping(parameters, scene); creeps && options.check)
+  if (const auto creeps = fluid::creeping(parameters, scene); creeps && options.check && !file.has("solid"))
     print("[fluid]: " + *creeps + '\n');
   for (const auto& [key, message] : fluid::start_faults(parameters, scene.gravity)) file.fault(key, message);
   file.throw_if_faulty();
@@ -137,6 +137,10 @@ ExitCode solve(const Options& options) {
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
   check_start(model, "[fluid]");
+  if (parameters.enclosed_medium && !model.is_enclosed())
+    throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
+                     "the fluid has a free surface at the start, where its pressure is 0: give no "
+                     "mean pressure"}});
   model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
   const auto& particles = model.particles();

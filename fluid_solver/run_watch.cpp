@@ -36,7 +36,8 @@ void RunWatch::look_at_speed(const RunFigures& now) {
   if (!(now.fast > fast_to_warn_of * sound_speed_) || std::exchange(state_.told_speed, true)) return;
   log::warn(
       "t = {:.6g} s: a hundredth of the fluid is faster than {:.3g} m/s, {:.2g} of the sound speed of {:g} "
-      "m/s and beyond the edge at {:g}: the density changes by more than 2 %; take [fluid] sound_speed = "
+      "m/s and beyond the edge at {:g}: where it is stopped the density changes by 1 % and more; take "
+      "[fluid] sound_speed = "
       "{:.2g} or more, ten times the largest speed",
       now.time, now.fast, now.fast / sound_speed_, sound_speed_, fast_to_warn_of, 10 * now.fast);
 }

@@ -2,7 +2,8 @@
 /// from nowhere. Each is looked at where a row is written, told once, and ends the run where the result is
 /// spoiled ([fluid.limits]).
 ///
-///     speed     that a hundredth of the fluid exceeds, above 0.15 c_0: the density changes by more than 2 %
+///     speed     that a hundredth of the fluid exceeds, above 0.15 c_0: stopped, it changes the density by 1
+///     %
 ///               (single particles of a splash press on nothing). The run ends at c_0, of any particle.
 ///     walls     particles inside (wall_penetration.hpp), 3 and more than a thousandth of the fluid
 ///     density   mass over volume of the fluid against the start, more than 3 % off

@@ -23,6 +23,9 @@ constexpr double gentle_crossings = 4;
 constexpr double bearable_pressure = 30;
 /// Reynolds number below which inertia changes a flow by less than a thousandth.
 constexpr double creeping_reynolds_number = 0.01;
+/// Of the slowest part of a starting flow between plates, pi^2 nu/w^2 (the series of cases/poiseuille).
+constexpr double profile_rate = 9.87;
+constexpr double largest_mach_number = 0.1;
 
 double viscosity_of(const Parameters& p, double shear_rate) {
   if (p.power_law) return viscosity(*p.power_law, shear_rate);
@@ -69,6 +72,27 @@ double longest_side(const std::vector<Region>& regions) {
   return sides(regions).maxCoeff();
 }
 
+/// What the case asks for that is a matter of inertia.
+const char* key_of_inertia(const Parameters& p) {
+  if (p.initial_flow) return "fluid.initial_flow";
+  if (p.surface_tension) return "fluid.surface_tension";
+  if (p.central_force) return "fluid.central_force";
+  for (const Region& region : p.regions)
+    if (!region.velocity.isZero(0)) return "fluid.region";
+  return nullptr;
+}
+
+/// In which the motion of a wall changes, the shortest of all [s].
+double shortest_change(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : scene.walls)
+    if (wall.motion)
+      for (std::size_t k = 1; k < wall.motion->velocity.size(); ++k)
+        shortest = std::min(
+            shortest, wall.motion->time * (wall.motion->velocity[k][0] - wall.motion->velocity[k - 1][0]));
+  return shortest;
+}
+
 double largest_wall_speed(const Scene& scene) {
   double largest = 0;
   for (const Wall& wall : scene.walls)
@@ -105,9 +129,9 @@ void describe(ParameterTable& table, Similarity& similarity) {
 }
 
 SlitFlow slit_flow(const Parameters& p, double mean_speed, double width) {
-  double low = 1e-12, high = 1e12;
+  double low = 1e-100, high = 1e100;
   while (high / low > 1 + 1e-12) {
-    const double gdot_w = std::sqrt(low * high);
+    const double gdot_w = std::sqrt(low) * std::sqrt(high);
     (speed_over_width(p, gdot_w) * width < mean_speed ? low : high) = gdot_w;
   }
   const double eta_w = viscosity_of(p, low);
@@ -133,7 +157,7 @@ std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_so
     return {{"fluid.similarity",
              "an elastic solid is not coupled to a fluid whose density is chosen: its added mass would be "
              "wrong"}};
-  if (viscosity_of(p, 1.0) == 0)
+  if (!p.laminar_viscosity && !p.power_law && !p.carreau)
     return {{"fluid.similarity",
              "a creeping flow needs a viscosity: [fluid.laminar_viscosity], [fluid.power_law] or "
              "[fluid.carreau]"}};
@@ -141,10 +165,16 @@ std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_so
     return {{"fluid.artificial_viscosity",
              "artificial viscosity grows with the density that [fluid.similarity] chooses and would thicken "
              "the medium: leave it out"}};
-  if (p.surface_tension || p.initial_flow)
-    return {{p.initial_flow ? "fluid.initial_flow" : "fluid.surface_tension",
-             "it depends on the inertia that [fluid.similarity] changes: leave one of the two out"}};
-  const double real = similar_medium(p).real_reynolds_number;
+  if (const char* key = key_of_inertia(p))
+    return {{key, "it depends on the inertia that [fluid.similarity] changes: leave one of the two out"}};
+  const SimilarMedium similar = similar_medium(p);
+  const double real = similar.real_reynolds_number;
+  for (const double value : {similar.pressure_drop, similar.density, similar.sound_speed})
+    if (!(value > 0 && std::isfinite(value)))
+      return {{"fluid.similarity",
+               fmt::format("the passage would have a pressure drop of {:g} Pa, a density of {:g} kg/m3 and a "
+                           "sound speed of {:g} m/s",
+                           similar.pressure_drop, similar.density, similar.sound_speed)}};
   if (real > p.similarity->reynolds_number)
     return {{"fluid.similarity",
              fmt::format("the medium's own Reynolds number {:.3g} exceeds the 'reynolds_number' {:g}: its "
@@ -166,20 +196,27 @@ std::string make_similar(Parameters& p, Scene& scene) {
   return fmt::format(
       "similarity: in the passage {:.4g} 1/s, {:.4g} Pa s and {:.4g} Pa at the wall, pressure drop {:.4g} "
       "Pa; Re {:.2g}, computed at {:g} with {:.4g} times the density and a sound speed of {:.4g} m/s (Mach "
-      "number {:.2g}); the pressure builds up in some {:.2g} s, pistons may start in {:.2g} s",
+      "number {:.2g}); the pressure builds up in some {:.2g} s, the profile in some {:.2g} s, "
+      "pistons may start in {:.2g} s",
       similar.passage.wall_shear_rate, similar.passage.wall_viscosity, similar.passage.wall_stress,
       similar.pressure_drop, similar.real_reynolds_number, p.similarity->reynolds_number, factor,
       similar.sound_speed, p.similarity->mean_speed / similar.sound_speed,
-      p.similarity->compression * longest_side(p.regions) / p.similarity->mean_speed,
+      similar.pressure_drop / (similar.density * similar.sound_speed * similar.sound_speed) *
+          longest_side(p.regions) / p.similarity->mean_speed,
+      p.similarity->reynolds_number * p.similarity->passage_width / (profile_rate * p.similarity->mean_speed),
       gentle_crossings * longest_side(p.regions) / similar.sound_speed);
 }
 
 std::optional<std::string> creeping(const Parameters& p, const Scene& scene) {
   const double U = largest_wall_speed(scene);
-  if (p.similarity || U == 0 || !scene.gravity.isZero(0) || viscosity_of(p, 1.0) == 0) return {};
+  const bool viscous = p.laminar_viscosity || p.power_law || p.carreau;
+  if (p.similarity || U == 0 || !scene.gravity.isZero(0) || !viscous || p.artificial_viscosity ||
+      key_of_inertia(p))
+    return {};
   const double width = sides(p.regions).minCoeff();
-  const double Re = p.density * U * width / slit_flow(p, U, width).wall_viscosity;
-  if (Re > creeping_reynolds_number) return {};
+  const double viscosity = slit_flow(p, U, width).wall_viscosity, Re = p.density * U * width / viscosity;
+  const double settling = p.density * width * width / (profile_rate * viscosity);  // of the profile [s]
+  if (!(Re < creeping_reynolds_number && settling < 0.1 * shortest_change(scene))) return {};
   return fmt::format(
       "the flow creeps, Re {:.2g} at the walls' {:g} m/s over the fluid's {:g} m: its inertia does nothing "
       "but shorten the steps; with [fluid.similarity] it is computed {:.2g} times heavier",
@@ -195,6 +232,17 @@ std::vector<std::string> similarity_warnings(const Parameters& p, const Scene& s
         fmt::format("a wall comes to its speed within {:.3g} s, and sound crosses the medium in {:.3g} s: "
                     "take {:g} times that, or the medium sloshes",
                     ramp, crossing, gentle_crossings));
+  const double mach = p.similarity->mean_speed / p.sound_speed, pushed = largest_wall_speed(scene);
+  if (mach > largest_mach_number)
+    said.push_back(
+        fmt::format("the mean speed in the passage is {:.2g} of the sound speed of {:.4g} m/s: "
+                    "the density will change with it; see the passage's length and 'sound_speed'",
+                    mach, p.sound_speed));
+  if (pushed > 1.01 * p.similarity->mean_speed)
+    said.push_back(
+        fmt::format("walls move at {:.4g} m/s, faster than the 'mean_speed' {:.4g} m/s in the narrowest "
+                    "passage: the pressure drop, and with it the sound speed, may be far too low",
+                    pushed, p.similarity->mean_speed));
   const SlitFlow flow = slit_flow(p, p.similarity->mean_speed, p.similarity->passage_width);
   const double drop = 2 * flow.wall_stress * p.similarity->passage_length / p.similarity->passage_width;
   const double load = (p.background_pressure->pressure + 0.5 * drop) / flow.wall_stress;

@@ -68,8 +68,9 @@ std::vector<SimilarityFault> similarity_faults(const Parameters& parameters, boo
 /// `parameters`, where the case does not say them, and keeps the weight rho g. Returns what the log says.
 std::string make_similar(Parameters& parameters, Scene& scene);
 
-/// What of the scene spoils a flow made similar: pistons that start sooner than sound crosses the medium; a
-/// kernel whose rows do not slide under the pressure.
+/// What of the scene spoils a flow made similar: pistons that start sooner than sound crosses the medium, or
+/// are faster than the passage; a sound speed that is too low; a kernel whose rows do not slide under the
+/// pressure.
 std::vector<std::string> similarity_warnings(const Parameters& parameters, const Scene& scene);
 
 /// Where the case computes the inertia of a creeping flow: what would be cheaper.

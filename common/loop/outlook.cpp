@@ -1,13 +1,14 @@
 #include "common/loop/outlook.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
-#include "common/run/team.hpp"
+#include "common/error/failure.hpp"
 
 namespace toryu {
 
@@ -28,17 +29,14 @@ std::string number(double count) {
   return count < 1e5 ? fmt::format("{:.0f}", std::ceil(count)) : fmt::format("{:.3g}", count);
 }
 
-/// Wall time of a step [s], the least of some: other programs make it longer. The first one, which finds the
-/// neighbours, is not counted.
-double time_of_step(Solver& solver) {
+/// Wall time of a step [s], the least of some with this number of threads: other programs make it longer.
+double time_of_step(Solver& solver, int threads) {
   using Clock = std::chrono::steady_clock;
-  Team team;
-  const auto step = [&] { team.compute([&] { solver.advance(solver.time_step_limit()); }); };
-  step();
+  omp_set_num_threads(threads);
   double least = std::numeric_limits<double>::infinity(), passed = 0;
   for (int n = 0; n < least_timed || (n < most_timed && passed < long_enough); ++n) {
     const auto start = Clock::now();
-    step();
+    solver.advance(solver.time_step_limit());
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     least = std::min(least, seconds);
     passed += seconds;
@@ -46,14 +44,30 @@ double time_of_step(Solver& solver) {
   return least;
 }
 
+/// As in a run, which takes as many threads as pay.
+double time_of_step(Solver& solver) {
+  const int threads = omp_get_max_threads();
+  solver.advance(solver.time_step_limit());  // finds the neighbours
+  const double alone = time_of_step(solver, 1);
+  return threads > 1 ? std::min(alone, time_of_step(solver, threads)) : alone;
+}
+
 }  // namespace
 
 std::string outlook(const std::string& section, Solver& solver, double end_time) {
   const double dt = solver.time_step_limit(), steps = end_time / dt;
   const std::string rule(solver.time_step_rule());
-  return fmt::format(
-      "{}: time step {:.3g} s ({} limit) at the start, {} steps to t = {:g} s, about {} on this machine\n",
-      section, dt, rule, number(steps), end_time, duration(steps * time_of_step(solver)));
+  if (!(dt > 0 && std::isfinite(dt) && std::isfinite(steps)))
+    throw BadInput(
+        {{.place = section, .message = fmt::format("the time step would be {:.3g} s ({} limit)", dt, rule)}});
+  std::string time;
+  try {
+    time = "about " + duration(steps * time_of_step(solver)) + " on this machine";
+  } catch (const PhysicsFailure& failure) {
+    time = std::string("but the first ones fail: ") + failure.what();
+  }
+  return fmt::format("{}: time step {:.3g} s ({} limit) at the start, {} steps to t = {:g} s, {}\n", section,
+                     dt, rule, number(steps), end_time, time);
 }
 
 }  // namespace toryu

@@ -39,7 +39,7 @@ void declare(CLI::App& app, Typed& typed) {
       ->type_name("N");
   app.add_option("--log-level", typed.log_level, "trace, debug, info (default), warn, error or off")
       ->type_name("LEVEL");
-  app.add_flag("--check", typed.check, "Check the case, compute nothing");
+  app.add_flag("--check", typed.check, "Check the case, and tell what a run would take");
   app.add_flag("--describe", typed.describe,
                "Print the parameters of a case with units, defaults and ranges");
   app.add_flag("--restart", typed.restart, "Go on from the newest checkpoint in the folder of the results");

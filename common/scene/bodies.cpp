@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/scene/meeting.hpp"
 
@@ -155,6 +156,7 @@ class Bodies {
         solid_(regions_of(file, "solid")),
         tolerance_(touching * finest_spacing(file)) {
     const Vec side = (scene.domain.max - scene.domain.min).cwiseMax(0.0);
+    origin_ = scene.domain.min;
     if (scene.periodic == Periodic::x || scene.periodic == Periodic::xy) period_[0] = side[0];
     if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy) period_[1] = side[1];
   }
@@ -211,7 +213,12 @@ class Bodies {
  private:
   std::optional<Meeting> meeting(const Body& a, const Body& b, double end_time) const {
     const Pair pair{a.part, b.part, end_time > 0 ? a.motion : nullptr, end_time > 0 ? b.motion : nullptr};
-    return first_meeting(pair, tolerance_, end_time, period_);
+    auto found = first_meeting(pair, tolerance_, end_time, period_);
+    for (int axis = 0; found && axis < dim; ++axis)
+      if (period_[axis] > 0)
+        found->place[axis] -=
+            period_[axis] * std::floor((found->place[axis] - origin_[axis]) / period_[axis]);
+    return found;
   }
 
   void keep_apart(const Body& a, const Body& b, double end_time, const std::string& hint,
@@ -246,6 +253,7 @@ class Bodies {
   double end_time_;
   std::vector<Body> walls_, fluid_, solid_;
   double tolerance_;
+  Vec origin_;  ///< of the domain [m]
   Vec period_ = Vec::Zero();
 };
 

@@ -151,6 +151,16 @@ class Approach {
     return {};
   }
 
+  /// Of all shifts by whole periods.
+  std::optional<Meeting> earliest_during(const Stretch& stretch, const Vec& period) const {
+    std::optional<Meeting> earliest;
+    for (const Vec& shift : shifts(stretch, period))
+      if (const auto meeting = during(stretch, shift);
+          meeting && (!earliest || meeting->time < earliest->time))
+        earliest = meeting;
+    return earliest;
+  }
+
   /// The shifts by whole periods at which the two may meet in a stretch.
   std::vector<Vec> shifts(const Stretch& stretch, const Vec& period) const {
     std::vector<Vec> found{Vec::Zero()};
@@ -210,8 +220,7 @@ std::optional<Meeting> first_meeting(const Pair& pair, double tolerance, double 
       return Meeting{0, *place};
   if (!pair.motion_a && !pair.motion_b) return {};
   for (const Stretch& stretch : stretches_of(pair, end_time))
-    for (const Vec& shift : approach.shifts(stretch, period))
-      if (const auto meeting = approach.during(stretch, shift)) return meeting;
+    if (const auto meeting = approach.earliest_during(stretch, period)) return meeting;
   return {};
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/case/text_file.hpp"
-
 #include "common/scene/bodies.hpp"
 
 namespace toryu {

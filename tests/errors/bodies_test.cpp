@@ -115,7 +115,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "max=[4,4]}\n[fluid]\nspacing=0.1\n" +
                     wall("post", "min=[0,0], max=[1,1]") + wall("plate", "min=[2,0], max=[3,1]", "[0,1,0]"),
                 "case.toml:13:1: error: the wall 'plate' runs into the wall 'post' at t = 1.01 s near "
-                "(0.005, 0.5) m"}),
+                "(0.005, 0.5) m"},
+        Scenery{"OfAPeriodWithinReachBeforeTheNextOne",
+                "[case]\ntitle='A'\nend_time=3\nperiodic='x'\ndomain={min=[0,0], "
+                "max=[4,4]}\n[fluid]\nspacing=0.1\n" +
+                    wall("post", "min=[3,0], max=[3.5,1]") +
+                    wall("plate", "min=[1,0], max=[1.5,1]", "[0,2,0]"),
+                "case.toml:13:1: error: the wall 'plate' runs into the wall 'post' at t = 0.755 s near "
+                "(3.005, 0.5) m"}),
     name_of<Scenery>);
 
 }  // namespace

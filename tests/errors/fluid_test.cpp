@@ -52,6 +52,10 @@ INSTANTIATE_TEST_SUITE_P(
               "--set fluid.wall_model={slip=\"free_slip\", extrapolation=\"fit\"}: error: a 'fit' is of what "
               "viscous "
               "terms see at walls: it needs slip = \"no_slip\""},
+        Fault{"MeanPressureUnderAFreeSurface", "fluid.enclosed_medium.mean_pressure=0",
+              "[fluid.enclosed_medium]: error: the fluid has a free surface at the start, where its pressure "
+              "is "
+              "0: give no mean pressure"},
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},

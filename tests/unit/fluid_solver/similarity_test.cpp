@@ -116,6 +116,15 @@ TEST(Similarity, IsRefusedWhereInertiaCounts) {
   p = putty();
   p.surface_tension = SurfaceTension{};
   EXPECT_THAT(fault_of(p), HasSubstr("fluid.surface_tension: "));
+  p = putty();
+  p.central_force = CentralForce{.rate = 10};
+  EXPECT_THAT(fault_of(p), HasSubstr("fluid.central_force: "));
+  p = putty();
+  p.regions.front().velocity = Vec(U, 0);
+  EXPECT_THAT(fault_of(p), HasSubstr("fluid.region: "));
+  p = putty();
+  p.similarity->passage_length = 1e306;
+  EXPECT_THAT(fault_of(p), HasSubstr("a pressure drop of inf Pa"));
 }
 
 TEST(Similarity, WarnsOfPistonsThatStartSoonerThanSound) {
@@ -139,6 +148,18 @@ TEST(Similarity, WarnsOfAKernelWhoseRowsStickUnderThePressure) {
   EXPECT_THAT(similarity_warnings(p, scene), IsEmpty());
 }
 
+TEST(Similarity, WarnsOfNumbersThatDoNotGoTogether) {
+  Parameters p = putty();
+  Scene scene = pushed(1);
+  p.similarity->mean_speed = 0.01 * U;  // millimetres for metres, or so
+  make_similar(p, scene);
+  EXPECT_THAT(similarity_warnings(p, scene), ElementsAre(HasSubstr("walls move at 0.05 m/s, faster than")));
+  p = putty();
+  p.sound_speed = 0.3;
+  make_similar(p, scene);
+  EXPECT_THAT(similarity_warnings(p, scene), ElementsAre(HasSubstr("is 0.17 of the sound speed")));
+}
+
 TEST(Similarity, IsOfferedWhereTheFlowCreeps) {
   Parameters p = putty();
   EXPECT_FALSE(creeping(p, pushed(1)));
@@ -148,6 +169,8 @@ TEST(Similarity, IsOfferedWhereTheFlowCreeps) {
   Scene heavy = pushed(1);
   heavy.gravity = Vec(0, -9.81);
   EXPECT_FALSE(creeping(p, heavy));
+  Scene swinging = pushed(1e-7);  // faster than the profile follows
+  EXPECT_FALSE(creeping(p, swinging));
   p.laminar_viscosity->dynamic_viscosity = 1;  // Re 0.12
   EXPECT_FALSE(creeping(p, pushed(1)));
 }

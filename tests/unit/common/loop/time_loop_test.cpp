@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "common/error/failure.hpp"
 #include "common/loop/outlook.hpp"
 #include "common/run/options.hpp"
 
@@ -201,6 +202,10 @@ TEST(Outlook, TellsStepsAndTakesThem) {
       << said;
   EXPECT_GE(solver.steps.size(), 2u) << "nothing was timed";
   EXPECT_EQ(solver.steps.front(), 1e-3);
+  for (const double none : {0.0, std::nan("")}) {
+    LimitedSolver still({none});
+    EXPECT_THROW(outlook("[fluid]", still, 2.5), BadInput) << none;
+  }
 }
 
 }  // namespace
