@@ -31,14 +31,14 @@ double sum_over_clusters(const Particles& fluid, OfCluster&& of_cluster) {
 /// as cluster c feels it, with functions as those of further_forces.hpp.
 template <class W, class Between>
 double power_of_pairs(const W& kernel, const Bodies& bodies, Between&& between) {
-  const auto& [fluid, neighbours, boundaries] = bodies;
+  const Particles& fluid = bodies.fluid;  // a name that lambdas may capture
   const Sources own = sources(fluid);
   return sum_over_clusters(fluid, [&](std::size_t c) {
     const auto force = between(c);
     const Targets i = load_targets(fluid, c * lane_count);
     Lanes of_fluid = 0.0, of_walls = 0.0;
     if constexpr (requires(const Pair& pair, Rates& rates) { force.momentum(i, own, 0, pair, rates); })
-      over_pairs<PairsOf::fluid>(kernel, neighbours.near(c), i, own,
+      over_pairs<PairsOf::fluid>(kernel, bodies.neighbours.near(c), i, own,
                                  [&](std::uint32_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
                                    Rates rates;
                                    force.momentum(i, own, j, pair, rates);
@@ -46,7 +46,7 @@ double power_of_pairs(const W& kernel, const Bodies& bodies, Between&& between) 
                                    of_fluid += dot(rates.a, pair.v_ij);
                                  });
     if constexpr (requires(const Pair& pair, Rates& rates) { force.at_wall(i, own, 0, pair, rates); })
-      for (const Boundary& boundary : boundaries) {
+      for (const Boundary& boundary : bodies.boundaries) {
         const Sources wall = sources(boundary);
         over_pairs(kernel, boundary.list_for_fluid.near(c), i, wall,
                    [&](std::uint32_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
