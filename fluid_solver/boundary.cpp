@@ -67,15 +67,16 @@ void Boundary::move(double time) {
 }
 
 void Boundary::count_force(double dt) {
-  impulse.total += dt * force_on_fluid.force();
+  const Vec on_fluid = force_on_fluid.force();
+  impulse.total += dt * on_fluid;
   impulse.friction += dt * force_on_fluid.friction();
-  work += dt * power();
+  work += dt * power(on_fluid);
   counted = true;
 }
 
-double Boundary::power() const {
+double Boundary::power(const Vec& on_fluid) const {
   if (!moves()) return 0;
-  if (!is_interface()) return force_on_fluid.force().dot(at(v, 0));  // rigid
+  if (!is_interface()) return on_fluid.dot(at(v, 0));  // rigid
   const bool rubbed = !friction_force[0].empty();
   double sum = 0;
   for (std::size_t k = 0; k < count; ++k) {

@@ -114,8 +114,8 @@ struct Boundary {
   /// The same to `kinematics(id)`.
   template <class Of>
   void move_to(Of&& kinematics);
-  /// What the last evaluation does on the fluid [W per metre depth].
-  double power() const;
+  /// What the last evaluation does on the fluid, with the force `on_fluid` in all [W per metre depth].
+  double power(const Vec& on_fluid) const;
   /// Counts what the last evaluation did to the fluid for `dt` [s]; of the interface `force` and
   /// `friction_force` must be there.
   void count_force(double dt);

@@ -12,19 +12,19 @@ void EnergyBalance::add(double time, const std::vector<Power>& powers) {
   state_.time = time;
 }
 
-double EnergyBalance::taken(Taken kind) const {
+double EnergyBalance::taken(Taken kind, double time) const {
   double sum = 0;
   for (std::size_t n = 0; n < terms_.size(); ++n)
-    if (terms_[n].taken == kind) sum += state_.energy[n];
+    if (terms_[n].taken == kind) sum += taken_by(n, time);
   return sum;
 }
 
-std::vector<Observation> EnergyBalance::observe(double gained) const {
-  const double stored = taken(Taken::stored), dissipated = taken(Taken::dissipated);
+std::vector<Observation> EnergyBalance::observe(double gained, double time) const {
+  const double stored = taken(Taken::stored, time), dissipated = taken(Taken::dissipated, time);
   std::vector<Observation> row{{"dissipated_energy", "J/m", -gained - stored}};
   for (std::size_t n = 0; n < terms_.size(); ++n) {
     const std::string verb = terms_[n].taken == Taken::stored ? "stored_by_" : "dissipated_by_";
-    row.push_back({verb + terms_[n].term, "J/m", state_.energy[n]});
+    row.push_back({verb + terms_[n].term, "J/m", taken_by(n, time)});
   }
   row.push_back({"energy_remainder", "J/m", gained + stored + dissipated});
   return row;

@@ -7,8 +7,8 @@
 /// phi is the potential of gravity and of a central force. A boundary w that moves gives sum F_iw . v_w; a
 /// term with forces F_ij between pairs takes - sum F_ij . v_ij, and density diffusion, D_i of it at particle
 /// i, takes - sum_i m_i p_i/rho_i^2 D_i. The work of the boundaries is summed at each step, with the forces
-/// by which the velocity advances. The powers of the terms are found where a row is written and integrated by
-/// the trapezoidal rule, so that they cost nothing between rows.
+/// by which the velocity advances. The powers of the terms are found where a row is written, at most every
+/// tenth step, for they cost about half a step, and integrated by the trapezoidal rule.
 ///
 /// What remains is of the discretisation: the pressure force is the gradient of e only where rho_i = rho_j;
 /// a wall particle has a pressure and stores no energy; particle shifting, tensile control and consistent
@@ -44,11 +44,11 @@ class EnergyBalance {
   /// count from the start.
   void add(double time, const std::vector<Power>& powers);
 
-  /// Taken since the start [J per metre depth].
-  double taken(Taken kind) const;
+  /// Taken from the start to `time` [s], since the last powers at their rate [J per metre depth].
+  double taken(Taken kind, double time) const;
   /// Columns: what is dissipated altogether and by each term, what is stored, and the remainder; `gained` is
   /// by how much the energy of the fluid has changed beyond the work done on it [J per metre depth].
-  std::vector<Observation> observe(double gained) const;
+  std::vector<Observation> observe(double gained, double time) const;
 
  private:
   struct State {
@@ -64,6 +64,11 @@ class EnergyBalance {
     if (!known) return power.reset();
     if (!power) power.emplace();
     archive(*power);
+  }
+
+  /// Taken by term n to `time`.
+  double taken_by(std::size_t n, double time) const {
+    return state_.energy[n] + (state_.power ? (*state_.power)[n] * (time - state_.time) : 0.0);
   }
 
   std::vector<Power> terms_;

@@ -132,17 +132,18 @@ void FluidModel::record_surface(const std::filesystem::path& out) {
 }
 
 void FluidModel::record(double time) {
-  {
+  if (state_.steps_since_look >= steps_between_looks) {
     const auto timer = timers_.measure("energy balance");
     state_.balance.add(time, powers());
     state_.penetration = penetration(state_.fluid, state_.boundaries);
+    state_.steps_since_look = 0;
   }
   if (state_.surface_record) state_.surface_record->write(time);
 }
 
 void FluidModel::watch(double time) {
   if (state_.suction_watch) watch_suction(time);
-  state_.run_watch->look(run_figures(time));
+  if (state_.steps_since_look == 0) state_.run_watch->look(run_figures(time));
 }
 
 void FluidModel::complete_records() {
@@ -166,6 +167,7 @@ void FluidModel::watch_suction(double time) {
 }
 
 void FluidModel::count_forces(double dt) {
+  ++state_.steps_since_look;
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
   state_.gravity_impulse += dt * std::reduce(state_.fluid.m.begin(), state_.fluid.m.end()) * scene_.gravity;
 }

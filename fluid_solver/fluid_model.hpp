@@ -45,9 +45,10 @@ class FluidModel : public Solver {
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;
-  /// Integrates the energy balance; a row of surface.h5, where `record_surface` was called.
+  /// A row of surface.h5, where `record_surface` was called. Where the last look is some steps ago, looks at
+  /// the powers of the terms and at who is inside walls.
   void record(double time) override;
-  /// Warns of suction that the fluid does not bear, and of all that run_watch.hpp looks at.
+  /// Warns of suction that the fluid does not bear and, after a look, of all that run_watch.hpp knows.
   void watch(double time) override;
   void complete_records() override;
   std::size_t particle_count() const override { return state_.fluid.count; }
@@ -85,6 +86,9 @@ class FluidModel : public Solver {
   Timers& timers() { return timers_; }
   long list_builds() const { return state_.neighbours.builds(); }
 
+  /// Rows may be nearer to each other; a look costs about half a step.
+  static constexpr long steps_between_looks = 10;
+
  protected:
   /// All that a step, a window or an observer changes. The lists are among it: what is summed in another
   /// order rounds otherwise. A model that has more to keep adds it here.
@@ -97,7 +101,8 @@ class FluidModel : public Solver {
     /// What moves by a period have taken from the sum over places [J per metre].
     double potential_of_moves = 0;
     EnergyBalance balance = {};
-    Penetration penetration = {};  ///< where the last row was written
+    Penetration penetration = {};                     ///< at the last look
+    long steps_since_look = steps_between_looks - 1;  ///< the first one follows the first step
     Extremes largest = {};
     bool density_rate_known = false;  ///< of the symplectic step, from the last one
     bool contact_changed = false;     ///< since then: the velocity at the interface
@@ -109,10 +114,10 @@ class FluidModel : public Solver {
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
     auto& [time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, penetration,
-           largest, density_rate_known, contact_changed, impedance_wanted, surface_record, suction_watch,
-           run_watch] = state;
-    archive(time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, largest,
-            density_rate_known, contact_changed, impedance_wanted, *run_watch);
+           steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, surface_record,
+           suction_watch, run_watch] = state;
+    archive(time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, penetration,
+            steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, *run_watch);
     if (surface_record) archive(*surface_record);
     bool watched = suction_watch.has_value();  // until it has warned
     archive(watched);

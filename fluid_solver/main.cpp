@@ -127,10 +127,10 @@ ExitCode solve(const Options& options) {
   if (parameters.similarity) {
     const std::string made = fluid::make_similar(parameters, scene);
     log::info("{}", made);
-    if (options.check) print("[fluid]: " + made + '\n');
+    if (options.outlook) print("[fluid]: " + made + '\n');
   }
-  if (const auto creeps = fluid::creeping(parameters, scene); creeps && options.check && !file.has("solid"))
-    print("[fluid]: " + *creeps + '\n');
+  if (options.outlook && !file.has("solid"))
+    if (const auto creeps = fluid::creeping(parameters, scene)) print("[fluid]: " + *creeps + '\n');
   for (const auto& [key, message] : fluid::start_faults(parameters, scene.gravity)) file.fault(key, message);
   file.throw_if_faulty();
   const auto made = fluid::make_model(parameters, scene);
@@ -157,7 +157,7 @@ ExitCode solve(const Options& options) {
     log::warn("{}", *jet);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
-    print(outlook("[fluid]", model, scene.end_time));
+    if (options.outlook) print(outlook("[fluid]", model, scene.end_time));
     return ExitCode::done;
   }
   if (file.has("solid"))

@@ -140,7 +140,7 @@ double FluidModel::elastic_energy() const {
 
 RunFigures FluidModel::run_figures(double time) const {
   const Particles& fluid = state_.fluid;
-  const double c_0 = parameters_.sound_speed, stored = state_.balance.taken(Taken::stored);
+  const double c_0 = parameters_.sound_speed, stored = state_.balance.taken(Taken::stored, state_.time);
   std::vector<double> speed(fluid.count);
   double mass = 0, held = 0, moved = 0;
   for (std::size_t i = 0; i < fluid.count; ++i) {
@@ -206,7 +206,7 @@ std::vector<Observation> FluidModel::observe() const {
   }
   if (scene_.gravity.norm() > 0) push("impulse_of_gravity", "N.s/m", state_.gravity_impulse);
   if (parameters_.seeks_free_surface()) push("impulse_of_corrections", "N.s/m", numerical_impulse());
-  for (const auto& energy : state_.balance.observe(energy_gained())) row.push_back(energy);
+  for (const auto& energy : state_.balance.observe(energy_gained(), state_.time)) row.push_back(energy);
   for (const auto& observer : parameters_.observers)
     row.push_back(
         toryu::fluid::observe(observer, {state_.fluid, state_.boundaries, parameters_, kernel_,

@@ -19,19 +19,13 @@ constexpr double regularisation_share = 0.05;
 /// Crossings of the medium by sound in which pistons may come to their speed.
 constexpr double gentle_crossings = 4;
 /// Pressure over the wall's shear stress that rows bear without sticking to one another, but for Wendland C2
-/// at h/d_0 = 2 (the drop of a slit 10 % too small at 100 and 81 % too large at 310).
+/// at h/d_0 = 2 (cases/slit_channel, "Under a high pressure").
 constexpr double bearable_pressure = 30;
 /// Reynolds number below which inertia changes a flow by less than a thousandth.
 constexpr double creeping_reynolds_number = 0.01;
 /// Of the slowest part of a starting flow between plates, pi^2 nu/w^2 (the series of cases/poiseuille).
 constexpr double profile_rate = 9.87;
 constexpr double largest_mach_number = 0.1;
-
-double viscosity_of(const Parameters& p, double shear_rate) {
-  if (p.power_law) return viscosity(*p.power_law, shear_rate);
-  if (p.carreau) return viscosity(*p.carreau, shear_rate);
-  return p.laminar_viscosity ? p.laminar_viscosity->dynamic_viscosity : 0.0;
-}
 
 /// U over w of the flow with that shear rate at the wall [1/s].
 double speed_over_width(const Parameters& p, double gdot_w) {
@@ -45,17 +39,33 @@ double speed_over_width(const Parameters& p, double gdot_w) {
   return 0.25 * gdot_w * (1 - sum / intervals);
 }
 
-/// From rest to the largest speed of any wall [s].
+double largest_speed(const Motion& motion) {
+  double largest = 0;
+  for (const auto& row : motion.velocity) largest = std::max(largest, std::hypot(row[1], row[2]));
+  return std::abs(motion.speed) * largest;
+}
+
+double largest_wall_speed(const Scene& scene) {
+  double largest = 0;
+  for (const Wall& wall : scene.walls)
+    if (wall.motion) largest = std::max(largest, largest_speed(*wall.motion));
+  return largest;
+}
+
+/// In which a wall would gain its largest speed at the steepest of its table; the shortest of all, 0 where a
+/// wall starts with a speed [s].
 double shortest_ramp(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Wall& wall : scene.walls) {
     if (!wall.motion) continue;
-    double largest = 0, rest = 0;
-    for (const auto& row : wall.motion->velocity) {
-      const double time = row[0] * wall.motion->time, speed = std::hypot(row[1], row[2]);
-      if (speed == 0) rest = time;
-      if (speed <= 0.99 * largest || speed == 0) continue;
-      if (speed > largest) shortest = std::min(shortest, time - rest), largest = speed;
+    const auto& rows = wall.motion->velocity;
+    const double largest = largest_speed(*wall.motion);
+    if (!wall.motion->velocity_at(0).isZero(0)) shortest = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      const double change =
+          std::abs(wall.motion->speed) * std::hypot(rows[k][1] - rows[k - 1][1], rows[k][2] - rows[k - 1][2]);
+      if (change > 0)
+        shortest = std::min(shortest, largest / change * wall.motion->time * (rows[k][0] - rows[k - 1][0]));
     }
   }
   return shortest;
@@ -80,26 +90,6 @@ const char* key_of_inertia(const Parameters& p) {
   for (const Region& region : p.regions)
     if (!region.velocity.isZero(0)) return "fluid.region";
   return nullptr;
-}
-
-/// In which the motion of a wall changes, the shortest of all [s].
-double shortest_change(const Scene& scene) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : scene.walls)
-    if (wall.motion)
-      for (std::size_t k = 1; k < wall.motion->velocity.size(); ++k)
-        shortest = std::min(
-            shortest, wall.motion->time * (wall.motion->velocity[k][0] - wall.motion->velocity[k - 1][0]));
-  return shortest;
-}
-
-double largest_wall_speed(const Scene& scene) {
-  double largest = 0;
-  for (const Wall& wall : scene.walls)
-    if (wall.motion)
-      for (const auto& row : wall.motion->velocity)
-        largest = std::max(largest, std::abs(wall.motion->speed) * std::hypot(row[1], row[2]));
-  return largest;
 }
 
 }  // namespace
@@ -157,7 +147,7 @@ std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_so
     return {{"fluid.similarity",
              "an elastic solid is not coupled to a fluid whose density is chosen: its added mass would be "
              "wrong"}};
-  if (!p.laminar_viscosity && !p.power_law && !p.carreau)
+  if (!is_viscous(p))
     return {{"fluid.similarity",
              "a creeping flow needs a viscosity: [fluid.laminar_viscosity], [fluid.power_law] or "
              "[fluid.carreau]"}};
@@ -209,14 +199,13 @@ std::string make_similar(Parameters& p, Scene& scene) {
 
 std::optional<std::string> creeping(const Parameters& p, const Scene& scene) {
   const double U = largest_wall_speed(scene);
-  const bool viscous = p.laminar_viscosity || p.power_law || p.carreau;
-  if (p.similarity || U == 0 || !scene.gravity.isZero(0) || !viscous || p.artificial_viscosity ||
+  if (p.similarity || U == 0 || !scene.gravity.isZero(0) || !is_viscous(p) || p.artificial_viscosity ||
       key_of_inertia(p))
     return {};
   const double width = sides(p.regions).minCoeff();
-  const double viscosity = slit_flow(p, U, width).wall_viscosity, Re = p.density * U * width / viscosity;
-  const double settling = p.density * width * width / (profile_rate * viscosity);  // of the profile [s]
-  if (!(Re < creeping_reynolds_number && settling < 0.1 * shortest_change(scene))) return {};
+  const double nu = slit_flow(p, U, width).wall_viscosity / p.density, Re = U * width / nu;
+  const double settling = width * width / (profile_rate * nu);  // of the profile [s]
+  if (!(Re < creeping_reynolds_number && settling < 0.1 * shortest_ramp(scene))) return {};
   return fmt::format(
       "the flow creeps, Re {:.2g} at the walls' {:g} m/s over the fluid's {:g} m: its inertia does nothing "
       "but shorten the steps; with [fluid.similarity] it is computed {:.2g} times heavier",
@@ -243,9 +232,9 @@ std::vector<std::string> similarity_warnings(const Parameters& p, const Scene& s
         fmt::format("walls move at {:.4g} m/s, faster than the 'mean_speed' {:.4g} m/s in the narrowest "
                     "passage: the pressure drop, and with it the sound speed, may be far too low",
                     pushed, p.similarity->mean_speed));
-  const SlitFlow flow = slit_flow(p, p.similarity->mean_speed, p.similarity->passage_width);
-  const double drop = 2 * flow.wall_stress * p.similarity->passage_length / p.similarity->passage_width;
-  const double load = (p.background_pressure->pressure + 0.5 * drop) / flow.wall_stress;
+  const SimilarMedium similar = similar_medium(p);
+  const double load =
+      (p.background_pressure->pressure + 0.5 * similar.pressure_drop) / similar.passage.wall_stress;
   if (load > bearable_pressure && (p.kernel != KernelForm::wendland_c2 || p.smoothing_ratio < 1.99))
     said.push_back(
         fmt::format("pressures reach {:.3g} times the wall's shear stress, under which rows of particles "

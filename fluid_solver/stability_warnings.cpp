@@ -66,8 +66,7 @@ class Bodies {
 };
 
 bool damps_noise(const Parameters& p) {
-  const bool viscous = p.artificial_viscosity || p.laminar_viscosity || p.power_law || p.carreau;
-  return viscous || (p.density_diffusion && p.density_diffusion->delta > 0);
+  return p.artificial_viscosity || is_viscous(p) || (p.density_diffusion && p.density_diffusion->delta > 0);
 }
 
 /// g H of the regions together [m2/s2].
@@ -157,8 +156,7 @@ std::vector<std::string> stability_warnings(const Parameters& p, const Start& st
   if (!damps_noise(p))
     said.emplace_back(
         "neither [fluid.density_diffusion] nor a viscosity damps the noise of the pressure: it grows until "
-        "the "
-        "run fails, in water at rest too and whatever the step");
+        "the run fails, in water at rest too and whatever the step");
   if (p.sound_speed < 10 * start.speed)
     said.push_back(fmt::format(
         "sound_speed {:g} m/s is below ten times the largest speed at the start, {:.3g} m/s: the density "

@@ -42,6 +42,17 @@ struct OptionalTerms {
   std::optional<Removal> removal;
 };
 
+/// Whether the case gives its medium a viscosity of its own.
+inline bool is_viscous(const OptionalTerms& terms) {
+  return terms.laminar_viscosity || terms.power_law || terms.carreau;
+}
+/// Viscosity of the medium at a shear rate [1/s], artificial viscosity apart; 0 without one [Pa s].
+inline double viscosity_of(const OptionalTerms& terms, double shear_rate) {
+  if (terms.power_law) return viscosity(*terms.power_law, shear_rate);
+  if (terms.carreau) return viscosity(*terms.carreau, shear_rate);
+  return terms.laminar_viscosity ? terms.laminar_viscosity->dynamic_viscosity : 0.0;
+}
+
 /// What it means that a case does not mention the term.
 template <class Term>
 constexpr Absence absence_of() {

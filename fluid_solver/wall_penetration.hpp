@@ -15,6 +15,12 @@ struct Penetration {
   Vec place = Vec::Zero();    ///< [m]
 };
 
+template <class Archive>
+void serialize(Archive& archive, Penetration& found) {
+  auto& [count, boundary, place] = found;
+  archive(count, boundary, place);
+}
+
 /// Needs the lists of the boundaries; none is found before they are built.
 Penetration penetration(const Particles& fluid, const std::vector<Boundary>& boundaries);
 

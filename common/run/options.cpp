@@ -18,8 +18,8 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 struct Typed {
   std::string case_path, out, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
-  bool check = false, describe = false, print_case = false, resolved = false, restart = false,
-       overwrite = false;
+  bool check = false, outlook = false, describe = false, print_case = false, resolved = false,
+       restart = false, overwrite = false;
   bool can_checkpoint = false, version = false, help = false;
 };
 
@@ -39,7 +39,8 @@ void declare(CLI::App& app, Typed& typed) {
       ->type_name("N");
   app.add_option("--log-level", typed.log_level, "trace, debug, info (default), warn, error or off")
       ->type_name("LEVEL");
-  app.add_flag("--check", typed.check, "Check the case, and tell what a run would take");
+  app.add_flag("--check", typed.check, "Check the case, compute nothing");
+  app.add_flag("--outlook", typed.outlook, "With --check: make some steps, and tell what a run would take");
   app.add_flag("--describe", typed.describe,
                "Print the parameters of a case with units, defaults and ranges");
   app.add_flag("--restart", typed.restart, "Go on from the newest checkpoint in the folder of the results");
@@ -104,6 +105,7 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
   options.overrides = typed.overrides;
   options.log_level = typed.log_level;
   options.check = typed.check;
+  options.outlook = typed.check && typed.outlook;
   options.describe = typed.describe;
   options.restart = typed.restart;
   options.overwrite = typed.overwrite;

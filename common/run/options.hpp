@@ -14,6 +14,7 @@ struct Options {
   int threads = 0;                     ///< at most; 0: all cores
   std::string log_level = "info";
   bool check = false;       ///< read and check the case, then end
+  bool outlook = false;     ///< with `check`: tell what a run would take
   bool describe = false;    ///< print the parameters, then end
   bool print_case = false;  ///< print the case as it is read, then end
   bool resolved = false;    ///< print what the case comes to for other programs, then end

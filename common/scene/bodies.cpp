@@ -146,6 +146,13 @@ std::optional<Gap> gap_between(const Box& fluid, const Box& other, double least)
   return {};
 }
 
+std::string gap_text(const Body& region, const Body& other, const Gap& gap, double spacing) {
+  return fmt::format(
+      "{} ends at {} = {:.6g} m, {:.2g} spacings off {}: it does not rest on it, but moves into the gap; let "
+      "it end at {:.6g} m, or a spacing or more apart",
+      region.name, "xy"[gap.axis], gap.face, gap.width() / spacing, other.name, gap.other);
+}
+
 class Bodies {
  public:
   Bodies(const CaseFile& file, const Scene& scene)
@@ -200,13 +207,8 @@ class Bodies {
     for (const Body& region : fluid_)
       for (const auto* bodies : {&walls_, &solid_})
         for (const Body& other : *bodies)
-          if (const auto gap = gap_between(region.part.within[0], other.part.within[0], touching * spacing);
-              gap && gap->width() < apart * spacing)
-            said.push_back(fmt::format(
-                "{} ends at {} = {:.6g} m, {:.2g} spacings off {}: it does not rest on it, but moves into "
-                "the "
-                "gap; let it end at {:.6g} m, or a spacing or more apart",
-                region.name, "xy"[gap->axis], gap -> face, gap -> width() / spacing, other.name, gap->other));
+          if (const auto gap = gap_between(region.part.within[0], other.part.within[0], touching * spacing))
+            if (gap->width() < apart * spacing) said.push_back(gap_text(region, other, *gap, spacing));
     return said;
   }
 

@@ -72,18 +72,6 @@ void Dynamics::wall_densities(Boundary& boundary) const {
     }
 }
 
-double Dynamics::viscosity_at_rest() const {
-  if (const auto& laminar = parameters_.laminar_viscosity) return laminar->dynamic_viscosity;
-  return std::visit(
-      []<class Law>(const Law& law) {
-        if constexpr (std::is_same_v<Law, Absent>)
-          return 0.0;
-        else
-          return viscosity(law, 0.0);
-      },
-      rheology_);
-}
-
 void Dynamics::density_gradients(Particles& fluid, const ClusterList& neighbours) const {
   medium_.kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 8)

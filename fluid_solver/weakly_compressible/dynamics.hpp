@@ -57,7 +57,7 @@ class Dynamics {
   /// Whether the viscosity is a field.
   bool viscosity_varies() const { return !std::holds_alternative<Absent>(rheology_); }
   /// Viscosity of the medium without shear [Pa s].
-  double viscosity_at_rest() const;
+  double viscosity_at_rest() const { return viscosity_of(parameters_, 0.0); }
 
  private:
   void pressures(Particles& fluid) const;

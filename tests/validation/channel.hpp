@@ -63,11 +63,7 @@ class ChannelMiddle {
 
 /// The viscosity that the case gives its medium, artificial viscosity apart.
 inline std::function<double(double)> viscosity_of(const Parameters& p) {
-  return [p](double gdot) {
-    if (p.power_law) return viscosity(*p.power_law, gdot);
-    if (p.carreau) return viscosity(*p.carreau, gdot);
-    return p.laminar_viscosity->dynamic_viscosity;
-  };
+  return [p](double gdot) { return viscosity_of(p, gdot); };
 }
 
 /// What the channels have in common [m], [m/s].

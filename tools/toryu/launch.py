@@ -142,7 +142,7 @@ def check(commands, tell):
     `tell` what they say of the run is shown, and what they warn of: a run that follows says it itself."""
     errors, others, codes = set(), [], set()
     for name, command in commands.items():
-        done = subprocess.run([*command, "--check"], capture_output=True, encoding="utf-8", errors="backslashreplace",
+        done = subprocess.run([*command, "--check", *(["--outlook"] if tell else [])], capture_output=True, encoding="utf-8", errors="backslashreplace",
                               stdin=subprocess.DEVNULL)
         if done.returncode == DONE:
             if tell:
