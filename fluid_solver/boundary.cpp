@@ -76,6 +76,8 @@ void Boundary::count_force(double dt) {
 
 double Boundary::power(const Vec& on_fluid) const {
   if (!moves()) return 0;
+  if (const auto* pressed = std::get_if<PressedMotion>(&motion))
+    return pressed->mean_speed * on_fluid.dot(pressed->press.axis());
   if (!is_interface()) return on_fluid.dot(at(v, 0));  // rigid
   const bool rubbed = !friction_force[0].empty();
   double sum = 0;

@@ -50,7 +50,7 @@ struct FaceDepths {
 
 struct Boundary {
   std::string name;
-  std::variant<Still, PrescribedMotion, MovingInterface> motion;
+  std::variant<Still, PrescribedMotion, PressedMotion, MovingInterface> motion;
   std::size_t count = 0;
   std::vector<std::uint32_t> id;  ///< number at the start: of a wall particle, or the interface's own order
 

@@ -39,4 +39,36 @@ void serialize(Archive& archive, PrescribedMotion& prescribed) {
   archive(start);
 }
 
+/// It is a piston that its press and the fluid push along an axis.
+struct PressedMotion {
+  Press press;
+  std::vector<Vec> start;  ///< where its particles began [m]
+  double area = 0;         ///< of its face [m per metre depth]
+  double mass = 0;         ///< [kg per metre depth]
+  // since the last push
+  double time = 0, way = 0, speed = 0;  ///< [s], along the press's axis [m], [m/s]
+  double acceleration = 0;              ///< in that push [m/s2]
+  double mean_speed = 0;                ///< in that push [m/s]
+  bool at_stop = false;                 ///< whether it has been told of that a stop holds it
+
+  double way_at(double t) const;
+  double speed_at(double t) const;  ///< 0 where a stop holds it
+  /// Gives what particle k does at `t` [s], with the acceleration of the last push: without it the pressure
+  /// that the wall takes from the fluid would lag, and a piston on water would swing ever farther.
+  auto at(double t) const {
+    return [this, axis = press.axis(), way = way_at(t), speed = speed_at(t)](std::uint32_t k) {
+      return Kinematics{start[k] + way * axis, speed * axis, acceleration * axis};
+    };
+  }
+  /// The press and the fluid's `reaction` [N per metre depth] act for `dt` [s] at `t`, the middle of a step.
+  /// `held` is what of the pressure the fluid does not know of [Pa].
+  void push(double t, double dt, const Vec& reaction, double held);
+};
+template <class Archive>
+void serialize(Archive& archive, PressedMotion& pressed) {
+  auto& [press, start, area, mass, time, way, speed, acceleration, mean_speed, at_stop] =
+      pressed;  // the first ones are the case's
+  archive(time, way, speed, acceleration, mean_speed, at_stop);
+}
+
 }  // namespace toryu::fluid

@@ -19,6 +19,10 @@ namespace {
 /// faces may be somewhat nearer than half a spacing to either.
 constexpr double nearest_bodies = 0.4;
 
+/// Of fluid in place of a press whose mass the case does not say: the fluid beside it answers in as much, so
+/// it is stable by the fluid's steps and slow by no more than some rows.
+constexpr double smoothing_lengths_of_press = 4;
+
 /// Moves points off their lattice at random, each time alike.
 void disorder(std::vector<Vec>& points, double largest) {
   if (largest == 0) return;
@@ -80,6 +84,20 @@ void FluidModel::start_flow(std::size_t i) {
   state_.fluid.rho[i] *= state.density(state.p_b + state.rho_0 * p_rho) / state.rho_0;
 }
 
+PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& points) const {
+  const double area = pressing_area(wall), fluid = parameters_.density * area * parameters_.h();
+  if (wall.press->mass > 0 && wall.press->mass < fluid)
+    throw BadInput(
+        {{fmt::format("[[wall]] '{}'", wall.name), 0, 0,
+          fmt::format("a press of {:g} kg/m is too light beside the fluid for steps like its: give it "
+                      "{:.3g} kg/m or more, or leave 'mass' out",
+                      wall.press->mass, fluid)}});
+  return {.press = *wall.press,
+          .start = points,
+          .area = area,
+          .mass = wall.press->mass > 0 ? wall.press->mass : smoothing_lengths_of_press * fluid};
+}
+
 void FluidModel::fill_walls() {
   std::vector<Vec> still;
   std::vector<double> still_volumes;
@@ -89,6 +107,7 @@ void FluidModel::fill_walls() {
     boundary.name = name;
     if (wall && wall->motion)
       boundary.motion = PrescribedMotion{*wall->motion, points, reach() / parameters_.sound_speed};
+    if (wall && wall->press) boundary.motion = pressed(*wall, points);
     boundary.place(points, volumes, parameters_.density, parameters_.strip_width());
     if (parameters_.wall_model.extrapolation == WallExtrapolation::fit)
       boundary.know_faces(lattice_face_depths(points, parameters_.spacing, 2 * reach()));
@@ -100,7 +119,7 @@ void FluidModel::fill_walls() {
     std::vector<double> volumes;
     for (const Vec& cell : filling.cells) volumes.push_back(cell.prod());
     const std::string place = fmt::format("[[wall]] '{}'", wall.name);
-    const bool on_its_own = wall.motion || wall.work_piece;
+    const bool on_its_own = wall.motion || wall.press || wall.work_piece;
     if (points.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
     if (on_its_own && (wall.name == "walls" || wall.name == "interface"))
       throw BadInput({{place, 0, 0,

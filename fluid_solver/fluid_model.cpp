@@ -5,6 +5,7 @@
 
 #include "common/run/log.hpp"
 #include "common/state/serialize.hpp"
+#include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/interface_contact.hpp"
 #include "fluid_solver/work_piece.hpp"
 
@@ -141,7 +142,20 @@ void FluidModel::record(double time) {
   if (state_.surface_record) state_.surface_record->write(time);
 }
 
+void FluidModel::watch_stops(double time) {
+  for (Boundary& boundary : state_.boundaries)
+    if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion); pressed && !pressed->at_stop) {
+      const double way = pressed->way_at(time);
+      pressed->at_stop = way != 0 && (way == pressed->press.travel[0] || way == pressed->press.travel[1]);
+      if (pressed->at_stop)
+        log::warn(
+            "the wall '{}' has come to the end of its travel, {:g} m, at t = {:.6g} s: its stop holds it",
+            boundary.name, way, time);
+    }
+}
+
 void FluidModel::watch(double time) {
+  watch_stops(time);
   if (state_.suction_watch) watch_suction(time);
   if (state_.steps_since_look == 0) state_.run_watch->look(run_figures(time));
 }
@@ -168,6 +182,10 @@ void FluidModel::watch_suction(double time) {
 
 void FluidModel::count_forces(double dt) {
   ++state_.steps_since_look;
+  const double held = kept_pressure(parameters_.enclosed_medium, state_.boundaries, equation_of_state_);
+  for (Boundary& boundary : state_.boundaries)
+    if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion))
+      pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
   state_.gravity_impulse += dt * std::reduce(state_.fluid.m.begin(), state_.fluid.m.end()) * scene_.gravity;
 }

@@ -144,10 +144,12 @@ class FluidModel : public Solver {
  private:
   void fill_regions();
   void start_flow(std::size_t particle);
+  PressedMotion pressed(const Wall& wall, const std::vector<Vec>& points) const;
   void fill_walls();
   void check_overlaps() const;
   void move_back_into_domain();
   void watch_suction(double time);
+  void watch_stops(double time);
   MovingInterface& interface();
   /// Energy over mass at `x` [m2/s2].
   double potential(const Vec& x) const;

@@ -115,6 +115,16 @@ ExitCode solve(const Options& options) {
   if (parameters.enclosed_medium && file.has("solid"))
     file.fault("fluid.enclosed_medium",
                "an elastic solid bears the pressures that move the fluid: give [fluid.background_pressure]");
+  const bool pressed =
+      std::any_of(scene.walls.begin(), scene.walls.end(), [](const Wall& w) { return w.press; });
+  if (pressed && parameters.integrator == fluid::Integrator::midpoint)
+    file.fault("fluid.integrator",
+               "walls that are pressed go with the 'symplectic' steps alone: others feed them");
+  if (const auto& medium = parameters.enclosed_medium; medium && pressed && medium->mean_pressure > 0)
+    file.fault("fluid.enclosed_medium.mean_pressure",
+               "the walls that are pressed set the mean pressure: leave it out");
+  else if (medium && !pressed && !(medium->mean_pressure > 0))
+    file.fault("fluid.enclosed_medium", "without a pressed wall the medium needs a 'mean_pressure' above 0");
   if (options.describe) {
     print(file.description());
     return ExitCode::done;

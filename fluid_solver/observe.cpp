@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fluid_solver/fluid_model.hpp"
+#include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/observers.hpp"
 
 namespace toryu::fluid {
@@ -171,8 +172,8 @@ Vec FluidModel::momentum() const {
 }
 
 double FluidModel::pressure_offset() const {
-  return fluid::pressure_offset(parameters_.enclosed_medium, state_.fluid.m, state_.fluid.rho,
-                                state_.fluid.count, equation_of_state_);
+  return fluid::pressure_offset(parameters_.enclosed_medium, state_.fluid, state_.boundaries,
+                                equation_of_state_);
 }
 
 Vec FluidModel::numerical_impulse() const {
@@ -200,6 +201,10 @@ std::vector<Observation> FluidModel::observe() const {
     push("force_from_" + boundary.name, "N/m", boundary.counted ? given.force() : Vec(Vec::Zero()));
     push("impulse_from_" + boundary.name, "N.s/m", boundary.impulse.total);
     if (boundary.moves()) row.push_back({"work_from_" + boundary.name, "J/m", boundary.work});
+    if (const auto* pressed = std::get_if<PressedMotion>(&boundary.motion)) {
+      row.push_back({"way_of_" + boundary.name, "m", pressed->way_at(state_.time)});
+      row.push_back({"speed_of_" + boundary.name, "m/s", pressed->speed_at(state_.time)});
+    }
     if (!parameters_.friction || !boundary.is_work_piece()) continue;
     push("friction_from_" + boundary.name, "N/m", boundary.counted ? given.friction() : Vec(Vec::Zero()));
     push("friction_impulse_from_" + boundary.name, "N.s/m", boundary.impulse.friction);

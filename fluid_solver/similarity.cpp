@@ -26,6 +26,8 @@ constexpr double creeping_reynolds_number = 0.01;
 /// Of the slowest part of a starting flow between plates, pi^2 nu/w^2 (the series of cases/poiseuille).
 constexpr double profile_rate = 9.87;
 constexpr double largest_mach_number = 0.1;
+/// Difference of the pistons' pressures over the drop by which sound and background pressure are chosen.
+constexpr double largest_share_of_drop = 1.5;
 
 /// U over w of the flow with that shear rate at the wall [1/s].
 double speed_over_width(const Parameters& p, double gdot_w) {
@@ -52,11 +54,46 @@ double largest_wall_speed(const Scene& scene) {
   return largest;
 }
 
-/// In which a wall would gain its largest speed at the steepest of its table; the shortest of all, 0 where a
-/// wall starts with a speed [s].
+/// In which the pressure would change by all that its table has at the steepest of it [s].
+double shortest_ramp(const Press& press) {
+  const auto& rows = press.force.empty() ? press.pressure : press.force;
+  const auto [least, most] =
+      std::minmax_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < rows.size(); ++k)
+    if (rows[k][1] != rows[k - 1][1])
+      shortest = std::min(shortest, ((*most)[1] - (*least)[1]) / std::abs(rows[k][1] - rows[k - 1][1]) *
+                                        (rows[k][0] - rows[k - 1][0]));
+  return shortest;
+}
+
+/// Largest difference of the pressures of two pressed walls at `time` [Pa].
+double difference_of_presses(const Scene& scene, double time) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const Wall& wall : scene.walls)
+    if (wall.press) {
+      const double p = wall.press->pressure_at(time, pressing_area(wall));
+      least = std::min(least, p), most = std::max(most, p);
+    }
+  return std::max(most - least, 0.0);
+}
+
+double largest_difference_of_presses(const Scene& scene) {
+  double largest = 0;
+  for (const Wall& wall : scene.walls)
+    if (wall.press)
+      for (const auto* rows : {&wall.press->pressure, &wall.press->force})
+        for (const auto& row : *rows) largest = std::max(largest, difference_of_presses(scene, row[0]));
+  return largest;
+}
+
+/// In which a wall would gain its largest speed, or its pressure, at the steepest of its table; the shortest
+/// of all, 0 where a wall starts with a speed or pistons with unlike pressures [s].
 double shortest_ramp(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
+  if (difference_of_presses(scene, 0) > 0) shortest = 0;
   for (const Wall& wall : scene.walls) {
+    if (wall.press) shortest = std::min(shortest, shortest_ramp(*wall.press));
     if (!wall.motion) continue;
     const auto& rows = wall.motion->velocity;
     const double largest = largest_speed(*wall.motion);
@@ -217,10 +254,10 @@ std::vector<std::string> similarity_warnings(const Parameters& p, const Scene& s
   std::vector<std::string> said;
   const double crossing = longest_side(p.regions) / p.sound_speed, ramp = shortest_ramp(scene);
   if (ramp < gentle_crossings * crossing)
-    said.push_back(
-        fmt::format("a wall comes to its speed within {:.3g} s, and sound crosses the medium in {:.3g} s: "
-                    "take {:g} times that, or the medium sloshes",
-                    ramp, crossing, gentle_crossings));
+    said.push_back(fmt::format(
+        "a wall comes to its speed or pressure within {:.3g} s, and sound crosses the medium in {:.3g} s: "
+        "take {:g} times that, or the medium sloshes",
+        ramp, crossing, gentle_crossings));
   const double mach = p.similarity->mean_speed / p.sound_speed, pushed = largest_wall_speed(scene);
   if (mach > largest_mach_number)
     said.push_back(
@@ -233,6 +270,12 @@ std::vector<std::string> similarity_warnings(const Parameters& p, const Scene& s
                     "passage: the pressure drop, and with it the sound speed, may be far too low",
                     pushed, p.similarity->mean_speed));
   const SimilarMedium similar = similar_medium(p);
+  const double difference = largest_difference_of_presses(scene);
+  if (difference > largest_share_of_drop * similar.pressure_drop)
+    said.push_back(
+        fmt::format("pistons press with a difference of {:.4g} Pa, the passage takes {:.4g} Pa at the "
+                    "'mean_speed': the medium will be compressed more, and flow faster",
+                    difference, similar.pressure_drop));
   const double load =
       (p.background_pressure->pressure + 0.5 * similar.pressure_drop) / similar.passage.wall_stress;
   if (load > bearable_pressure && (p.kernel != KernelForm::wendland_c2 || p.smoothing_ratio < 1.99))

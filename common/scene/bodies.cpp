@@ -22,6 +22,7 @@ struct Body {
   std::string key;   ///< of its box in the case file
   Part part;
   const Motion* motion = nullptr;
+  bool travels = false;  ///< between the stops of a press
 };
 
 std::optional<Vec> corner(const CaseFile& file, const std::string& key) {
@@ -64,15 +65,17 @@ std::vector<Box> boxes_of(const std::vector<Item>& items) {
   return boxes;
 }
 
-std::vector<Body> walls_of(const Scene& scene) {
+/// As they stand or, where a press moves them, with all that they can sweep over.
+std::vector<Body> walls_of(const Scene& scene, bool swept) {
   std::vector<Body> walls;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
     if ((wall.box.max.array() <= wall.box.min.array()).any()) continue;
     walls.push_back({fmt::format("the wall '{}'", wall.name),
                      fmt::format("wall.{}.box", i),
-                     {{wall.box}, {}},
-                     wall.motion && !wall.motion->velocity.empty() ? &*wall.motion : nullptr});
+                     {{swept ? swept_box(wall) : wall.box}, {}},
+                     wall.motion && !wall.motion->velocity.empty() ? &*wall.motion : nullptr,
+                     wall.press.has_value()});
   }
   return walls;
 }
@@ -158,7 +161,8 @@ class Bodies {
   Bodies(const CaseFile& file, const Scene& scene)
       : file_(file),
         end_time_(scene.end_time),
-        walls_(walls_of(scene)),
+        walls_(walls_of(scene, false)),
+        swept_(walls_of(scene, true)),
         fluid_(regions_of(file, "fluid")),
         solid_(regions_of(file, "solid")),
         tolerance_(touching * finest_spacing(file)) {
@@ -172,8 +176,12 @@ class Bodies {
   using Faults = std::vector<std::pair<std::string, std::string>>;
   Faults faults() const {
     Faults found;
-    for (std::size_t i = 0; i < walls_.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k) keep_apart(walls_[i], walls_[k], end_time_, "", found);
+    for (std::size_t i = 0; i < swept_.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const bool by_travel = (swept_[i].travels || swept_[k].travels) && !meeting(walls_[i], walls_[k], 0);
+        keep_apart(swept_[i], swept_[k], end_time_, by_travel ? ", with the travel of what is pressed" : "",
+                   found);
+      }
     for (const Body& region : fluid_)
       for (const auto* bodies : {&walls_, &solid_})
         for (const Body& other : *bodies) keep_apart(region, other, 0, "", found);
@@ -253,7 +261,7 @@ class Bodies {
 
   const CaseFile& file_;
   double end_time_;
-  std::vector<Body> walls_, fluid_, solid_;
+  std::vector<Body> walls_, swept_, fluid_, solid_;
   double tolerance_;
   Vec origin_;  ///< of the domain [m]
   Vec period_ = Vec::Zero();

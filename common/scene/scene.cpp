@@ -24,6 +24,14 @@ void check_walls(CaseFile& file, const Scene& scene) {
     const std::string key = fmt::format("wall.{}", i);
     if (sound(wall.box) && sound(scene.domain) && !box_in_box(wall.box, scene.domain))
       file.fault(key + ".box", fmt::format("the box of wall '{}' is not within [case.domain]", wall.name));
+    else if (wall.press && sound(wall.box) && sound(scene.domain) &&
+             !box_in_box(swept_box(wall), scene.domain))
+      file.fault(key + ".press.travel",
+                 fmt::format("the wall '{}' leaves [case.domain] by its travel", wall.name));
+    if (wall.press && file.has("solid"))
+      file.fault(key + ".press", "a solid knows of no walls that the fluid moves: prescribe a 'motion'");
+    if (wall.press && scene.periodic != Periodic::none)
+      file.fault(key + ".press", "a wall that is pressed does not go with space that repeats itself");
   }
 }
 
@@ -121,6 +129,9 @@ void describe(ParameterTable& table, Wall& wall) {
              {.required = true, .help = "as the log and the report call it", .names_columns = true});
   table.group("box", wall.box, "filled with particles on a lattice of each solver's spacing");
   table.optional("motion", wall.motion, "prescribed motion; without it the wall stands still");
+  table.optional("press", wall.press, "moves as a pressure and the fluid push it");
+  table.require(!wall.motion || !wall.press, "press", "a wall has either a 'motion' or a 'press'");
+  table.require(!wall.press || !wall.box.round, "press", "a piston is a box: it cannot be round");
   table.flag("work_piece", wall.work_piece, "a rigid work piece: the fluid's friction acts on it");
 }
 

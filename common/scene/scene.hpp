@@ -44,14 +44,35 @@ struct Motion {
 };
 void describe(ParameterTable& table, Motion& motion);
 
+enum class Direction { plus_x, minus_x, plus_y, minus_y };
+
+/// A piston that presses on the fluid: a rigid body that moves along one axis as its press and the fluid push
+/// it, m dv/dt = F(t) + what the fluid does.
+struct Press {
+  std::vector<std::vector<double>> pressure;  ///< rows of time [s], pressure [Pa]; empty: `force` says it
+  std::vector<std::vector<double>> force;     ///< rows of time [s], force [N per metre depth]
+  Direction direction = Direction::plus_x;    ///< in which it presses
+  Vec travel = Vec::Zero();  ///< least and largest way along `direction`, between its stops [m]
+  double mass = 0;           ///< [kg per metre depth]; 0: little beside the fluid's
+  Vec axis() const;          ///< the unit vector of `direction`
+  /// At `time` [s] on a face of `area` [m per metre depth], linear between the rows [Pa].
+  double pressure_at(double time, double area) const;
+};
+void describe(ParameterTable& table, Press& press);
+
 /// A rigid body: filled with particles by each solver, on a lattice of its own spacing.
 struct Wall {
   std::string name;
   Box box;
   std::optional<Motion> motion;
+  std::optional<Press> press = {};
   bool work_piece = false;  ///< what the fluid's abrasive rubs on; a body of its own in the results
 };
 void describe(ParameterTable& table, Wall& wall);
+/// Of the face with which a pressed wall presses [m per metre depth].
+double pressing_area(const Wall& wall);
+/// All places that the wall takes: as it stands, or between the stops of its press.
+Box swept_box(const Wall& wall);
 
 void describe(ParameterTable& table, Reference& reference);
 

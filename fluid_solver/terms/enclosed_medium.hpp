@@ -4,14 +4,18 @@
 ///
 ///     p_i + (p_mean - sum_j V_j p_j/sum_j V_j),
 ///
-/// in contact, friction (33), removal, observers and frames; the sums of the momentum keep p_i.
+/// in contact, friction (33), removal, observers and frames; the sums of the momentum keep p_i. Where pistons
+/// are pressed, it is p_i + q: they press with their pressure less
+///
+///     q = (p_most + p_least)/2 - p_b,
+///
+/// of the largest and the least of them, so that the medium keeps its rest density whatever the machine's
+/// pressure (held_pressure.hpp).
 #pragma once
 
 #include <fmt/format.h>
 
 #include "common/case/parameter_table.hpp"
-#include "common/sph/points.hpp"
-#include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/medium.hpp"
 
 namespace toryu::fluid {
@@ -19,32 +23,19 @@ namespace toryu::fluid {
 struct EnclosedMedium {
   static constexpr const char* section = "enclosed_medium";
   static constexpr const char* help = "the pressure at which a press holds a medium without free surface";
-  double mean_pressure = 0;  ///< [Pa]
+  double mean_pressure = 0;  ///< [Pa]; 0: as pressed walls set it
 };
 inline void describe(ParameterTable& table, EnclosedMedium& medium) {
   table.number("mean_pressure", medium.mean_pressure,
                {.unit = "Pa",
                 .minimum = 0,
-                .required = true,
                 .help = "over the volume: what contact, friction, removal and the results have; the motion "
-                        "does not depend on it"});
-}
-
-/// What is to be added to the pressure of each of the `count` particles of mass `m` [kg/m] and density `rho`
-/// [kg/m3]; 0 without a mean pressure [Pa].
-inline double pressure_offset(const std::optional<EnclosedMedium>& medium, const Field& m, const Field& rho,
-                              std::size_t count, const EquationOfState& state) {
-  if (!medium) return 0;
-  double volume = 0, sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double V_i = m[i] / rho[i];
-    volume += V_i;
-    sum += V_i * state.pressure(rho[i]);
-  }
-  return medium->mean_pressure - sum / volume;
+                        "does not depend on it; 0: as walls with a 'press' set it"});
 }
 
 inline ActiveTerm text(const EnclosedMedium& medium, const Medium&) {
+  if (medium.mean_pressure == 0)
+    return {"enclosed medium", "p_i + (p_most + p_least)/2 - p_b at surfaces", "", "by pressed walls"};
   return {"enclosed medium", "p_i + (p_mean - sum_j V_j p_j/sum_j V_j) at surfaces", "",
           fmt::format("p_mean {} Pa", medium.mean_pressure)};
 }

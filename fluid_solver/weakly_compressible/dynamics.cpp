@@ -1,5 +1,6 @@
 #include "fluid_solver/weakly_compressible/dynamics.hpp"
 
+#include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/terms/density_gradient.hpp"
 #include "fluid_solver/terms/velocity_gradient.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
@@ -154,7 +155,7 @@ void Dynamics::renew_density_rates(Particles& fluid, const ClusterList& neighbou
 }
 
 void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const {
-  const double p_offset = pressure_offset(fluid);
+  const double p_offset = pressure_offset(fluid, boundaries);
   for (Boundary& boundary : boundaries)
     if (boundary.is_work_piece()) {
       friction_->measure_contact(boundary, fluid);
@@ -162,21 +163,20 @@ void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& bounda
     }
 }
 
-double Dynamics::pressure_offset(const Particles& fluid) const {
-  return fluid::pressure_offset(parameters_.enclosed_medium, fluid.m, fluid.rho, fluid.count, state_);
+double Dynamics::pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const {
+  return fluid::pressure_offset(parameters_.enclosed_medium, fluid, boundaries, state_);
 }
 
-void Dynamics::react(const Particles& fluid, Boundary& boundary) const {
+void Dynamics::react(const Particles& fluid, double pressure_offset, Boundary& boundary) const {
   medium_.kernel.visit([&](const auto& W) {
     sweeps().reaction(W, fluid, boundary);
     add_further_reactions(W, parameters_, medium_, fluid, boundary);
   });
-  react_by_friction(fluid, boundary);
+  react_by_friction(fluid, pressure_offset, boundary);
 }
 
-void Dynamics::react_by_friction(const Particles& fluid, Boundary& work_piece) const {
-  if (friction_ && work_piece.is_work_piece())
-    friction_->drag_work_piece(work_piece, fluid, pressure_offset(fluid));
+void Dynamics::react_by_friction(const Particles& fluid, double pressure_offset, Boundary& work_piece) const {
+  if (friction_ && work_piece.is_work_piece()) friction_->drag_work_piece(work_piece, fluid, pressure_offset);
 }
 
 }  // namespace toryu::fluid

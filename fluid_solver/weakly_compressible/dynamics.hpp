@@ -37,12 +37,12 @@ class Dynamics {
 
   /// Fills `boundary.force`, the exact reaction to what the boundary did to the fluid in the last evaluation,
   /// gathered pair by pair on the boundary's side, and its `friction_force` where there is friction.
-  void react(const Particles& fluid, Boundary& boundary) const;
+  void react(const Particles& fluid, double pressure_offset, Boundary& boundary) const;
   /// The latter alone.
-  void react_by_friction(const Particles& fluid, Boundary& work_piece) const;
+  void react_by_friction(const Particles& fluid, double pressure_offset, Boundary& work_piece) const;
 
   /// Of a medium that is held at a mean pressure: what contact adds to p [Pa].
-  double pressure_offset(const Particles& fluid) const;
+  double pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const;
   /// What each term of the case takes from the fluid's energy, with the fields of the last evaluation;
   /// nothing before the first step.
   std::vector<Power> powers(const Particles& fluid, const ClusterList& neighbours,

@@ -159,8 +159,9 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
   note_viscous(ArtificialViscosity::section, terms_.artificial);
   note_viscous("viscosity", terms_.viscous);
   if (friction_)
-    note(Friction::section, Taken::dissipated,
-         [&](const auto&) { return friction_->power(fluid, pressure_offset(fluid), boundaries); });
+    note(Friction::section, Taken::dissipated, [&](const auto&) {
+      return friction_->power(fluid, pressure_offset(fluid, boundaries), boundaries);
+    });
   std::visit(
       [&]<class Term>(const Term& term) {
         if constexpr (is_there<Term>)

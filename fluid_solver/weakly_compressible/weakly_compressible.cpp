@@ -151,7 +151,7 @@ void WeaklyCompressible::accumulate_reaction(double dt) {
   for (Boundary& boundary : state_.boundaries)
     if (auto* interface = std::get_if<MovingInterface>(&boundary.motion)) {
       const auto timer = timers_.measure("reaction on the interface");
-      dynamics_.react(state_.fluid, boundary);
+      dynamics_.react(state_.fluid, pressure_offset(), boundary);
       interface->add_load(boundary, boundary.force_on_fluid.force(), dt);
     }
   note_surface(dt);
@@ -161,10 +161,11 @@ void WeaklyCompressible::accumulate_reaction(double dt) {
 void WeaklyCompressible::note_surface(double dt) {
   if (!state_.surface_record) return;
   const auto timer = timers_.measure("surface of the work pieces");
+  const double p_offset = pressure_offset();
   for (Boundary& boundary : state_.boundaries)
-    if (!boundary.is_interface()) dynamics_.react_by_friction(state_.fluid, boundary);
-  state_.surface_record->add(state_.boundaries, state_.fluid, pressure_offset(), state_.neighbours.of_fluid(),
-                             kernel_, dt);
+    if (!boundary.is_interface()) dynamics_.react_by_friction(state_.fluid, p_offset, boundary);
+  state_.surface_record->add(state_.boundaries, state_.fluid, p_offset, state_.neighbours.of_fluid(), kernel_,
+                             dt);
 }
 
 void WeaklyCompressible::shift(double dt) {

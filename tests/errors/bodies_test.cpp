@@ -13,9 +13,18 @@ const std::string gate =
     "[solid]\nspacing=0.05\n[[solid.region]]\nname='gate'\nbox={min=[1,0], max=[1.2,2]}\n"
     "[[solid.clamp]]\nname='root'\nbox={min=[1,1], max=[1.2,2]}\n";
 
+const std::string water =
+    "[case]\ntitle='A'\nend_time=2\ndomain={min=[-4,-4], max=[4,4]}\n"
+    "[fluid]\nspacing=0.1\n[[fluid.region]]\nname='water'\nbox={min=[0,0], max=[1,1]}\n";
+
 std::string wall(const std::string& name, const std::string& box, const std::string& motion = "") {
   return "[[wall]]\nname='" + name + "'\nbox={" + box + "}\n" +
          (motion.empty() ? "" : "motion={velocity=[" + motion + "]}\n");
+}
+
+std::string pressed(const std::string& name, const std::string& box, const std::string& travel) {
+  return "[[wall]]\nname='" + name + "'\nbox={" + box + "}\npress={force=[[0,1]], direction='+x', travel=[" +
+         travel + "]}\n";
 }
 
 struct Scenery {
@@ -73,6 +82,24 @@ INSTANTIATE_TEST_SUITE_P(
                 gate + wall("lid", "min=[0.9,2], max=[1.3,2.1]", "[0,0,0],[1,1,0]"),
                 "case.toml:20:1: error: the wall 'lid' moves, and the solid's clamp 'root', which it holds, "
                 "stands still"}),
+    name_of<Scenery>);
+
+INSTANTIATE_TEST_SUITE_P(
+    AlongTravels, BodyFaults,
+    testing::Values(
+        Scenery{"NoneWhereTheFluidIsPressed",
+                water + pressed("piston", "min=[-0.5,0], max=[0,1]", "-1, 0.9") +
+                    wall("stop", "min=[2,0], max=[3,1]"),
+                ""},
+        Scenery{"AStopWithinTheTravel",
+                water + pressed("piston", "min=[-0.5,0], max=[0,1]", "0, 1.2") +
+                    wall("stop", "min=[1,0], max=[3,1]"),
+                "case.toml:16:1: error: the wall 'stop' overlaps the wall 'piston' near (1.1, 0.5) m, with "
+                "the travel of "
+                "what is pressed"},
+        Scenery{"APistonInTheWater", water + pressed("piston", "min=[-0.5,0], max=[0.2,1]", "0, 0.1"),
+                "case.toml:9:1: error: the fluid's region 'water' overlaps the wall 'piston' near (0.1, 0.5) "
+                "m"}),
     name_of<Scenery>);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -52,10 +52,23 @@ INSTANTIATE_TEST_SUITE_P(
               "--set fluid.wall_model={slip=\"free_slip\", extrapolation=\"fit\"}: error: a 'fit' is of what "
               "viscous "
               "terms see at walls: it needs slip = \"no_slip\""},
-        Fault{"MeanPressureUnderAFreeSurface", "fluid.enclosed_medium.mean_pressure=0",
+        Fault{"MeanPressureUnderAFreeSurface", "fluid.enclosed_medium.mean_pressure=1",
               "[fluid.enclosed_medium]: error: the fluid has a free surface at the start, where its pressure "
               "is "
               "0: give no mean pressure"},
+        Fault{"EnclosedByNothing", "fluid.enclosed_medium={}",
+              "--set fluid.enclosed_medium={}: error: without a pressed wall the medium needs a "
+              "'mean_pressure' above 0"},
+        Fault{"MeanPressureBesidePresses",
+              "fluid.enclosed_medium.mean_pressure=1' --set 'wall.0.press={force=[[0,1]], direction=\"+y\", "
+              "travel=[0,1e-9]}",
+              "--set fluid.enclosed_medium.mean_pressure=1: error: the walls that are pressed set the mean "
+              "pressure: leave it out"},
+        Fault{"PressByTheMidpointRule",
+              "fluid.integrator=midpoint' --set 'wall.0.press={force=[[0,1]], direction=\"+y\", "
+              "travel=[0,1e-9]}",
+              "--set fluid.integrator=midpoint: error: walls that are pressed go with the 'symplectic' steps "
+              "alone: others feed them"},
         Fault{"WrongChoice", "fluid.wall_model.slip=slippery",
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},

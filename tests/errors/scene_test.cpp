@@ -57,6 +57,49 @@ TEST(SceneFaults, MotionWithoutRows) {
             "case.toml:8:12: error: 'velocity' needs at least one row");
 }
 
+const std::string travel = "direction = '+y', travel = [0, 0.5]";
+
+TEST(SceneFaults, PressWithoutPressureOrWithTwo) {
+  EXPECT_EQ(CaseText(sound_scene + "press = { " + travel + " }\n").scene_faults(),
+            "case.toml:8:1: error: a press needs rows of either its 'pressure' or its 'force'");
+  EXPECT_EQ(CaseText(sound_scene + "press = { pressure = [[0, 1]], force = [[0, 1]], " + travel + " }\n")
+                .scene_faults(),
+            "case.toml:8:11: error: a press needs rows of either its 'pressure' or its 'force'");
+}
+
+TEST(SceneFaults, PressWhoseTimesDoNotIncrease) {
+  EXPECT_EQ(CaseText(sound_scene + "press = { force = [[1, 1], [1, 2]], " + travel + " }\n").scene_faults(),
+            "case.toml:8:11: error: times in 'force' must increase: 1 comes after 1");
+}
+
+TEST(SceneFaults, PressWithoutTravel) {
+  EXPECT_EQ(CaseText(sound_scene + "press = { force = [[0, 1]], direction = '+y', travel = [0.1, 0.5] }\n")
+                .scene_faults(),
+            "case.toml:8:47: error: 'travel' begins at most at 0 and ends at least there: [-0.01, 0.02]");
+}
+
+TEST(SceneFaults, PressBesideAMotion) {
+  EXPECT_EQ(
+      CaseText(sound_scene + "motion = { velocity = [[0, 0, 0]] }\npress = { force = [[0, 1]], direction = "
+                             "'+y', travel = [0, 0.5] }\n")
+          .scene_faults(),
+      "case.toml:9:1: error: a wall has either a 'motion' or a 'press'");
+}
+
+TEST(SceneFaults, PressThatLeavesTheDomain) {
+  EXPECT_EQ(CaseText(sound_scene + "press = { force = [[0, 1]], direction = '-y', travel = [0, 0.5] }\n")
+                .scene_faults(),
+            "case.toml:8:47: error: the wall 'floor' leaves [case.domain] by its travel");
+}
+
+TEST(SceneFaults, PressOfASolidOrInPeriodicSpace) {
+  const std::string press = "press = { force = [[0, 1]], direction = '+y', travel = [0, 0.5] }\n";
+  EXPECT_EQ(CaseText(sound_scene + press + "[solid]\nspacing = 0.1\n").scene_faults(),
+            "case.toml:8:1: error: a solid knows of no walls that the fluid moves: prescribe a 'motion'");
+  EXPECT_EQ(CaseText("[case]\nperiodic = 'x'\n" + sound_scene.substr(7) + press).scene_faults(),
+            "case.toml:9:1: error: a wall that is pressed does not go with space that repeats itself");
+}
+
 TEST(SceneFaults, ReferenceElsewhere) {
   EXPECT_EQ(
       CaseText(sound_scene +

@@ -82,8 +82,8 @@ TEST(PeriodicFlow, LetsAWallGoRoundAndRound) {
   s.scene.domain = {Vec(0, -0.2), Vec(0.5, 0.6)};
   s.scene.periodic = Periodic::x;
   s.parameters.laminar_viscosity = LaminarViscosity{200.0};  // the flow is steady at once
-  s.scene.walls = {{"floor", {Vec(0, -0.2), Vec(0.5, 0)}, {}, false},
-                   {"belt", {Vec(0, 0.4), Vec(0.5, 0.6)}, Motion{{{0.0, 2.0, 0.0}}}, false}};
+  s.scene.walls = {{"floor", {Vec(0, -0.2), Vec(0.5, 0)}, {}},
+                   {"belt", {Vec(0, 0.4), Vec(0.5, 0.6)}, Motion{{{0.0, 2.0, 0.0}}}}};
   s.parameters.regions = {{"medium", {Vec(0, 0), Vec(0.5, 0.4)}, Vec(0, 0)}};
   WeaklyCompressible solver = s.solver();
   run_until(solver, 0.6);  // the belt has gone round twice and a bit

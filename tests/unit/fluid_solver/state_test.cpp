@@ -133,6 +133,11 @@ const Variant variants[] = {
      [](Setting& s) {
        s.parameters.carreau = Carreau{5, 0.1, 0.1, 0.5};
      }},
+    {"Press",
+     [](Setting& s) {
+       s.scene.walls[1].press =
+           Press{.pressure = {{0, 0}, {0.05, 1e5}}, .force = {}, .travel = Vec(-0.1, 0.1)};
+     }},
     {"Wendland", [](Setting& s) { s.parameters.kernel = KernelForm::wendland_c2; }},
     {"WallDensity", [](Setting& s) { s.parameters.wall_model.density = WallDensity::from_pressure; }},
     {"FittedWalls",
