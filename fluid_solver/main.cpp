@@ -95,12 +95,8 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
       [&] { return link.waiting_time() - joined; });
 }
 
-ExitCode solve(const Options& options) {
-  CaseFile file(options.case_path, options.overrides);
-  Scene scene = read_scene(file);
-  fluid::Parameters parameters;
-  file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
-  file.ignore_sections({"solid", "coupling"});
+/// Adds a fault of `file` for each section that others of the case make pointless or wrong.
+void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters& parameters) {
   const auto is_work_piece = [](const Wall& wall) { return wall.work_piece; };
   const bool no_work_piece =
       !file.has("solid") && std::none_of(scene.walls.begin(), scene.walls.end(), is_work_piece);
@@ -125,6 +121,15 @@ ExitCode solve(const Options& options) {
                "the walls that are pressed set the mean pressure: leave it out");
   else if (medium && !pressed && !(medium->mean_pressure > 0))
     file.fault("fluid.enclosed_medium", "without a pressed wall the medium needs a 'mean_pressure' above 0");
+}
+
+ExitCode solve(const Options& options) {
+  CaseFile file(options.case_path, options.overrides);
+  Scene scene = read_scene(file);
+  fluid::Parameters parameters;
+  file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
+  file.ignore_sections({"solid", "coupling"});
+  check_sections(file, scene, parameters);
   if (options.describe) {
     print(file.description());
     return ExitCode::done;
