@@ -40,7 +40,8 @@ void Boundary::make_work_piece(const std::vector<Faces>& faces) {
   }
 }
 
-void Boundary::know_faces(const FaceDepths& depths) {
+void Boundary::know_faces(const FaceDepths& depths, bool fit) {
+  fitted = fit;
   resize(depth_up, padded(count));
   resize(depth_down, padded(count));
   for (std::size_t k = 0; k < count; ++k) {

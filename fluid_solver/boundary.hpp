@@ -75,12 +75,17 @@ struct Boundary {
   Declared<Field> eta{"viscosity", "Pa.s", FieldKind::derived, Presence::on_demand};
   Declared<TensorField> eta_grad_v{"viscosity_times_velocity_gradient", "Pa", FieldKind::derived,
                                    Presence::on_demand};
+  /// u_s and tau_w, where the medium slides as terms/wall_slip.hpp has it.
+  Declared<VecField> slip_velocity{"slip_velocity", "m/s", FieldKind::derived, Presence::on_demand};
+  Declared<Field> shear_stress{"shear_stress", "Pa", FieldKind::derived, Presence::on_demand};
   /// What the fluid does to the particle, where asked for.
   Declared<VecField> force{"force", "N/m", FieldKind::derived};
   // where there is friction, of a work piece alone
   Declared<Field> friction_length{"friction_length", "m", FieldKind::derived,
                                   Presence::on_demand};  ///< d_s of (33), see terms/friction.hpp
   Declared<VecField> friction_force{"friction_force", "N/m", FieldKind::derived, Presence::on_demand};
+
+  bool fitted = false;  ///< see wall_extrapolation.hpp
 
   ForceOnFluid force_on_fluid;  ///< of the last evaluation that asked for it
   Impulse impulse;              ///< of what was counted
@@ -97,9 +102,10 @@ struct Boundary {
   /// Makes it a work piece with these open faces, by id.
   void make_work_piece(const std::vector<Faces>& faces);
   bool is_work_piece() const { return !lower_face[0].empty(); }
-  /// Tells it where its body ends, by id.
-  void know_faces(const FaceDepths& depths);
+  /// Tells it where its body ends, by id, and whether what viscous terms see of it is fitted there.
+  void know_faces(const FaceDepths& depths, bool fit = true);
   bool knows_faces() const { return !depth_up[0].empty(); }
+  bool is_slippery() const { return !slip_velocity[0].empty(); }
   bool moves() const { return !std::holds_alternative<Still>(motion); }
   /// Whether a cluster of the fluid is in reach.
   bool acts_on(std::size_t cluster) const {
@@ -135,11 +141,13 @@ void Boundary::move_to(Of&& kinematics) {
 template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
   auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
-         p, p_rho2, v_viscous, eta, eta_grad_v, force, friction_length, friction_force, force_on_fluid,
-         impulse, work, counted, list_for_wall, list_for_fluid, strips] = boundary;
+         p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, force, friction_length,
+         friction_force, fitted, force_on_fluid, impulse, work, counted, list_for_wall, list_for_fluid,
+         strips] = boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
   archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, p, p_rho2,
-          v_viscous, eta, eta_grad_v, force, friction_length, friction_force, impulse, work, counted);
+          v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, force, friction_length, friction_force,
+          impulse, work, counted);
 }
 
 inline Sources sources(const Boundary& b) {

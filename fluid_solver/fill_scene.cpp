@@ -109,8 +109,9 @@ void FluidModel::fill_walls() {
       boundary.motion = PrescribedMotion{*wall->motion, points, reach() / parameters_.sound_speed};
     if (wall && wall->press) boundary.motion = pressed(*wall, points);
     boundary.place(points, volumes, parameters_.density, parameters_.strip_width());
-    if (parameters_.wall_model.extrapolation == WallExtrapolation::fit)
-      boundary.know_faces(lattice_face_depths(points, parameters_.spacing, 2 * reach()));
+    const bool fit = parameters_.wall_model.extrapolation == WallExtrapolation::fit;
+    if (fit || parameters_.wall_slip)
+      boundary.know_faces(lattice_face_depths(points, parameters_.spacing, 2 * reach()), fit);
     if (wall && wall->work_piece) boundary.make_work_piece(lattice_faces(points, parameters_.spacing));
   };
   for (const auto& wall : scene_.walls) {

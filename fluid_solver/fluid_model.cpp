@@ -125,9 +125,10 @@ void FluidModel::update_neighbours(double dt) {
 
 void FluidModel::record_surface(const std::filesystem::path& out) {
   if (!parameters_.removal) return;
-  const bool sticks = parameters_.wall_model.slip == WallSlip::no_slip;
-  state_.surface_record.emplace(*parameters_.removal,
-                                sticks ? std::optional(parameters_.spacing) : std::nullopt);
+  std::optional<Sticking> sticks;
+  if (parameters_.wall_model.slip == WallSlip::no_slip)
+    sticks = Sticking{parameters_.spacing, [p = parameters_](double gdot) { return viscosity_of(p, gdot); }};
+  state_.surface_record.emplace(*parameters_.removal, std::move(sticks));
   state_.surface_record->attach(state_.boundaries);
   state_.surface_record->open(out);
 }

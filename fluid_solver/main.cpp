@@ -121,6 +121,11 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
                "the walls that are pressed set the mean pressure: leave it out");
   else if (medium && !pressed && !(medium->mean_pressure > 0))
     file.fault("fluid.enclosed_medium", "without a pressed wall the medium needs a 'mean_pressure' above 0");
+  if (parameters.wall_slip && file.has("solid"))
+    file.fault(
+        "fluid.wall_slip",
+        "the medium slides along rigid walls alone, and an elastic solid would be no-slip beside them: "
+        "leave one of the two out");
 }
 
 ExitCode solve(const Options& options) {
@@ -164,6 +169,8 @@ ExitCode solve(const Options& options) {
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
   for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
+  if (!file.value<double>("fluid.removal.grain_length"))
+    if (const auto unknown = fluid::removal_by_grain_length(parameters)) log::warn("{}", *unknown);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
   for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
   for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));

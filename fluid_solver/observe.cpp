@@ -205,7 +205,7 @@ std::vector<Observation> FluidModel::observe() const {
       row.push_back({"way_of_" + boundary.name, "m", pressed->way_at(state_.time)});
       row.push_back({"speed_of_" + boundary.name, "m/s", pressed->speed_at(state_.time)});
     }
-    if (!parameters_.friction || !boundary.is_work_piece()) continue;
+    if (!parameters_.friction || parameters_.wall_slip || !boundary.is_work_piece()) continue;
     push("friction_from_" + boundary.name, "N/m", boundary.counted ? given.friction() : Vec(Vec::Zero()));
     push("friction_impulse_from_" + boundary.name, "N.s/m", boundary.impulse.friction);
   }

@@ -210,6 +210,24 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
                 "[fluid.laminar_viscosity]");
 }
 
+void require_slip_to_act(ParameterTable& table, const Parameters& p) {
+  table.require(
+      !p.wall_slip || p.wall_model.slip == WallSlip::no_slip, "wall_slip",
+      "[fluid.wall_slip] acts on the shear stress of walls that are no-slip otherwise; under slip = "
+      "\"free_slip\" there is none: leave one of the two out");
+  table.require(!p.wall_slip || is_viscous(p), "wall_slip",
+                "[fluid.wall_slip] needs a medium with a viscosity, of which the walls' shear stress comes: "
+                "[fluid.laminar_viscosity], [fluid.power_law] or [fluid.carreau]");
+  table.require(
+      !p.wall_slip || !p.artificial_viscosity, "wall_slip",
+      "artificial viscosity brakes the medium at walls whatever [fluid.wall_slip] says: leave one of "
+      "the two out");
+  table.require(
+      !p.wall_slip || !p.friction || p.friction->form == FrictionForm::normalised, "wall_slip",
+      "beside [fluid.wall_slip] the friction of a work piece is mu_A p: [fluid.friction] takes form = "
+      "\"normalised\"");
+}
+
 /// The discretisation that bears a high pressure over the shear stress, unless the case says another.
 void take_defaults_of_similarity(Parameters& p) {
   p.kernel = KernelForm::wendland_c2;
@@ -229,6 +247,7 @@ void describe(ParameterTable& table, Parameters& p) {
   table.group("limits", p.limits, "bounds of physics");
   table.list("observer", p.observers, "numbers reported over time in fluid.csv");
   require_consistency(table, p);
+  require_slip_to_act(table, p);
 }
 
 }  // namespace toryu::fluid

@@ -158,17 +158,22 @@ void describe(ParameterTable& table, Similarity& similarity) {
 SlitFlow slit_flow(const Parameters& p, double mean_speed, double width) {
   double low = 1e-100, high = 1e100;
   while (high / low > 1 + 1e-12) {
-    const double gdot_w = std::sqrt(low) * std::sqrt(high);
-    (speed_over_width(p, gdot_w) * width < mean_speed ? low : high) = gdot_w;
+    const double gdot_w = std::sqrt(low) * std::sqrt(high), tau_w = viscosity_of(p, gdot_w) * gdot_w;
+    const double u_s = p.wall_slip ? slip_speed(*p.wall_slip, tau_w) : 0.0;
+    (u_s + speed_over_width(p, gdot_w) * width < mean_speed ? low : high) = gdot_w;
   }
-  const double eta_w = viscosity_of(p, low);
-  return {.wall_shear_rate = low, .wall_viscosity = eta_w, .wall_stress = eta_w * low};
+  const double eta_w = viscosity_of(p, low), tau_w = eta_w * low;
+  return {.wall_shear_rate = low,
+          .wall_viscosity = eta_w,
+          .wall_stress = tau_w,
+          .slip_speed = p.wall_slip ? slip_speed(*p.wall_slip, tau_w) : 0.0};
 }
 
 SimilarMedium similar_medium(const Parameters& p) {
   const Similarity& s = *p.similarity;
   SimilarMedium similar{.passage = slit_flow(p, s.mean_speed, s.passage_width)};
-  const double inertia = s.mean_speed * s.passage_width / similar.passage.wall_viscosity;
+  const double sheared = 1 - similar.passage.slip_speed / s.mean_speed;
+  const double inertia = s.mean_speed * s.passage_width / (sheared * similar.passage.wall_viscosity);
   similar.pressure_drop = 2 * similar.passage.wall_stress * s.passage_length / s.passage_width;
   similar.density = s.reynolds_number / inertia;
   similar.sound_speed = p.sound_speed > 0

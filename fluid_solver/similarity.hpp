@@ -16,7 +16,10 @@
 /// tau_w are those of the developed flow between plates (Bird, Armstrong & Hassager 1987, section 4.2):
 /// tau = tau_w at the wall and falls linearly to the middle, so that, by parts,
 ///
-///     U = w/4 [gdot_w - integral_0^gdot_w (tau(gdot)/tau_w)^2 dgdot].
+///     U = u_s + w/4 [gdot_w - integral_0^gdot_w (tau(gdot)/tau_w)^2 dgdot],
+///
+/// u_s the slip of [fluid.wall_slip] under tau_w, else 0. What slides is not sheared: with slip Re is over
+/// the share 1 - u_s/U of the viscosity, so that inertia stays as small beside the pressure drop.
 #pragma once
 
 #include <optional>
@@ -44,6 +47,7 @@ struct SlitFlow {
   double wall_shear_rate = 0;  ///< [1/s]
   double wall_viscosity = 0;   ///< [Pa s]
   double wall_stress = 0;      ///< [Pa]
+  double slip_speed = 0;       ///< u_s [m/s]
 };
 /// Of the medium of `parameters` at the mean speed U [m/s] between plates `width` [m] apart.
 SlitFlow slit_flow(const Parameters& parameters, double mean_speed, double width);

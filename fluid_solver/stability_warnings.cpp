@@ -118,6 +118,16 @@ std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Para
       spacing, p.spacing);
 }
 
+std::optional<std::string> removal_by_grain_length(const Parameters& p) {
+  if (!p.removal || p.wall_slip || p.wall_model.slip != WallSlip::no_slip) return {};
+  return fmt::format(
+      "under no slip nothing slides along the work pieces, and the removed depth is in proportion to "
+      "'grain_length', "
+      "which is {:g} m unless the case says another: state it in [fluid.removal], or give the medium's slip, "
+      "[fluid.wall_slip], by which the sliding speed comes of the flow",
+      p.removal->grain_length);
+}
+
 Blow hardest_blow(const Scene& scene, const Parameters& p) {
   Blow hardest;
   const double response = 2 * p.h() / p.sound_speed;  // in which sound crosses the kernel

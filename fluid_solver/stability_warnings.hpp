@@ -37,6 +37,10 @@ std::optional<std::string> beyond_thinnest_jet(const Particles& fluid, const std
 /// a medium that finds gaps in the surface sticks to it, and what friction and removal give is far too small.
 std::optional<std::string> beyond_coarsest_work_piece(double spacing, const Parameters& parameters);
 
+/// A sentence if the medium sticks to work pieces from which it removes: it is the grain's length then that
+/// says how fast their surface is rubbed.
+std::optional<std::string> removal_by_grain_length(const Parameters& parameters);
+
 /// Speed over c_0 that a wall takes up or loses at once above which pressures are 15 % off rho c_0 v, by
 /// cases/retreating_piston/start_map.toml.
 inline constexpr double start_edge = 0.075;

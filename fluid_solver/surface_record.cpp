@@ -1,6 +1,7 @@
 #include "fluid_solver/surface_record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -148,7 +149,8 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
     first_[b].push_back(size());
     ++work_piece;
   }
-  for (auto* sum : {&state_.pressure, &state_.speed, &state_.friction_work, &state_.sliding_pressure})
+  for (auto* sum : {&state_.pressure, &state_.speed, &state_.shear, &state_.friction_work,
+                    &state_.sliding_pressure, &state_.shear_work})
     sum->assign(size(), 0.0);
   state_.traction.assign(dim * size(), 0.0);
   state_.wetted.assign(size(), 0);
@@ -176,15 +178,26 @@ void SurfaceRecord::add_point(std::size_t s, const Boundary& body, std::size_t k
   const Contact contact =
       contact_of(body, k, alone_[s] ? Vec(Vec::Zero()) : Vec(n_s), fluid, p_offset, kernel);
   if (contact.there) state_.wetted[s] = 1;
-  const double sliding =
-      sticks_ ? removal_.grain_length * shear_rate_at(body, k, {at(body.x, k), at(body.v, k), n_s, *sticks_},
-                                                      fluid, neighbours, kernel)
-              : (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
+  double sliding = 0, shear = 0;
+  if (body.is_slippery()) {
+    if (contact.there) sliding = at(body.slip_velocity, k).norm(), shear = body.shear_stress[k];
+  } else if (sticks_) {
+    const double gdot = shear_rate_at(body, k, {at(body.x, k), at(body.v, k), n_s, sticks_->spacing}, fluid,
+                                      neighbours, kernel);
+    sliding = removal_.grain_length * gdot;
+    shear = sticks_->viscosity(gdot) * gdot;
+  } else {
+    sliding = (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
+  }
+  const bool rubbed = !body.friction_force[0].empty();
+  const Vec tau = rubbed ? Vec(at(body.friction_force, k) / area) : Vec(Vec::Zero());
+  shear += tau.norm();
   state_.pressure[s] += contact.pressure * dt;
   state_.speed[s] += sliding * dt;
+  state_.shear[s] += shear * dt;
   state_.sliding_pressure[s] += contact.pressure * sliding * dt;
-  if (body.friction_force[0].empty()) return;
-  const Vec tau = at(body.friction_force, k) / area;
+  state_.shear_work[s] += shear * sliding * dt;
+  if (!rubbed) return;
   Eigen::Map<Vec>(&state_.traction[dim * s]) += tau * dt;
   state_.friction_work[s] += tau.dot(contact.velocity) * dt;
 }
@@ -200,11 +213,11 @@ void SurfaceRecord::open(const std::filesystem::path& out) {
   file_->series("time", "s", {});
   file_->series("contact_pressure", "Pa", {count});
   file_->series("sliding_speed", "m/s", {count});
+  file_->series("shear_stress", "Pa", {count});
   file_->series("friction_traction", "Pa", {count, dim});
   file_->series("friction_work", "J/m2", {count});
   file_->series("sliding_pressure", "Pa.m", {count});
-  if (removal_.preston_coefficient > 0) file_->series("preston_depth", "m", {count});
-  if (removal_.archard) file_->series("archard_depth", "m", {count});
+  for (const DepthLaw& law : laws_) file_->series(law.column, "m", {count});
 }
 
 void SurfaceRecord::write(double time) {
@@ -214,37 +227,49 @@ void SurfaceRecord::write(double time) {
   };
   const double share = state_.since_row > 0 ? 1 / state_.since_row : 0.0;
   const auto p = scaled(state_.pressure, share), v = scaled(state_.speed, share),
-             tau = scaled(state_.traction, share);
-  const auto preston = scaled(state_.sliding_pressure, removal_.preston_coefficient);
-  const auto archard = scaled(state_.sliding_pressure, archard_rate());
-  // the last two, as many of them as there are laws
-  const double* first_law = removal_.preston_coefficient > 0 ? preston.data() : archard.data();
-  file_->append({&time, p.data(), v.data(), tau.data(), state_.friction_work.data(),
-                 state_.sliding_pressure.data(), first_law, archard.data()});
-  for (auto* sum : {&state_.pressure, &state_.speed, &state_.traction})
+             tau = scaled(state_.shear, share), traction = scaled(state_.traction, share);
+  std::array<std::vector<double>, 3> depths;
+  for (std::size_t k = 0; k < laws_.size(); ++k) depths[k] = scaled(integral_of(laws_[k]), laws_[k].rate);
+  // the last three, as many of them as there are laws
+  file_->append({&time, p.data(), v.data(), tau.data(), traction.data(), state_.friction_work.data(),
+                 state_.sliding_pressure.data(), depths[0].data(), depths[1].data(), depths[2].data()});
+  for (auto* sum : {&state_.pressure, &state_.speed, &state_.shear, &state_.traction})
     std::fill(sum->begin(), sum->end(), 0.0);
   state_.since_row = 0;
 }
 
 std::vector<Observation> SurfaceRecord::observe() const {
-  double wetted = 0, integral = 0, largest = 0, rough = 0;
+  double wetted = 0, rough = 0;
   const auto& ra = removal_.roughness;
   for (std::size_t k = 0; k < size(); ++k) {
     if (!state_.wetted[k]) continue;
     wetted += area_[k];
-    integral += area_[k] * state_.sliding_pressure[k];
-    largest = std::max(largest, state_.sliding_pressure[k]);
     if (ra)
       rough += area_[k] * (ra->final + (ra->initial - ra->final) * std::exp(-depth(k) / ra->decay_depth));
   }
-  const double mean = wetted > 0 ? integral / wetted : 0.0;
-  std::vector<Observation> row{{"removed_depth_mean", "m", wear_rate() * mean},
-                               {"removed_depth_largest", "m", wear_rate() * largest},
-                               {"removed_area", "m2", wear_rate() * integral},
+  const auto sums_of = [&](const DepthLaw& law) {
+    struct {
+      double integral = 0, largest = 0;
+    } sums;
+    const auto& values = integral_of(law);
+    for (std::size_t k = 0; k < size(); ++k)
+      if (state_.wetted[k]) {
+        sums.integral += area_[k] * values[k];
+        sums.largest = std::max(sums.largest, values[k]);
+      }
+    return sums;
+  };
+  const auto mean = [&](double integral) { return wetted > 0 ? integral / wetted : 0.0; };
+  const DepthLaw& counts = laws_.front();
+  const auto removed = sums_of(counts);
+  std::vector<Observation> row{{"removed_depth_mean", "m", counts.rate * mean(removed.integral)},
+                               {"removed_depth_largest", "m", counts.rate * removed.largest},
+                               {"removed_area", "m2", counts.rate * removed.integral},
                                {"wetted_length", "m", wetted}};
-  if (has_both_laws()) {
-    row.push_back({"archard_depth_mean", "m", archard_rate() * mean});
-    row.push_back({"archard_depth_largest", "m", archard_rate() * largest});
+  for (const DepthLaw& law : std::span(laws_).subspan(1)) {
+    const auto sums = sums_of(law);
+    row.push_back({law.column + std::string("_mean"), "m", law.rate * mean(sums.integral)});
+    row.push_back({law.column + std::string("_largest"), "m", law.rate * sums.largest});
   }
   if (ra) row.push_back({"roughness_mean", "m", wetted > 0 ? rough / wetted : ra->initial});
   return row;

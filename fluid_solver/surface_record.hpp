@@ -6,20 +6,26 @@
 ///
 ///     p_s = sum_f V_f max(p_f, 0) W_sf / sum_f V_f W_sf                         contact pressure
 ///     v_s = |mean of v_f - v_s, less its part along n_s|                        sliding speed, free slip
+///     v_s = |u_s|                                          sliding speed, by the law of terms/wall_slip.hpp
 ///     v_s = gdot_s l                                                            sliding speed, no slip
-///     tau_s = F_s/A_s, F_s the friction force (33); dw/dt = tau_s . (mean of v_f - v_s)      friction work
-///     dh/dt = k p_s v_s (Preston 1927), (K/H) p_s v_s (Archard 1953)            removed depth
+///     F_s/A_s, F_s the friction force (33); dw/dt = F_s/A_s . (mean of v_f - v_s)   friction's traction,
+///     work tau_s = tau_w of the slip law, or eta(gdot_s) gdot_s under no slip; + |F_s|/A_s            shear
+///     stress dh/dt = k p_s v_s (Preston 1927), (K/H) p_s v_s (Archard 1953), k tau_s v_s (Fouvry et al.
+///     2003, wear
+///             by the work of friction)                                          removed depth
 ///
 /// Under no slip the medium sticks, and at the wall's rate of shear gdot_s a grain that stands off by the
-/// length l rubs the surface so fast.
+/// length l rubs the surface so fast: depths are in proportion to that length.
 ///
 /// Where the kernel sum of the fluid is below 1e-3 (about 0.25 at a plane interface) there is no contact: all
 /// are 0. The surface stays where it is: depths are far below a particle's spacing.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "common/output/hdf5_series.hpp"
 #include "common/run/solver.hpp"
@@ -28,11 +34,17 @@
 
 namespace toryu::fluid {
 
+/// A fluid that sticks to walls.
+struct Sticking {
+  double spacing;                           ///< [m]
+  std::function<double(double)> viscosity;  ///< [Pa s], of a shear rate [1/s]
+};
+
 class SurfaceRecord {
  public:
-  /// `sticks`: the spacing of the fluid [m], if walls have no slip.
-  explicit SurfaceRecord(const Removal& removal, std::optional<double> sticks = {})
-      : removal_(removal), sticks_(sticks) {}
+  /// `sticks`: of a fluid whose walls have no slip.
+  explicit SurfaceRecord(const Removal& removal, std::optional<Sticking> sticks = {})
+      : removal_(removal), laws_(depth_laws(removal)), sticks_(std::move(sticks)) {}
 
   /// Takes the points (surface_points) of the work pieces among `boundaries`, as they stand.
   void attach(const std::vector<Boundary>& boundaries);
@@ -49,8 +61,7 @@ class SurfaceRecord {
 
   std::size_t size() const { return area_.size(); }
   /// Removed depth (mean over what has been wetted, largest) [m], area [m2 per metre depth], the length that
-  /// was wetted [m], roughness [m]; by Preston's law, and where Archard's is given too the depths by that as
-  /// well.
+  /// was wetted [m], roughness [m]; by the law that counts, and the depths by the others.
   std::vector<Observation> observe() const;
 
  private:
@@ -58,18 +69,14 @@ class SurfaceRecord {
   void add_point(std::size_t s, const Boundary& body, std::size_t k, double area, const Particles& fluid,
                  double p_offset, const ClusterList& neighbours, const Kernel& kernel, double dt);
   /// Depth removed so far from surface particle k, by the law that counts [m].
-  double depth(std::size_t k) const { return wear_rate() * state_.sliding_pressure[k]; }
-  /// Depth [m] per integral of p v dt [Pa m].
-  double wear_rate() const {
-    return removal_.preston_coefficient > 0 ? removal_.preston_coefficient : archard_rate();
-  }
-  bool has_both_laws() const { return removal_.preston_coefficient > 0 && removal_.archard; }
-  double archard_rate() const {
-    return removal_.archard ? removal_.archard->wear_coefficient / removal_.archard->hardness : 0.0;
+  double depth(std::size_t k) const { return laws_.front().rate * integral_of(laws_.front())[k]; }
+  const std::vector<double>& integral_of(const DepthLaw& law) const {
+    return law.of_shear ? state_.shear_work : state_.sliding_pressure;
   }
 
   Removal removal_;
-  std::optional<double> sticks_;
+  std::vector<DepthLaw> laws_;
+  std::optional<Sticking> sticks_;
   std::string names_;  ///< of the work pieces, joined by ";"
   std::vector<std::uint32_t> work_piece_;
   /// By boundary: where the points of a particle begin here, by id, and where those of the last end; empty if
@@ -79,16 +86,18 @@ class SurfaceRecord {
   std::vector<double> position_, normal_, area_;
   /// Integrals over time: since the last row, and since the start.
   struct State {
-    std::vector<double> pressure, speed, traction;        ///< [Pa s], [m], [Pa s]
-    std::vector<double> friction_work, sliding_pressure;  ///< [J/m2], [Pa m]
-    std::vector<std::uint8_t> wetted;                     ///< 1 where the fluid has been in contact
-    double since_row = 0;                                 ///< [s]
+    std::vector<double> pressure, speed, shear, traction;             ///< [Pa s], [m], [Pa s], [Pa s]
+    std::vector<double> friction_work, sliding_pressure, shear_work;  ///< [J/m2], [Pa m], [J/m2]
+    std::vector<std::uint8_t> wetted;  ///< 1 where the fluid has been in contact
+    double since_row = 0;              ///< [s]
   };
   template <class Archive>
   friend void serialize(Archive& archive, SurfaceRecord& record) {
-    auto& [pressure, speed, traction, friction_work, sliding_pressure, wetted, since_row] = record.state_;
+    auto& [pressure, speed, shear, traction, friction_work, sliding_pressure, shear_work, wetted, since_row] =
+        record.state_;
     HdfSeriesFile::State file = record.file_ ? record.file_->state() : HdfSeriesFile::State{};
-    archive(pressure, speed, traction, friction_work, sliding_pressure, wetted, since_row, file);
+    archive(pressure, speed, shear, traction, friction_work, sliding_pressure, shear_work, wetted, since_row,
+            file);
     if constexpr (Archive::is_loading::value)
       if (record.file_) record.file_->resume(file);
   }

@@ -20,6 +20,7 @@
 #include "fluid_solver/terms/surface_tension.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
 #include "fluid_solver/terms/wall_repulsion.hpp"
+#include "fluid_solver/terms/wall_slip.hpp"
 
 namespace toryu::fluid {
 
@@ -36,6 +37,7 @@ struct OptionalTerms {
   std::optional<LaminarViscosity> laminar_viscosity;
   std::optional<PowerLaw> power_law;
   std::optional<Carreau> carreau;
+  std::optional<SlipLaw> wall_slip;
   std::optional<Friction> friction;
   std::optional<WallRepulsion> wall_repulsion;
   std::optional<SurfaceTension> surface_tension;
@@ -67,11 +69,11 @@ void for_each_term(Terms& terms, Visit&& visit) {
   using Base = std::conditional_t<std::is_const_v<Terms>, const OptionalTerms, OptionalTerms>;
   auto& [central_force, background_pressure, enclosed_medium, density_diffusion, particle_shifting,
          tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity, power_law, carreau,
-         friction, wall_repulsion, surface_tension, removal] = static_cast<Base&>(terms);
+         wall_slip, friction, wall_repulsion, surface_tension, removal] = static_cast<Base&>(terms);
   const auto visit_each = [&](auto&... term) { (visit(term), ...); };
   visit_each(central_force, background_pressure, enclosed_medium, density_diffusion, particle_shifting,
              tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity, power_law,
-             carreau, friction, wall_repulsion, surface_tension, removal);
+             carreau, wall_slip, friction, wall_repulsion, surface_tension, removal);
 }
 
 }  // namespace toryu::fluid

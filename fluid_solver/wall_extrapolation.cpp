@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "common/scene/occupancy_index.hpp"
 #include "common/sph/neighbour_loop.hpp"
@@ -70,13 +71,16 @@ class ParabolaFit {
   }
   /// At the depth `d` behind the face, of component a. A single row has no bend.
   TORYU_INLINE Lanes behind(const Lanes& d, int a) const {
-    const Lanes stiff = (1 + least_bend) * d4_;
-    const Lanes share = inverse(max(d2_ * stiff - d3_ * d3_, 1e-300));
-    const Lanes g = share * (stiff * dv_[a] - d3_ * d2v_[a]), c = share * (d2_ * d2v_[a] - d3_ * dv_[a]);
-    return (c * d - g) * d;
+    const Lanes c = share() * (d2_ * d2v_[a] - d3_ * dv_[a]);
+    return (c * d - rate(a)) * d;
   }
+  /// g, of component a.
+  TORYU_INLINE Lanes rate(int a) const { return share() * (stiff() * dv_[a] - d3_ * d2v_[a]); }
 
  private:
+  TORYU_INLINE Lanes stiff() const { return (1 + least_bend) * d4_; }
+  TORYU_INLINE Lanes share() const { return inverse(max(d2_ * stiff() - d3_ * d3_, 1e-300)); }
+
   Lanes d2_ = 0.0, d3_ = 0.0, d4_ = 0.0;
   VecLanes dv_ = zero_vector(), d2v_ = zero_vector();
 };
@@ -166,6 +170,70 @@ void fit_velocity_to_cluster(Boundary& boundary, const Particles& fluid, const W
           boundary.v_viscous[a], first);
 }
 
+/// How the velocity beside a wall answers its slip u_s: the rate of shear at the wall is rate - resistance
+/// u_s, and v_w-f is that of a medium that sticks and response u_s more.
+struct AnswerToSlip {
+  Face face;
+  VecLanes rate;               ///< [1/s]
+  Lanes resistance, response;  ///< [1/m], [1]
+};
+
+/// Of the parabola: a velocity u_s at the face is one less of all particles in the fit.
+template <class W>
+AnswerToSlip answer_of_fit(const Boundary& boundary, const Particles& fluid, const W& kernel,
+                           std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  const Face face = face_towards(boundary, fluid, kernel, cluster);
+  const Lanes least = least_distance * square_root(load(boundary.V, first));
+  const VecLanes v_w = load(boundary.v, first);
+  ParabolaFit velocity, one;
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes d = face.distance(n.x_ij);
+                    const Lanes W_wi = select(d > 0.0, kernel.value(n.r), 0.0);
+                    velocity.add(W_wi, max(d, least), product(-1.0, difference(v_w, pointers(fluid.v), i)));
+                    one.add(W_wi, max(d, least), {1.0, 0.0});
+                  });
+  return {face, {velocity.rate(0), velocity.rate(1)}, one.rate(0), 1.0 - one.behind(face.depth, 0)};
+}
+
+/// Of the mean, which stands for a velocity at the mean distance of the fluid from the face.
+template <class W>
+AnswerToSlip answer_of_mean(const Boundary& boundary, const Particles& fluid, const W& kernel,
+                            std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  const Face face = face_towards(boundary, fluid, kernel, cluster);
+  const Lanes resistance =
+      inverse(max(face.separation, least_distance * square_root(load(boundary.V, first))));
+  VecLanes rate;
+  for (int a = 0; a < dim; ++a)
+    rate[a] = (load(boundary.v[a], first) - load(boundary.v_viscous[a], first)) * resistance;
+  return {face, rate, resistance, 2.0};
+}
+
+/// Lets the medium slide along the wall particles of a cluster; `most(w)` [Pa] is the largest traction on w.
+template <class W, class Most>
+void slide_along_cluster(Boundary& boundary, const Particles& fluid, const W& kernel,
+                         const OptionalTerms& terms, Most&& most, std::size_t cluster) {
+  const AnswerToSlip answer = boundary.fitted ? answer_of_fit(boundary, fluid, kernel, cluster)
+                                              : answer_of_mean(boundary, fluid, kernel, cluster);
+  const auto tau = [&](double gdot) { return viscosity_of(terms, gdot) * gdot; };
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const std::size_t w = cluster * lane_count + lane;
+    Vec normal, rate;
+    for (int a = 0; a < dim; ++a) normal[a] = answer.face.normal[a][lane], rate[a] = answer.rate[a][lane];
+    rate -= normal.dot(rate) * normal;
+    const double gdot_0 = rate.norm();
+    Slide found;
+    if (answer.face.separation[lane] > 0)
+      found = slide(*terms.wall_slip, tau, gdot_0, answer.resistance[lane], most(w));
+    const Vec u_s = found.speed > 0 ? Vec(found.speed / gdot_0 * rate) : Vec(Vec::Zero());
+    set(boundary.slip_velocity, w, u_s);
+    boundary.shear_stress[w] = found.stress;
+    set(boundary.v_viscous, w, at(boundary.v_viscous, w) + answer.response[lane] * u_s);
+  }
+}
+
 template <class W>
 void extrapolate_viscosity_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel,
                                       std::size_t cluster) {
@@ -240,8 +308,23 @@ void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kerne
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k) {
       extrapolate_to_cluster(boundary, fluid, W, gravity, active[k]);
-      if (boundary.knows_faces()) fit_velocity_to_cluster(boundary, fluid, W, active[k]);
+      if (boundary.fitted) fit_velocity_to_cluster(boundary, fluid, W, active[k]);
     }
+  });
+}
+
+void let_slide(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const OptionalTerms& terms,
+               double p_offset) {
+  const bool rubs = terms.friction && boundary.is_work_piece();
+  const auto most = [&](std::size_t w) {
+    return rubs ? terms.friction->coefficient * std::max(boundary.p[w] + p_offset, 0.0)
+                : std::numeric_limits<double>::infinity();
+  };
+  const auto& active = boundary.list_for_wall.active();
+  kernel.visit([&](const auto& W) {
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < active.size(); ++k)
+      slide_along_cluster(boundary, fluid, W, terms, most, active[k]);
   });
 }
 
@@ -251,7 +334,7 @@ void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Ker
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k) {
       extrapolate_viscosity_to_cluster(boundary, fluid, W, active[k]);
-      if (boundary.knows_faces()) fit_viscosity_to_cluster(boundary, fluid, W, active[k]);
+      if (boundary.fitted) fit_viscosity_to_cluster(boundary, fluid, W, active[k]);
     }
   });
 }

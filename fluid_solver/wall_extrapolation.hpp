@@ -14,9 +14,15 @@
 /// slit of 10 particles its error is that of the mean, the parabola's a fourth). Among the faces of a
 /// particle it is the one that most separates it from the mean place of the fluid; where none does, as behind
 /// an inner corner, the means stand.
+///
+/// Where the medium slides along the wall (terms/wall_slip.hpp), v_w + u_s stands for v_w in either: a fit of
+/// v_i - v_w - u_s, or 2 (v_w + u_s) - v~_w. The rate of shear at the wall, g of the fit or the mean's over
+/// the mean distance of the fluid from the face, is linear in u_s along the face. Where no face is found the
+/// medium sticks.
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/terms.hpp"
 
 namespace toryu::fluid {
 
@@ -25,6 +31,11 @@ FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, d
 
 /// Extrapolates pressure (29) and velocity (27) from the fluid to the particles of `boundary` near it.
 void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity);
+
+/// After `extrapolate`: lets the medium slide along the particles of `boundary`, which knows its faces, by
+/// `terms.wall_slip`; with friction a work piece bears mu_A (p + p_offset [Pa]) at most.
+void let_slide(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const OptionalTerms& terms,
+               double p_offset);
 
 /// Extrapolates viscosity and eta grad v of a medium that is not Newtonian likewise.
 void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel);

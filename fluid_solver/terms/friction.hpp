@@ -16,6 +16,9 @@
 /// below half of the time that it takes, so a small eps makes many steps; a fifth of the sliding speed still
 /// transmits 98 %. v_fs is taken as it is, its part along the normal too.
 ///
+/// Beside [fluid.wall_slip] the walls of work pieces bear it in their own shear stress, the smaller of mu_A p
+/// and the slip law's, without eps (wall_slip.hpp).
+///
 /// mu_A p is what friction can transmit at most. Where the medium's shear stress is less, the row beside the
 /// work piece sticks, as at a no-slip wall: in a throat of 9 mm, with a medium as thin as water (artificial
 /// viscosity alpha = 0.05) under 400 Pa and mu_A = 0.3, the work piece bore 4 Pa of the possible 120; with
@@ -54,7 +57,8 @@ inline void describe(ParameterTable& table, Friction& friction) {
   table.number("regularisation_speed", friction.regularisation_speed,
                {.unit = "m/s",
                 .minimum = 0,
-                .help = "below about this sliding speed friction is a linear drag; 0: c_0/1000"});
+                .help = "below about this sliding speed friction is a linear drag; 0: c_0/1000, with "
+                        "[fluid.similarity] a twentieth of 'mean_speed'; not used beside [fluid.wall_slip]"});
 }
 
 struct FrictionTerm {

@@ -28,10 +28,15 @@ void add_medium(Texts& texts, const Parameters& p, const EquationOfState& state)
 std::vector<ActiveTerm> Dynamics::active_terms() const {
   Texts texts;
   add_medium(texts, parameters_, state_);
-  for_each_term(parameters_, [&](const auto& term) {
+  for_each_term(parameters_, [&]<class Term>(const std::optional<Term>& term) {
     if constexpr (requires { text(*term, medium_); })
-      if (term) texts.push_back(text(*term, medium_));
+      if (term && !(std::is_same_v<Term, Friction> && parameters_.wall_slip))
+        texts.push_back(text(*term, medium_));
   });
+  if (parameters_.friction && parameters_.wall_slip)
+    texts.push_back({"friction", "tau_w <= mu_A p", "Kato's thesis, eq. 33",
+                     fmt::format("mu_A {}, on work pieces the smaller of it and the slip law",
+                                 parameters_.friction->coefficient)});
   texts.push_back(
       {"walls", "pressure and velocity extrapolated from the fluid",
        "Adami, Hu & Adams 2012; thesis eq. 27-29",

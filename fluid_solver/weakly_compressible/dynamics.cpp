@@ -38,7 +38,8 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kerne
   if (parameters.power_law) rheology_ = *parameters.power_law;
   if (parameters.carreau) rheology_ = *parameters.carreau;
   if (viscosity_varies()) terms_.viscous = VariableViscosityTerm{};
-  if (const auto& f = parameters.friction) friction_.emplace(*f, parameters.spacing, c_0, medium_.kernel);
+  if (const auto& f = parameters.friction; f && !parameters.wall_slip)  // else the walls have it
+    friction_.emplace(*f, parameters.spacing, c_0, medium_.kernel);
 }
 
 void Dynamics::allocate(Particles& fluid) const {
@@ -118,14 +119,21 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
       boundary.eta.resize(boundary.V.size());
       resize(boundary.eta_grad_v, boundary.V.size());
     }
+  if (parameters_.wall_slip)
+    for (auto& boundary : boundaries) {
+      resize(boundary.slip_velocity, boundary.V.size());
+      boundary.shear_stress.resize(boundary.V.size());
+    }
   {
     const auto timer = timers.measure("pressure, walls and density gradient");
+    const double p_offset = parameters_.wall_slip ? pressure_offset(fluid) : 0.0;
 #pragma omp parallel
     {
       pressures(fluid);
       if (velocity)
         for (auto& boundary : boundaries) {
           extrapolate(boundary, fluid, medium_.kernel, body_force_.gravity);
+          if (parameters_.wall_slip) let_slide(boundary, fluid, medium_.kernel, parameters_, p_offset);
           if (parameters_.wall_model.density == WallDensity::from_pressure) wall_densities(boundary);
         }
       if (density && renormalised_diffusion()) density_gradients(fluid, neighbours);

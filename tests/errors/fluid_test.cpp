@@ -52,6 +52,52 @@ INSTANTIATE_TEST_SUITE_P(
               "--set fluid.wall_model={slip=\"free_slip\", extrapolation=\"fit\"}: error: a 'fit' is of what "
               "viscous "
               "terms see at walls: it needs slip = \"no_slip\""},
+        Fault{"SlipWithoutViscosity",
+              "fluid.artificial_viscosity=false' --set 'fluid.wall_slip={coefficient=1e-7}",
+              "--set fluid.wall_slip={coefficient=1e-7}: error: [fluid.wall_slip] needs a medium with a "
+              "viscosity, "
+              "of which the walls' shear stress comes: [fluid.laminar_viscosity], [fluid.power_law] or "
+              "[fluid.carreau]"},
+        Fault{
+            "SlipOfFreeSlip",
+            "fluid.artificial_viscosity=false' --set 'fluid.laminar_viscosity.dynamic_viscosity=1' --set "
+            "'fluid.wall_model.slip=\"free_slip\"' --set "
+            "'fluid.wall_slip={coefficient=1e-7}",
+            "--set fluid.wall_slip={coefficient=1e-7}: error: [fluid.wall_slip] acts on the shear stress of "
+            "walls "
+            "that are no-slip otherwise; under slip = \"free_slip\" there is none: leave one of the two out"},
+        Fault{
+            "SlipBesideArtificialViscosity",
+            "fluid.laminar_viscosity.dynamic_viscosity=1' --set 'fluid.artificial_viscosity.alpha=0.1' --set "
+            "'fluid.wall_slip={coefficient=1e-7}",
+            "--set fluid.wall_slip={coefficient=1e-7}: error: artificial viscosity brakes the medium at "
+            "walls "
+            "whatever [fluid.wall_slip] says: leave one of the two out"},
+        Fault{"SlipBesideFrictionAsPrinted",
+              "wall.0.work_piece=true' --set 'fluid.laminar_viscosity.dynamic_viscosity=1' --set "
+              "'fluid.artificial_viscosity=false' --set "
+              "'fluid.friction={coefficient=0.1,form=\"as_printed\"}' --set "
+              "'fluid.wall_slip={coefficient=1e-7}",
+              "--set fluid.wall_slip={coefficient=1e-7}: error: beside [fluid.wall_slip] the friction of a "
+              "work piece "
+              "is mu_A p: [fluid.friction] takes form = \"normalised\""},
+        Fault{"SlipWithoutCoefficient", "fluid.wall_slip={exponent=2}",
+              "--set fluid.wall_slip={exponent=2}: error: missing key 'coefficient' in [fluid.wall_slip]: a "
+              "number "
+              "[m/s/Pa^exponent] of at least 0, b of u_s = b (tau_w - tau_c)^m (Navier 1823); 0: the medium "
+              "sticks"},
+        Fault{"SlipByNoPower", "fluid.wall_slip={coefficient=1,exponent=0}",
+              "--set fluid.wall_slip={coefficient=1,exponent=0}: error: 'exponent' in [fluid.wall_slip] must "
+              "be above "
+              "0 and up to 10, found 0"},
+        Fault{"SlipBelowNothing", "fluid.wall_slip={coefficient=1,threshold=-1}",
+              "--set fluid.wall_slip={coefficient=1,threshold=-1}: error: 'threshold' in [fluid.wall_slip] "
+              "must be at "
+              "least 0 [Pa], found -1"},
+        Fault{"RemovalByNoLaw", "wall.0.work_piece=true' --set 'fluid.removal={shear_coefficient=0}",
+              "--set fluid.removal={shear_coefficient=0}: error: [fluid.removal] needs a "
+              "preston_coefficient, a "
+              "shear_coefficient or [fluid.removal.archard]"},
         Fault{"MeanPressureUnderAFreeSurface", "fluid.enclosed_medium.mean_pressure=1",
               "[fluid.enclosed_medium]: error: the fluid has a free surface at the start, where its pressure "
               "is "

@@ -63,6 +63,18 @@ TEST(Programs, RefuseTwoColumnsOfOneName) {
             "region or a wall needs another name\n");
 }
 
+TEST(Programs, RefuseSlipBesideASolid) {
+  const Ending ending =
+      check(fluid,
+            "--set fluid.artificial_viscosity=false --set "
+            "fluid.laminar_viscosity.dynamic_viscosity=1 --set fluid.wall_model.slip=no_slip "
+            "--set fluid.wall_slip.coefficient=1");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_EQ(ending.error,
+            "--set fluid.wall_slip.coefficient=1: error: the medium slides along rigid walls alone, and an "
+            "elastic solid would be no-slip beside them: leave one of the two out\n");
+}
+
 TEST(Programs, RefuseASpacingThatWouldTakeAllMemory) {
   const Ending of_fluid = check(fluid, "--set fluid.spacing=1e-9");
   EXPECT_EQ(of_fluid.code, 2);

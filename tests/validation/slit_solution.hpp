@@ -1,6 +1,7 @@
 /// Developed flow of a generalised Newtonian medium between two plates at rest, by numerical integration: the
 /// shear stress tau(y) = -dp/dx |y - w/2| is a straight line whatever the rheology, eta(gdot) gdot = tau
-/// gives the shear rate, and its integral the velocity (Bird, Armstrong & Hassager 1987, section 4.2).
+/// gives the shear rate, and its integral, from the slip at the wall on, the velocity (Bird, Armstrong &
+/// Hassager 1987, section 4.2).
 #pragma once
 
 #include <cmath>
@@ -11,9 +12,12 @@ namespace toryu::fluid {
 
 class SlitSolution {
  public:
-  /// `eta` [Pa s] of the shear rate [1/s]; plates at y = 0 and `width` [m]; `mean` velocity [m/s].
-  SlitSolution(std::function<double(double)> eta, double width, double mean)
-      : eta_(std::move(eta)), half_(0.5 * width) {
+  /// `eta` [Pa s] of the shear rate [1/s]; plates at y = 0 and `width` [m]; `mean` velocity [m/s]; `slip`
+  /// [m/s] at a wall of the shear stress [Pa].
+  SlitSolution(
+      std::function<double(double)> eta, double width, double mean,
+      std::function<double(double)> slip = [](double) { return 0.0; })
+      : eta_(std::move(eta)), slip_(std::move(slip)), half_(0.5 * width) {
     double low = 1e-9, high = 1e9;  // of the stress at the wall [Pa]
     while (high / low > 1 + 1e-12) {
       tau_w_ = std::sqrt(low * high);
@@ -23,6 +27,7 @@ class SlitSolution {
   }
 
   double wall_stress() const { return tau_w_; }                  ///< [Pa]
+  double slip_speed() const { return velocity_.back(); }         ///< [m/s]
   double pressure_gradient() const { return -tau_w_ / half_; }   ///< dp/dx [Pa/m]
   double largest_velocity() const { return velocity_.front(); }  ///< in the middle [m/s]
   double velocity(double y) const {
@@ -45,7 +50,7 @@ class SlitSolution {
   /// From the wall to the middle, by the midpoint rule.
   void integrate() {
     const double step = half_ / intervals;
-    velocity_.assign(intervals + 1, 0.0);
+    velocity_.assign(intervals + 1, slip_(tau_w_));
     mean_ = 0;
     for (int k = intervals; k-- > 0;) {
       const auto inner = static_cast<std::size_t>(k);
@@ -54,7 +59,7 @@ class SlitSolution {
     }
   }
 
-  std::function<double(double)> eta_;
+  std::function<double(double)> eta_, slip_;
   double half_, tau_w_ = 0, mean_ = 0;
   std::vector<double> velocity_;  ///< from the middle to the wall
 };

@@ -41,24 +41,40 @@ std::pair<Particles, StripOrder> in_order(const Fluid& fluid) {
 /// Wall particles at `places` with what they take from `fluid`; particle k of the result is places[k].
 struct Taken {
   std::vector<double> p;
-  std::vector<Vec> v_viscous;
+  std::vector<Vec> v_viscous, slip = {};
+  std::vector<double> stress = {};
 };
+/// With slip where there are `sliding` terms; a work piece then.
 Taken extrapolated(const std::vector<Vec>& places, const Fluid& fluid, const Vec& g, const Vec& v_w = {0, 0},
-                   const Vec& a_w = {0, 0}, bool fitted = false) {
+                   const Vec& a_w = {0, 0}, bool fitted = false, const OptionalTerms* sliding = nullptr,
+                   double p_offset = 0) {
   Boundary boundary;
   boundary.place(places, std::vector<double>(places.size(), d_0 * d_0), 1000, 0.3);
-  if (fitted) boundary.know_faces(lattice_face_depths(places, d_0, 4 * kernel.support()));
+  if (fitted || sliding) boundary.know_faces(lattice_face_depths(places, d_0, 4 * kernel.support()), fitted);
+  if (sliding) {
+    boundary.make_work_piece(std::vector<Faces>(places.size(), faces_of(Vec(0, d_0))));
+    resize(boundary.slip_velocity, padded(places.size()));
+    boundary.shear_stress.resize(padded(places.size()));
+  }
   boundary.move_to([&](std::uint32_t k) { return Kinematics{places[k], v_w, a_w}; });
   const auto ordered = in_order(fluid);
   const Particles& particles = ordered.first;
   const StripOrder& strips = ordered.second;
   boundary.list_for_wall.build(boundary.x, boundary.count, particles.x, strips, 1.1 * kernel.support());
 #pragma omp parallel
-  extrapolate(boundary, particles, kernel, g);
+  {
+    extrapolate(boundary, particles, kernel, g);
+    if (sliding) let_slide(boundary, particles, kernel, *sliding, p_offset);
+  }
   Taken taken{std::vector<double>(places.size()), std::vector<Vec>(places.size())};
+  taken.slip.resize(places.size());
+  taken.stress.resize(places.size());
   for (std::size_t k = 0; k < boundary.count; ++k) {
     taken.p[boundary.id[k]] = boundary.p[k];
     taken.v_viscous[boundary.id[k]] = at(boundary.v_viscous, k);
+    if (!sliding) continue;
+    taken.slip[boundary.id[k]] = at(boundary.slip_velocity, k);
+    taken.stress[boundary.id[k]] = boundary.shear_stress[k];
   }
   return taken;
 }
@@ -200,6 +216,86 @@ TEST(WallFit, LeavesTheMeanBehindAnInnerCorner) {
       EXPECT_NE(fit.v_viscous[k], mean.v_viscous[k]);
     }
   }
+}
+
+OptionalTerms sliding(double eta, const SlipLaw& law) {
+  OptionalTerms terms;
+  terms.laminar_viscosity = LaminarViscosity{eta};
+  terms.wall_slip = law;
+  return terms;
+}
+
+/// A particle of the fluid 0.08 m before the face, a wall particle 0.05 m behind it.
+const Fluid above{{{0.02, 0.05}}, {{0.3, -0.7}}, {500}, {1003}};
+const Vec below(0, -0.08);
+
+TEST(WallSlip, OfOnePairIsThatOfTheSlipLength) {
+  const OptionalTerms terms = sliding(20, {.coefficient = 0.006});  // b eta = 0.12 m
+  for (const bool fitted : {true, false}) {
+    const Taken taken = extrapolated({below}, above, g, {0.1, 0}, {0, 0}, fitted, &terms);
+    const double gdot = 0.2 / (0.08 + 0.12), u_s = 0.12 * gdot;  // of 0.3 - 0.1 m/s
+    EXPECT_NEAR(taken.slip[0][0], u_s, 1e-9);
+    EXPECT_EQ(taken.slip[0][1], 0) << "none through the wall";
+    EXPECT_NEAR(taken.stress[0], 20 * gdot, 1e-7);
+    const double v_f = fitted ? 0.1 + u_s - 0.05 * gdot : 2 * (0.1 + u_s) - 0.3;
+    EXPECT_NEAR(taken.v_viscous[0][0], v_f, 1e-9);
+    EXPECT_NEAR(taken.v_viscous[0][1], fitted ? 0.7 * 0.05 / 0.08 : 0.7, 1e-12);
+  }
+}
+
+TEST(WallSlip, OfOnePairByAPowerAboveAThreshold) {
+  // gdot_0 = 0.3/0.08 = 3.75 1/s, tau = 20 gdot, u_s = b (tau - 10)^2: gdot = 2.5 where b = 0.1/40^2
+  const OptionalTerms terms = sliding(20, {.coefficient = 0.1 / 1600, .exponent = 2, .threshold = 10});
+  const Taken taken = extrapolated({below}, above, g, {0, 0}, {0, 0}, true, &terms);
+  EXPECT_NEAR(taken.slip[0][0], 0.1, 1e-8);
+  EXPECT_NEAR(taken.stress[0], 50, 1e-6);
+  const OptionalTerms sticks = sliding(20, {.coefficient = 1, .exponent = 2, .threshold = 76});
+  EXPECT_EQ(extrapolated({below}, above, g, {0, 0}, {0, 0}, true, &sticks).slip[0], Vec(0, 0));
+}
+
+TEST(WallSlip, WithoutACoefficientIsNoSlipToTheBit) {
+  const OptionalTerms none = sliding(20, {.coefficient = 0});
+  for (const bool fitted : {true, false}) {
+    const auto [fluid, wall] = shear_over_wall(0.2, [](double y) { return 0.7 + 3 * y - 2 * y * y; });
+    const Taken slips = extrapolated(wall, fluid, g, {0.1, 0}, {0, 0}, fitted, &none);
+    const Taken sticks = extrapolated(wall, fluid, g, {0.1, 0}, {0, 0}, fitted);
+    EXPECT_EQ(slips.v_viscous, sticks.v_viscous);
+    EXPECT_GT(slips.stress[3 * 5], 0);
+  }
+}
+
+TEST(WallSlip, WithoutBoundLeavesNoShear) {
+  const OptionalTerms free = sliding(20, {.coefficient = 1e9});
+  for (const bool fitted : {true, false}) {
+    const Taken taken = extrapolated({below}, above, g, {0, 0}, {0, 0}, fitted, &free);
+    EXPECT_NEAR(taken.v_viscous[0][0], 0.3, 1e-7);
+    EXPECT_NEAR(taken.stress[0], 0, 1e-7);
+  }
+}
+
+TEST(WallSlip, ContinuesAShearThatSlidesExactlyHoweverTheFluidLies) {
+  const OptionalTerms terms = sliding(20, {.coefficient = 0.006});
+  const auto [fluid, wall] = shear_over_wall(0.2, [](double y) { return 0.7 + 3 * (y + 0.12); });
+  const Taken taken = extrapolated(wall, fluid, g, {0.7, 0}, {0, 0}, true, &terms);
+  for (std::size_t k = 3 * 4; k < 3 * 8 + 2; ++k)
+    if (k % 3 < 2) {
+      EXPECT_NEAR(taken.slip[k][0], 0.36, 1e-9);
+      EXPECT_NEAR(taken.stress[k], 60, 1e-6);
+      EXPECT_NEAR(taken.v_viscous[k][0], 0.7 + 3 * (wall[k][1] + 0.12), 1e-9);
+    }
+}
+
+TEST(WallSlip, BearsNoMoreThanTheFrictionOfAWorkPiece) {
+  OptionalTerms terms = sliding(20, {.coefficient = 0.006});  // 30 Pa by the slip alone
+  terms.friction = Friction{.coefficient = 0.01};
+  const auto at_offset = [&](double offset) {
+    return extrapolated({below}, above, Vec(0, 0), {0, 0}, {0, 0}, true, &terms, offset);
+  };
+  EXPECT_NEAR(at_offset(0).stress[0], 5, 1e-6) << "mu_A p of 500 Pa";
+  EXPECT_NEAR(at_offset(0).slip[0][0], 0.3 - 0.08 * 5 / 20, 1e-9);
+  EXPECT_NEAR(at_offset(1000).stress[0], 15, 1e-6);
+  EXPECT_NEAR(at_offset(1e5).stress[0], 30, 1e-6) << "the law's own";
+  EXPECT_EQ(at_offset(-600).stress[0], 0) << "under suction";
 }
 
 TEST(FaceDepths, AreHowFarTheBodyGoesOn) {

@@ -50,6 +50,16 @@ TEST(SlitFlow, IsThatOfTheExactSolutions) {
   EXPECT_NEAR(slit_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-4);
 }
 
+TEST(SlitFlow, SlidesByTheLaw) {
+  Parameters p = putty();
+  p.wall_slip = SlipLaw{3e-7};  // 0.05 = G (b w/2 + w^2/(12 mu)), tau_w = G w/2
+  const SlitFlow flow = slit_flow(p, U, w);
+  const double tau_w = 0.05 / (3e-10 + 4e-6 / 12e3) * 1e-3;
+  EXPECT_NEAR(flow.wall_stress / tau_w, 1, 1e-6);
+  EXPECT_NEAR(flow.slip_speed / (3e-7 * tau_w), 1, 1e-6);
+  EXPECT_NEAR(similar_medium(p).density / (0.5 * 1000 / (U * w) * (1 - 3e-7 * tau_w / U)), 1, 1e-6);
+}
+
 TEST(Similarity, ChoosesDensityAndSoundSpeedByHand) {
   const SimilarMedium similar = similar_medium(putty());
   EXPECT_NEAR(similar.passage.wall_stress, 150e3, 1);                     // 6 eta U/w
@@ -203,6 +213,18 @@ TEST(ViscousSteps, AreStableWhateverTheShare) {
         EXPECT_LT(solver.kinetic_energy(), before);
         solver.check(solver.time());
       }
+}
+
+// (omega dt)^2/4 + lambda dt/2 = 0.9 where the limits are 6.7 and 2.4 times below the edges of either alone.
+TEST(DampedSound, LimitsStepsNearBothEdges) {
+  Setting s = sheared(Integrator::symplectic);
+  s.parameters.time_step_share = 5;
+  const double h = s.parameters.h(), acoustic = 0.25 * h / (s.parameters.sound_speed + 0.01);
+  s.parameters.laminar_viscosity = LaminarViscosity{s.parameters.density * 0.125 * h * h / (3 * acoustic)};
+  auto solver = s.solver();
+  EXPECT_EQ(solver.time_step_rule(), "acoustic and viscous");
+  const double dt = solver.time_step_limit(), sound = dt / (6.7 * acoustic);
+  EXPECT_NEAR(sound * sound + dt / (2.4 * 3 * acoustic), 0.9, 2e-3);
 }
 
 TEST(EnclosedMedium, StandsAtTheMeanPressureThatIsAsked) {

@@ -58,6 +58,19 @@ TEST(FluidGuards, WantWorkPiecesAsFineAsTheFluid) {
   EXPECT_THAT(beyond_coarsest_work_piece(1e-3, p), testing::Optional(HasSubstr("stand 0.001 m apart")));
 }
 
+TEST(FluidGuards, WantSlipOrAGrainLengthOfWhatComesOff) {
+  Parameters p;
+  EXPECT_FALSE(removal_by_grain_length(p));
+  p.removal = Removal{.preston_coefficient = 1e-9, .archard = {}, .roughness = {}};
+  EXPECT_THAT(removal_by_grain_length(p).value_or(""),
+              testing::HasSubstr("in proportion to 'grain_length', which is 0.0001 m"));
+  p.wall_slip = SlipLaw{1e-7};
+  EXPECT_FALSE(removal_by_grain_length(p));
+  p.wall_slip.reset();
+  p.wall_model.slip = WallSlip::free_slip;
+  EXPECT_FALSE(removal_by_grain_length(p));
+}
+
 TEST(FluidGuards, WantTenTimesTheSpeed) {
   EXPECT_THAT(stability_warnings(water(1, Integrator::midpoint), {2.1}),
               ElementsAre(HasSubstr("sound_speed 20 m/s is below")));

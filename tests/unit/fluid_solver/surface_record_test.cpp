@@ -50,7 +50,7 @@ struct Contacting {
     neighbours.build(fluid.x, fluid.count, fluid.x, strips, 2 * h);
   }
   std::map<std::string, double> after(const Removal& removal, int steps = 1,
-                                      std::optional<double> sticks = {}, double p_offset = 0) {
+                                      std::optional<Sticking> sticks = {}, double p_offset = 0) {
     SurfaceRecord record(removal, sticks);
     record.attach(boundaries);
     EXPECT_EQ(record.size(), 1u);  // the particle inside has no face
@@ -80,19 +80,53 @@ TEST(SurfaceRecord, WhereTheMediumSticksTheShearAtTheWallCountsWhateverTheRows) 
   const auto flow = [](double y) { return Vec(40 * y - 60 * y * y, 0.3 * y); };  // bent, and along the normal
   const auto medium_at = [&](double y) { return Medium{Vec(0, y + 0.5 * d_0), flow(y), 50, 0.01}; };
   const double expected = 1e-6 * 50 * 40 * 0.02 * dt;
+  const Sticking sticks{d_0, [](double) { return 3.0; }};
   for (const double row : {0.12, 0.15}) {  // the first row is what it may
     const Medium first{Vec(0, 0.1), Vec(7, 7), 50, 0.01};
     EXPECT_NEAR(Contacting({first, medium_at(row), medium_at(row + 0.08)})
-                    .after(grains, 1, d_0)["removed_depth_mean"],
+                    .after(grains, 1, sticks)["removed_depth_mean"],
                 expected, 1e-12 * expected)
         << row;
   }
-  EXPECT_NEAR(Contacting({medium_at(0.05), medium_at(0.07)}).after(grains, 1, d_0)["removed_depth_mean"],
+  EXPECT_NEAR(Contacting({medium_at(0.05), medium_at(0.07)}).after(grains, 1, sticks)["removed_depth_mean"],
               expected, 1e-12 * expected)
       << "a film of one row";
-  EXPECT_NEAR(Contacting({medium_at(0.05)}).after(grains, 1, d_0)["removed_depth_mean"],
+  EXPECT_NEAR(Contacting({medium_at(0.05)}).after(grains, 1, sticks)["removed_depth_mean"],
               expected * (40 - 60 * 0.05) / 40, 1e-12 * expected)
       << "one row tells no bend";
+}
+
+TEST(SurfaceRecord, TakesSpeedAndStressOfTheSlipLaw) {
+  Contacting one({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}});
+  Boundary& body = one.boundaries.front();
+  resize(body.slip_velocity, padded(body.count));
+  body.shear_stress.resize(padded(body.count));
+  for (std::size_t k = 0; k < body.count; ++k)
+    set(body.slip_velocity, k, Vec(-2, 0)), body.shear_stress[k] = 7;
+  const Sticking sticks{d_0, [](double) { return 3.0; }};
+  const Removal both{.preston_coefficient = 1e-6, .archard = {}, .roughness = {}, .shear_coefficient = 1e-5};
+  const auto seen = one.after(both, 4, sticks);
+  EXPECT_NEAR(seen.at("removed_depth_mean"), 4 * 1e-6 * 50 * 2 * dt, 1e-15);
+  EXPECT_NEAR(seen.at("shear_depth_mean"), 4 * 1e-5 * 7 * 2 * dt, 1e-15);
+  EXPECT_NEAR(seen.at("shear_depth_largest"), 4 * 1e-5 * 7 * 2 * dt, 1e-15);
+  const Removal shear{.preston_coefficient = 0, .archard = {}, .roughness = {}, .shear_coefficient = 1e-5};
+  EXPECT_NEAR(one.after(shear, 1, sticks).at("removed_depth_mean"), 1e-5 * 7 * 2 * dt, 1e-15);
+}
+
+TEST(SurfaceRecord, ShearStressIsOfViscosityAndFriction) {
+  const Removal shear{.preston_coefficient = 0,
+                      .archard = {},
+                      .roughness = {},
+                      .shear_coefficient = 1e-5,
+                      .grain_length = 0.02};
+  const Medium row{Vec(0, 0.1), Vec(2, 0), 50, 0.01};  // 0.05 m before the face
+  const double gdot = 2 / 0.05;
+  const Sticking sticks{d_0, [&](double rate) { return 0.1 * rate; }};
+  EXPECT_NEAR(Contacting({row}).after(shear, 1, sticks)["removed_depth_mean"],
+              1e-5 * (0.1 * gdot * gdot) * (0.02 * gdot) * dt, 1e-15);
+  EXPECT_NEAR(Contacting({row}, Vec::Zero(), Vec(0.3, 0)).after(shear)["removed_depth_mean"],
+              1e-5 * (0.3 / d_0) * 2 * dt, 1e-15)
+      << "free slip";
 }
 
 TEST(SurfaceRecord, MeansAreWeightedByVolumeAndKernel) {
@@ -186,6 +220,7 @@ TEST(SurfaceRecord, FileHasMeansSinceTheLastRowAndSumsSinceTheStart) {
   EXPECT_THAT(read(path, "time"), ElementsAre(0, 2 * dt, 3 * dt));
   EXPECT_THAT(read(path, "contact_pressure"), ElementsAre(0, near(50), near(50)));
   EXPECT_THAT(read(path, "sliding_speed"), ElementsAre(0, near(3), near(3)));
+  EXPECT_THAT(read(path, "shear_stress"), ElementsAre(0, near(0.2), near(0.2)));
   EXPECT_THAT(read(path, "friction_traction"), ElementsAre(0, 0, near(0.2), 0, near(0.2), 0));  // F_s/A_s
   EXPECT_THAT(read(path, "friction_work"), ElementsAre(0, near(0.2 * 3 * 2 * dt), near(0.2 * 3 * 3 * dt)));
   EXPECT_THAT(read(path, "sliding_pressure"), ElementsAre(0, near(150 * 2 * dt), near(150 * 3 * dt)));

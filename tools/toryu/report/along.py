@@ -11,9 +11,11 @@ from toryu.report import data, frames
 QUANTITIES = [
     ("removed depth (Preston)", "preston_depth", "m", "sum"),
     ("removed depth (Archard)", "archard_depth", "m", "sum"),
+    ("removed depth (shear)", "shear_depth", "m", "sum"),
     ("contact pressure × sliding speed", "sliding_pressure", "W/m2", "rate"),
     ("contact pressure", "contact_pressure", "Pa", "mean"),
     ("sliding speed", "sliding_speed", "m/s", "mean"),
+    ("shear stress", "shear_stress", "Pa", "mean"),
     ("friction work", "friction_work", "J/m2", "sum"),
 ]
 

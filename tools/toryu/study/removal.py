@@ -14,7 +14,7 @@ from toryu.study.answer import Answer
 from toryu.study.removal_answer import Wanted, answer_of
 
 WINDOWS_A_CYCLE = 20  # over each of them the force of a piston is averaged
-DEPTHS = ("preston_depth", "archard_depth")  # the first that a run has counts
+DEPTHS = ("preston_depth", "archard_depth", "shear_depth")  # the first that a run has counts
 UNITS = {"removed_per_cycle": "m", "removed_area_per_cycle": "m2", "evenness": "", "piston_pressure": "Pa"}
 ANSWER_UNITS = {"cycles_needed": "", "time_needed": "s", "evenness_then": "", "roughness_then": "m"}
 

@@ -1,0 +1,123 @@
+/// cases/abrasive_slip: a medium that slides along its plates, in real pascals.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/validation/channel.hpp"
+
+namespace toryu::fluid {
+
+/// Means over the last 12 ms; on the lower plate within a width of the middle of the slit.
+struct SlidingFlow {
+  double pressure_gradient = 0;  ///< [Pa/m]
+  double slip_speed = 0;         ///< [m/s]
+  double wall_stress = 0;        ///< [Pa]
+  double log_slope = 0;          ///< d ln p/dx [1/m], of the pressure with what holds the medium
+  double removed_depth = 0;      ///< Preston's, mean of the plate since the start [m]
+};
+
+class SlidingMeans {
+ public:
+  explicit SlidingMeans(const FluidCase& the_case) : the_case_(the_case) {
+    const Box& medium = the_case.parameters.regions.front().box;
+    width_ = medium.max[1] - medium.min[1];
+    middle_ = 0.5 * (medium.min[0] + medium.max[0]);
+    for (const auto& wall : the_case.scene.walls)
+      if (wall.motion) motion_ = *wall.motion;
+  }
+
+  void sample(const WeaklyCompressible& solver) {
+    const double middle = middle_ + motion_.displacement_at(solver.time())[0];
+    const auto& f = solver.particles();
+    const auto& p = the_case_.parameters;
+    const EquationOfState state{p.density, p.sound_speed, p.stiffness_exponent,
+                                p.background_pressure->pressure};
+    Slope plain, log;
+    for (std::size_t i = 0; i < f.count; ++i) {
+      const double x = f.x[0][i] - middle, p_i = state.pressure(f.rho[i]) + solver.pressure_offset();
+      if (std::abs(x) > width_) continue;
+      plain.add(x, p_i);
+      log.add(x, std::log(p_i));
+    }
+    sum_.pressure_gradient += plain.value();
+    sum_.log_slope += log.value();
+    double n = 0, u_s = 0, tau_w = 0;
+    for (const Boundary& boundary : solver.boundaries()) {
+      if (boundary.name != "lower" || !boundary.is_slippery()) continue;
+      for (std::size_t k = 0; k < boundary.count; ++k)
+        if (boundary.upper_face[1][k] > 0 && std::abs(boundary.x[0][k] - middle) < width_) {
+          n += 1;
+          u_s += boundary.slip_velocity[0][k];
+          tau_w += boundary.shear_stress[k];
+        }
+    }
+    if (n > 0) sum_.slip_speed += u_s / n, sum_.wall_stress += tau_w / n;
+    ++samples_;
+  }
+
+  SlidingFlow mean() const {
+    SlidingFlow flow = sum_;
+    for (double* value : {&flow.pressure_gradient, &flow.slip_speed, &flow.wall_stress, &flow.log_slope})
+      *value /= samples_;
+    return flow;
+  }
+
+ private:
+  /// Of a line through points.
+  struct Slope {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    void add(double x_i, double y_i) { n += 1, x += x_i, y += y_i, xx += x_i * x_i, xy += x_i * y_i; }
+    double value() const { return (n * xy - x * y) / (n * xx - x * x); }
+  };
+  const FluidCase& the_case_;
+  Motion motion_;
+  double width_, middle_;
+  SlidingFlow sum_;
+  int samples_ = 0;
+};
+
+inline SlidingFlow run_abrasive_slip(const std::string& name, double spacing,
+                                     std::vector<std::string> overrides = {}) {
+  overrides.push_back("fluid.spacing=" + std::to_string(spacing));
+  const FluidCase the_case("abrasive_slip/" + name, overrides);
+  WeaklyCompressible solver = the_case.solver();
+  const auto out = std::filesystem::path(testing::TempDir()) / ("abrasive_slip_" + std::to_string(getpid()));
+  std::filesystem::create_directories(out);
+  solver.record_surface(out);
+  SlidingMeans means(the_case);
+  const double end = the_case.scene.end_time;
+  for (double time = end - 0.012; time < end + 1e-9; time += 2e-4) {
+    run_until(solver, time);
+    means.sample(solver);
+  }
+  SlidingFlow flow = means.mean();
+  for (const auto& seen : solver.observe())
+    if (seen.name == "removed_depth_mean") flow.removed_depth = seen.value;
+  std::filesystem::remove_all(out);
+  return flow;
+}
+
+/// Of the case's medium and slip law.
+inline SlitSolution exact_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  const FluidCase the_case("abrasive_slip/" + name, overrides);
+  const Parameters& p = the_case.parameters;
+  return {viscosity_of(p), p.similarity->passage_width, p.similarity->mean_speed,
+          [law = *p.wall_slip](double tau) { return slip_speed(law, tau); }};
+}
+
+/// Holds pressure gradient and slip speed to the exact ones.
+inline void expect_sliding(const std::string& name, double spacing, double gradient_error, double slip_error,
+                           const std::vector<std::string>& overrides = {}) {
+  const SlitSolution exact = exact_of(name, overrides);
+  const SlidingFlow flow = run_abrasive_slip(name, spacing, overrides);
+  testing::Test::RecordProperty("gradient_and_slip_over_exact",
+                                std::to_string(flow.pressure_gradient / exact.pressure_gradient()) + " " +
+                                    std::to_string(flow.slip_speed / exact.slip_speed()));
+  EXPECT_NEAR(flow.pressure_gradient / exact.pressure_gradient(), 1, gradient_error)
+      << name << ' ' << spacing;
+  EXPECT_NEAR(flow.slip_speed / exact.slip_speed(), 1, slip_error) << name << ' ' << spacing;
+}
+
+}  // namespace toryu::fluid
