@@ -17,6 +17,7 @@
 #include "common/scene/bodies.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/fluid_model.hpp"
+#include "fluid_solver/implicit/implicit_faults.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/wall_rows.hpp"
@@ -138,6 +139,8 @@ ExitCode solve(const Options& options) {
   file.throw_if_faulty();
   for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
     file.fault(key, message);
+  for (const auto& [key, message] : fluid::implicit_faults(parameters, file.has("solid")))
+    file.fault(key, message);
   file.throw_if_faulty();
   if (parameters.similarity) {
     const std::string made = fluid::make_similar(parameters, scene);
@@ -156,6 +159,10 @@ ExitCode solve(const Options& options) {
     throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
                      "the fluid has a free surface at the start, where its pressure is 0: give no "
                      "mean pressure"}});
+  if (parameters.model == fluid::Model::implicit && !model.is_enclosed()) {
+    const auto [key, message] = fluid::implicit_surface_fault();
+    throw BadInput({{key, 0, 0, message}});
+  }
   model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
   const auto& particles = model.particles();

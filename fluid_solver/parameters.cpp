@@ -191,8 +191,7 @@ void describe_model(ParameterTable& table, Parameters& p) {
 void describe_terms(ParameterTable& table, Parameters& p) {
   const bool is_implicit = p.model == Model::implicit;
   for_each_term(p, [&]<class Term>(std::optional<Term>& term) {
-    table.optional(Term::section, term, Term::help,
-                   is_implicit ? Absence::leaves_out : absence_of<Term>());
+    table.optional(Term::section, term, Term::help, is_implicit ? Absence::leaves_out : absence_of<Term>());
   });
   table.group("wall_model", p.wall_model, "how walls act on the fluid (Adami, Hu & Adams 2012)");
 }

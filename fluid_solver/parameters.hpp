@@ -86,7 +86,7 @@ enum class Integrator { midpoint, symplectic };
 struct Parameters : OptionalTerms {
   Model model = Model::weakly_compressible;
   std::optional<ImplicitSolver> implicit;  ///< its defaults where the implicit model has none
-  double density = 1000.0;  ///< rho_0 [kg/m3]
+  double density = 1000.0;                 ///< rho_0 [kg/m3]
   std::optional<Similarity> similarity;
   double sound_speed = 0;        ///< c_0 [m/s]
   int stiffness_exponent = 7;    ///< gamma of (3)

@@ -236,8 +236,8 @@ std::string make_similar(Parameters& p, Scene& scene) {
 
 std::optional<std::string> creeping(const Parameters& p, const Scene& scene) {
   const double U = largest_wall_speed(scene);
-  if (p.similarity || U == 0 || !scene.gravity.isZero(0) || !is_viscous(p) || p.artificial_viscosity ||
-      key_of_inertia(p))
+  if (p.similarity || p.model == Model::implicit || U == 0 || !scene.gravity.isZero(0) || !is_viscous(p) ||
+      p.artificial_viscosity || key_of_inertia(p))
     return {};
   const double width = sides(p.regions).minCoeff();
   const double nu = slit_flow(p, U, width).wall_viscosity / p.density, Re = U * width / nu;

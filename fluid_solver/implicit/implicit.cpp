@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "common/error/failure.hpp"
 #include "common/sph/skin.hpp"
@@ -14,8 +13,9 @@ namespace {
 
 /// Of the spacing: how far a particle goes in a step.
 constexpr double advection_share = 0.2;
-/// Of the unbalanced force that an update of the viscosity leaves: what the linear solver leaves of it.
-constexpr double inner_tolerance = 0.1;
+/// The linear solver leaves so much of the unbalanced force, which the next update of the viscosity changes
+/// by more, and at the last so much of what is tolerated.
+constexpr double inner_tolerance = 0.1, last_tolerance = 0.5;
 
 double largest_speed_of(const std::vector<Wall>& walls) {
   double largest = 0;
@@ -49,11 +49,7 @@ Implicit::Implicit(const Parameters& parameters, const Scene& scene)
 double Implicit::time_step_limit() const {
   const double length = advection_share * parameters_.time_step_share * parameters_.spacing;
   const double u = std::max(state_.largest.speed, largest_wall_speed_), g = scene_.gravity.norm();
-  return std::min(length / u, std::sqrt(length / g));  // infinite in a fluid at rest
-}
-
-std::string_view Implicit::time_step_rule() const {
-  return "advection";
+  return std::min(length / u, std::sqrt(length / g));
 }
 
 void Implicit::advance(double dt) {
@@ -64,8 +60,7 @@ void Implicit::advance(double dt) {
   }
   move(state_.fluid, 0.5 * dt);
   move_boundaries(state_.time + 0.5 * dt);
-  StepSystem system(terms_, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, dt);
-  solve(system, dt);
+  solve(dt);
   count_forces(dt);
   move(state_.fluid, 0.5 * dt);
   for (std::size_t i = 0; i < state_.fluid.count; ++i) state_.fluid.rho[i] += dt * state_.fluid.drho[i];
@@ -78,36 +73,52 @@ void Implicit::advance(double dt) {
   note_extremes();
 }
 
-void Implicit::solve(StepSystem& system, double dt) {
+void Implicit::solve(double dt) {
   const auto timer = timers_.measure("implicit system");
-  using Vector = StepSystem::Vector;
-  Vector v = system.velocities();
-  const Vector v_n = v, zero = Vector::Zero(v.size());
-  long left = solver_.largest_iterations;
-  static const bool talk = std::getenv("TALK");
-  for (int update = 0;; ++update) {
+  StepSystem system(terms_, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, dt);
+  const StepSystem::Vector v_n = system.velocities(), at_rest = StepSystem::Vector::Zero(v_n.size());
+  StepSystem::Vector v = v_n;
+  Effort effort{.steps = 1};
+  for (;; ++effort.viscosity_updates) {
     system.set_velocities(v);
     system.update_viscosity();
-    const Vector b = system.unbalance(zero), r = system.unbalance(v);
-    const double driving = b.norm(), found = r.norm() / driving;
-    if (talk) fmt::print("t {} update {} driving {} residual {}\n", state_.time, update, driving, found);
-    if (found <= solver_.tolerance || driving == 0) break;
-    if (update == solver_.largest_viscosity_updates || !std::isfinite(found) || left == 0)
-      throw PhysicsFailure("fluid", -1, state_.time, fmt::format("unbalanced force of the implicit step, over the driving force, after {} iterations", solver_.largest_iterations - left),
-                           fmt::format("{:.3g}", found), fmt::format("{:g} (fluid.implicit.tolerance)", solver_.tolerance));
-    const double wanted = terms_.viscosity_varies() ? std::max(inner_tolerance, 0.5*solver_.tolerance / found) : 0.5* solver_.tolerance / found;
-    const auto solved = solve_by_bicgstab([&](const Vector& x) -> Vector { return b - system.unbalance(x); },
-                                          system.diagonal(), r, wanted, left);
-    if (talk) fmt::print("   its {} res {}\n", solved.iterations, solved.residual);
-    v += solved.x;
-    iterations_ += solved.iterations;
-    left -= std::min(left, solved.iterations);
-    ++updates_;
+    const StepSystem::Vector b = system.unbalance(at_rest), r = system.unbalance(v);
+    const double driving = b.norm(), unbalance = r.norm();
+    if (unbalance <= solver_.tolerance * driving) break;
+    if (!std::isfinite(unbalance) || effort.iterations >= solver_.largest_iterations ||
+        effort.viscosity_updates >= solver_.largest_viscosity_updates)
+      fail(unbalance / driving, effort);
+    const double wanted = last_tolerance * solver_.tolerance * driving / unbalance;
+    correct(system, b, r, terms_.viscosity_varies() ? std::max(wanted, inner_tolerance) : wanted, v, effort);
   }
-  const auto n = static_cast<Eigen::Index>(state_.fluid.count);
-  const Vector a = (v - v_n) / dt;
-  for (int k = 0; k < dim; ++k) Eigen::Map<Vector>(state_.fluid.a[k].data(), n) = a.segment(k * n, n);
-  ++steps_;
+  system.set_accelerations((v - v_n) / dt);
+  effort_.steps += effort.steps;
+  effort_.iterations += effort.iterations;
+  effort_.viscosity_updates += effort.viscosity_updates;
+}
+
+void Implicit::correct(StepSystem& system, const StepSystem::Vector& b, const StepSystem::Vector& r,
+                       double tolerance, StepSystem::Vector& v, Effort& effort) const {
+  const Product product = [&](const StepSystem::Vector& x) -> StepSystem::Vector {
+    return b - system.unbalance(x);
+  };
+  const KrylovResult found = solve_by_bicgstab(product, system.diagonal(), r, tolerance,
+                                               solver_.largest_iterations - effort.iterations);
+  v += found.x;
+  effort.iterations += found.iterations;
+}
+
+void Implicit::fail(double unbalance, const Effort& effort) const {
+  const std::string taken =
+      effort.viscosity_updates >= solver_.largest_viscosity_updates
+          ? fmt::format("{} updates of the viscosity (fluid.implicit.largest_viscosity_updates)",
+                        effort.viscosity_updates)
+          : fmt::format("{} iterations of the linear solver (fluid.implicit.largest_iterations: {})",
+                        effort.iterations, solver_.largest_iterations);
+  throw PhysicsFailure(
+      "fluid", -1, state_.time,
+      "the implicit step is not solved: unbalanced force over the driving one after " + taken,
+      fmt::format("{:.3g}", unbalance), fmt::format("{:g} (fluid.implicit.tolerance)", solver_.tolerance));
 }
 
 void Implicit::note_extremes() {
@@ -117,15 +128,20 @@ void Implicit::note_extremes() {
 
 std::vector<ActiveTerm> Implicit::active_terms() const {
   auto texts = dynamics_.active_terms();
-  texts.push_back({"implicit steps", "rho/dt (v - v^n) = -G p(v) + V v + rho g", "",
-                   fmt::format("tolerance {:g}", solver_.tolerance)});
+  texts.push_back({"implicit steps", "(v - v^n)/dt = a(v), with p = p^n + c^2 dt drho(v)",
+                   "backward Euler; BiCGSTAB by van der Vorst 1992",
+                   fmt::format("tolerance {:g}, a particle goes {:g} spacings in a step", solver_.tolerance,
+                               advection_share * parameters_.time_step_share)});
   return texts;
 }
 
 std::vector<std::pair<std::string, double>> Implicit::figures() const {
-  const double steps = static_cast<double>(std::max(1L, steps_));
-  return {{"solver_iterations_per_step", static_cast<double>(iterations_) / steps},
-          {"viscosity_updates_per_step", static_cast<double>(updates_) / steps}};
+  const auto per_step = [&](long count) {
+    return static_cast<double>(count) / static_cast<double>(std::max(1L, effort_.steps));
+  };
+  return {
+      {"iterations_per_step", per_step(effort_.iterations)},
+      {"viscosity_updates_per_step", terms_.viscosity_varies() ? per_step(effort_.viscosity_updates) : 0.0}};
 }
 
 }  // namespace toryu::fluid

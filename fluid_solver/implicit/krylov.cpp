@@ -90,8 +90,8 @@ struct generic_product_impl<toryu::fluid::ProductMatrix, Rhs, SparseShape, Dense
 
 namespace toryu::fluid {
 
-KrylovResult solve_by_bicgstab(const Product& product, const DiagonalBlocks& blocks,
-                               const Eigen::VectorXd& b, double tolerance, long largest_iterations) {
+KrylovResult solve_by_bicgstab(const Product& product, const DiagonalBlocks& blocks, const Eigen::VectorXd& b,
+                               double tolerance, long largest_iterations) {
   const ProductMatrix A(product, blocks);
   Eigen::BiCGSTAB<ProductMatrix, BlockJacobi> solver;
   solver.setTolerance(tolerance);

@@ -1,6 +1,6 @@
 /// Solves A x = b where only products A x are known: BiCGSTAB (van der Vorst 1992) of Eigen, for A is not
-/// symmetric where walls extrapolate, with the diagonal blocks of A as preconditioner. Its sums have one order
-/// whatever the number of threads.
+/// symmetric where walls extrapolate, with the diagonal blocks of A as preconditioner. Its sums have one
+/// order whatever the number of threads.
 #pragma once
 
 #include <Eigen/Dense>
@@ -23,7 +23,7 @@ struct KrylovResult {
 using DiagonalBlocks = std::vector<Eigen::Matrix2d>;
 
 /// From x = 0 until |b - A x| < tolerance |b|, in at most `largest_iterations`.
-KrylovResult solve_by_bicgstab(const Product& product, const DiagonalBlocks& blocks,
-                               const Eigen::VectorXd& b, double tolerance, long largest_iterations);
+KrylovResult solve_by_bicgstab(const Product& product, const DiagonalBlocks& blocks, const Eigen::VectorXd& b,
+                               double tolerance, long largest_iterations);
 
 }  // namespace toryu::fluid

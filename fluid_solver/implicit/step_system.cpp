@@ -8,8 +8,17 @@ namespace toryu::fluid {
 
 namespace {
 
-Eigen::Index index_of(std::size_t i) {
-  return static_cast<Eigen::Index>(i);
+/// The first component of all particles, then the second.
+StepSystem::Vector vector_of_all(const VecField& field, std::size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  StepSystem::Vector all(dim * n);
+  for (int a = 0; a < dim; ++a)
+    all.segment(a * n, n) = Eigen::Map<const StepSystem::Vector>(field[a].data(), n);
+  return all;
+}
+void set_all(VecField& field, const StepSystem::Vector& all) {
+  const Eigen::Index n = all.size() / dim;
+  for (int a = 0; a < dim; ++a) Eigen::Map<StepSystem::Vector>(field[a].data(), n) = all.segment(a * n, n);
 }
 
 /// sum + factor a (x) b.
@@ -59,15 +68,15 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
 }
 
 StepSystem::Vector StepSystem::velocities() const {
-  const auto n = index_of(fluid_.count);
-  Vector v(dim * n);
-  for (int a = 0; a < dim; ++a) v.segment(a * n, n) = Eigen::Map<const Vector>(fluid_.v[a].data(), n);
-  return v;
+  return vector_of_all(fluid_.v, fluid_.count);
 }
 
 void StepSystem::set_velocities(const Vector& v) {
-  const auto n = index_of(fluid_.count);
-  for (int a = 0; a < dim; ++a) Eigen::Map<Vector>(fluid_.v[a].data(), n) = v.segment(a * n, n);
+  set_all(fluid_.v, v);
+}
+
+void StepSystem::set_accelerations(const Vector& a) {
+  set_all(fluid_.a, a);
 }
 
 void StepSystem::pressures() {
@@ -137,16 +146,13 @@ void StepSystem::evaluate() {
 StepSystem::Vector StepSystem::unbalance(const Vector& v) {
   set_velocities(v);
   evaluate();
-  const auto n = index_of(fluid_.count);
-  Vector r = v_n_ - v;
-  for (int a = 0; a < dim; ++a)
-    r.segment(a * n, n) += dt_ * Eigen::Map<const Vector>(fluid_.a[a].data(), n);
-  return r;
+  return v_n_ + dt_ * vector_of_all(fluid_.a, fluid_.count) - v;
 }
 
 std::vector<StepSystem::Block> StepSystem::diagonal() const {
   std::vector<Block> blocks(fluid_.count);
-  const double mu = terms_.parameters.laminar_viscosity ? terms_.parameters.laminar_viscosity->dynamic_viscosity : 0;
+  const double mu =
+      terms_.parameters.laminar_viscosity ? terms_.parameters.laminar_viscosity->dynamic_viscosity : 0;
   const bool varies = terms_.viscosity_varies();
   const auto of_cluster = [&](const auto& W, std::size_t c) {
     const std::size_t first = c * lane_count;

@@ -1,17 +1,22 @@
-/// The system that one implicit step solves: all velocities v at the end of the step, with the places x of its
-/// middle,
+/// The system that one implicit step solves: all velocities v at the end of the step, with the places x of
+/// its middle,
 ///
 ///     (v_i - v_i^n)/dt = a_i(v),   a_i = pressure with p(v) + viscosity with v + gravity
-///     p_i(v) = p_i^n + c_i^2 dt drho_i(v),   c_i^2 = dp/drho at rho_i^n,   drho_i = rho_i sum_j V_j v_ij . gradW_ij
+///     p_i(v) = p_i^n + c_i^2 dt drho_i(v),   c_i^2 = dp/drho at rho_i^n,   drho_i = rho_i sum_j V_j v_ij .
+///     gradW_ij
 ///
-/// with the walls' pressure and velocity extrapolated from p(v) and v. For a given viscosity it is linear in v:
-/// with V the viscous sweep, D and G those of continuity and pressure and K = rho c^2,
+/// with the walls' pressure and velocity extrapolated from p(v) and v. For a given viscosity it is linear in
+/// v: with V the viscous sweep, D and G those of continuity and pressure and K = rho c^2,
 ///
 ///     (rho/dt - V + dt G K D) v = rho v^n/dt - G p^n + rho g + what walls that move do.
 ///
-/// Nothing is assembled: a product is one evaluation of the explicit model's sweeps, so that each pair has the
-/// force that it has there. Splitting pressure from viscosity as projection methods do leaves an error of
+/// Nothing is assembled: a product is one evaluation of the explicit model's sweeps, so that each pair has
+/// the force that it has there. Splitting pressure from viscosity as projection methods do leaves an error of
 /// dt nu/w^2, unusable at Re << 1 (Guermond, Minev & Shen 2006).
+///
+/// The matrix is not symmetric: where walls extrapolate, the force of a pair depends on who else is near.
+/// Where no wall is in reach, G is minus the adjoint of D but for the ratio of the two densities, and the sum
+/// of m_i times its rows is that of m_i/dt: momentum is kept as by the explicit sweeps.
 #pragma once
 
 #include <Eigen/Dense>
@@ -28,9 +33,7 @@ struct ImplicitTerms {
   ImplicitTerms(const Parameters& of_case, const Vec& gravity, const Kernel& W,
                 const EquationOfState& of_medium);
   bool viscosity_varies() const { return std::holds_alternative<VariableViscosityTerm>(chosen.viscous); }
-  PairSweeps sweeps() const {
-    return {chosen, body_force, viscous_walls, true, parameters.density, false};
-  }
+  PairSweeps sweeps() const { return {chosen, body_force, viscous_walls, true, parameters.density, false}; }
 
   Parameters parameters;
   Kernel kernel;
@@ -53,6 +56,7 @@ class StepSystem {
   /// The velocities of `fluid`, x before y [m/s], and back.
   Vector velocities() const;
   void set_velocities(const Vector& v);
+  void set_accelerations(const Vector& a);  ///< [m/s2]
 
   /// Finds the viscosity at the shear rates of the present velocities.
   void update_viscosity();
