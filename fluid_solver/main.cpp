@@ -18,6 +18,7 @@
 #include "common/sph/skin.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/implicit/implicit_faults.hpp"
+#include "fluid_solver/implicit/implicit_twin.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/wall_rows.hpp"
@@ -96,6 +97,21 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
       [&] { return link.waiting_time() - joined; });
 }
 
+/// Of the case as it is and, where it could be computed by implicit steps as well, which is cheaper.
+void tell_outlook(FluidModel& model, double end_time, const std::optional<fluid::Parameters>& twin,
+                  const Scene& scene_of_twin) {
+  const Outlook own = outlook("[fluid]", model, end_time);
+  print(own.text);
+  if (!twin) return;
+  const Outlook other =
+      outlook("[fluid] by implicit steps", *fluid::make_model(*twin, scene_of_twin), end_time);
+  print(other.text);
+  if (own.time && other.time)
+    print(*other.time < *own.time
+              ? "[fluid]: implicit steps are cheaper: " + fluid::keys_of_twin(*twin) + '\n'
+              : std::string("[fluid]: the case as it is is cheaper\n"));
+}
+
 /// Adds a fault of `file` for each section that others of the case make pointless or wrong.
 void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters& parameters) {
   const auto is_work_piece = [](const Wall& wall) { return wall.work_piece; };
@@ -142,6 +158,8 @@ ExitCode solve(const Options& options) {
   for (const auto& [key, message] : fluid::implicit_faults(parameters, file.has("solid")))
     file.fault(key, message);
   file.throw_if_faulty();
+  const auto twin = fluid::implicit_twin(parameters);
+  const Scene real_scene = scene;
   if (parameters.similarity) {
     const std::string made = fluid::make_similar(parameters, scene);
     log::info("{}", made);
@@ -179,7 +197,7 @@ ExitCode solve(const Options& options) {
     log::warn("{}", *jet);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
-    if (options.outlook) print(outlook("[fluid]", model, scene.end_time));
+    if (options.outlook) tell_outlook(model, scene.end_time, twin, real_scene);
     return ExitCode::done;
   }
   if (file.has("solid"))

@@ -178,6 +178,10 @@ SimilarMedium similar_medium(const Parameters& p) {
   return similar;
 }
 
+BackgroundPressure similar_background(const SimilarMedium& similar) {
+  return {.pressure = background_share * similar.pressure_drop};
+}
+
 std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_solid) {
   if (!p.similarity) return {};
   if (with_solid)
@@ -216,8 +220,7 @@ std::string make_similar(Parameters& p, Scene& scene) {
   scene.gravity /= factor;
   p.density = similar.density;
   p.sound_speed = similar.sound_speed;
-  if (!p.background_pressure)
-    p.background_pressure = BackgroundPressure{.pressure = background_share * similar.pressure_drop};
+  if (!p.background_pressure) p.background_pressure = similar_background(similar);
   if (p.friction && p.friction->regularisation_speed == 0)
     p.friction->regularisation_speed = regularisation_share * p.similarity->mean_speed;
   return fmt::format(

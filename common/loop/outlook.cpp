@@ -54,20 +54,23 @@ double time_of_step(Solver& solver) {
 
 }  // namespace
 
-std::string outlook(const std::string& section, Solver& solver, double end_time) {
+Outlook outlook(const std::string& section, Solver& solver, double end_time) {
   const double dt = solver.time_step_limit(), steps = end_time / dt;
   const std::string rule(solver.time_step_rule());
   if (!(dt > 0 && std::isfinite(dt) && std::isfinite(steps)))
     throw BadInput(
         {{.place = section, .message = fmt::format("the time step would be {:.3g} s ({} limit)", dt, rule)}});
-  std::string time;
+  std::optional<double> time;
+  std::string told;
   try {
-    time = "about " + duration(steps * time_of_step(solver)) + " on this machine";
+    time = steps * time_of_step(solver);
+    told = "about " + duration(*time) + " on this machine";
   } catch (const PhysicsFailure& failure) {
-    time = std::string("but the first ones fail: ") + failure.what();
+    told = std::string("but the first ones fail: ") + failure.what();
   }
-  return fmt::format("{}: time step {:.3g} s ({} limit) at the start, {} steps to t = {:g} s, {}\n", section,
-                     dt, rule, number(steps), end_time, time);
+  return {fmt::format("{}: time step {:.3g} s ({} limit) at the start, {} steps to t = {:g} s, {}\n", section,
+                      dt, rule, number(steps), end_time, told),
+          time};
 }
 
 }  // namespace toryu

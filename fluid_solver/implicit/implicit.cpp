@@ -48,7 +48,8 @@ Implicit::Implicit(const Parameters& parameters, const Scene& scene)
 
 double Implicit::time_step_limit() const {
   const double length = advection_share * parameters_.time_step_share * parameters_.spacing;
-  const double u = std::max(state_.largest.speed, largest_wall_speed_), g = scene_.gravity.norm();
+  const double u = std::max({state_.largest.speed, largest_wall_speed_, solver_.expected_speed}),
+               g = scene_.gravity.norm();
   return std::min(length / u, std::sqrt(length / g));
 }
 

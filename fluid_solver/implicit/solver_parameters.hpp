@@ -6,6 +6,7 @@
 namespace toryu::fluid {
 
 struct ImplicitSolver {
+  double expected_speed = 0;           ///< [m/s]
   double tolerance = 1e-4;             ///< of the unbalanced force, over the driving one
   int largest_iterations = 1000;       ///< of a step
   int largest_viscosity_updates = 50;  ///< of a step

@@ -11,6 +11,7 @@
 #include "common/error/failure.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/implicit/implicit_faults.hpp"
+#include "fluid_solver/implicit/implicit_twin.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
@@ -290,6 +291,8 @@ TEST(Implicit, LimitsTheStepByWhatMovesOrPulls) {
   EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / speed);
   s.scene.walls[2].motion->speed = 4;  // the fastest of its table
   EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / 1.2);
+  s.parameters.implicit = ImplicitSolver{.expected_speed = 6};
+  EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / 6);
   s.scene.gravity = Vec(0, -1000);
   s.parameters.time_step_share = 0.5;
   EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), std::sqrt(0.1 * 0.05 / 1000));
@@ -315,6 +318,26 @@ TEST(Implicit, SaysThatAStepIsNotSolved) {
   thin_under_shear(s);
   EXPECT_THAT(failure_of(s, {.largest_viscosity_updates = 1}),
               HasSubstr("after 1 updates of the viscosity (fluid.implicit.largest_viscosity_updates) = "));
+}
+
+// The passage of 2 mm at 50 mm/s, of 1000 Pa s: 150 kPa at the wall, 2.4 MPa over 16 mm.
+TEST(ImplicitTwin, HasTheOwnDensityAndTheSameCompression) {
+  Parameters p;
+  p.density = 1200;
+  p.laminar_viscosity = LaminarViscosity{1000};
+  p.density_diffusion = DensityDiffusion{};
+  EXPECT_FALSE(implicit_twin(p));
+  p.similarity = Similarity{.mean_speed = 0.05, .passage_width = 0.002, .passage_length = 0.016};
+  const Parameters twin = implicit_twin(p).value();
+  EXPECT_EQ(twin.density, 1200);
+  EXPECT_NEAR(twin.sound_speed, std::sqrt(2.4e6 / (0.01 * 1200)), 0.01);
+  EXPECT_NEAR(twin.background_pressure->pressure, 0.65 * 2.4e6, 1);
+  EXPECT_NEAR(twin.implicit->expected_speed, 0.075, 1e-12);
+  EXPECT_THAT(keys_of_twin(twin),
+              HasSubstr("model = \"implicit\", similarity = false, sound_speed = 447.2,"));
+  EXPECT_TRUE(implicit_faults(twin, false).empty());
+  p.friction = Friction{};
+  EXPECT_FALSE(implicit_twin(p));
 }
 
 std::string faults_of(const Parameters& p, bool with_solid = false) {
