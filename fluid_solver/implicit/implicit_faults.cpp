@@ -43,7 +43,7 @@ std::vector<StartFault> implicit_faults(const Parameters& p, bool with_solid) {
 }
 
 StartFault implicit_surface_fault() {
-  return {key_of_model,
+  return {"[fluid]",
           "the fluid has a free surface at the start, and model = \"implicit\" is for media that walls or "
           "periods enclose"};
 }

@@ -2,17 +2,17 @@
 /// its middle,
 ///
 ///     (v_i - v_i^n)/dt = a_i(v),   a_i = pressure with p(v) + viscosity with v + gravity
-///     p_i(v) = p_i^n + c_i^2 dt drho_i(v),   c_i^2 = dp/drho at rho_i^n,   drho_i = rho_i sum_j V_j v_ij .
-///     gradW_ij
+///     p_i(v) = p_i^n + c_i^2 dt drho_i(v),   c_i^2 = dp/drho at rho_i^n
+///     drho_i(v) = rho_i sum_j V_j v_ij . gradW_ij
 ///
 /// with the walls' pressure and velocity extrapolated from p(v) and v. For a given viscosity it is linear in
 /// v: with V the viscous sweep, D and G those of continuity and pressure and K = rho c^2,
 ///
 ///     (rho/dt - V + dt G K D) v = rho v^n/dt - G p^n + rho g + what walls that move do.
 ///
-/// Nothing is assembled: a product is one evaluation of the explicit model's sweeps, so that each pair has
-/// the force that it has there. Splitting pressure from viscosity as projection methods do leaves an error of
-/// dt nu/w^2, unusable at Re << 1 (Guermond, Minev & Shen 2006).
+/// Nothing is assembled: a product is one evaluation of the explicit model's sweeps, so that each pair has the
+/// force that it has there. Pressure and viscosity are not split as projection methods do: that leaves an error
+/// of the order of dt nu/w^2 between walls w apart, and dt is far above w^2/nu here.
 ///
 /// The matrix is not symmetric: where walls extrapolate, the force of a pair depends on who else is near.
 /// Where no wall is in reach, G is minus the adjoint of D but for the ratio of the two densities, and the sum

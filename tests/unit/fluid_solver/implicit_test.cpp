@@ -293,6 +293,7 @@ TEST(Implicit, LimitsTheStepByWhatMovesOrPulls) {
   EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / 1.2);
   s.parameters.implicit = ImplicitSolver{.expected_speed = 6};
   EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / 6);
+  s.parameters.implicit.reset();
   s.scene.gravity = Vec(0, -1000);
   s.parameters.time_step_share = 0.5;
   EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), std::sqrt(0.1 * 0.05 / 1000));
