@@ -155,10 +155,10 @@ ExitCode solve(const Options& options) {
   file.throw_if_faulty();
   for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
     file.fault(key, message);
-  for (const auto& [key, message] : fluid::implicit_faults(parameters, file.has("solid")))
+  for (const auto& [key, message] : fluid::implicit_faults(parameters, scene, file.has("solid")))
     file.fault(key, message);
   file.throw_if_faulty();
-  const auto twin = fluid::implicit_twin(parameters);
+  const auto twin = fluid::implicit_twin(parameters, scene);
   const Scene real_scene = scene;
   if (parameters.similarity) {
     const std::string made = fluid::make_similar(parameters, scene);

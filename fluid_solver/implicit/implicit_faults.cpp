@@ -1,5 +1,7 @@
 #include "fluid_solver/implicit/implicit_faults.hpp"
 
+#include <fmt/format.h>
+
 #include <type_traits>
 
 namespace toryu::fluid {
@@ -18,7 +20,7 @@ constexpr bool is_implicit = is_one_of<Term, BackgroundPressure, EnclosedMedium,
 
 }  // namespace
 
-std::vector<StartFault> implicit_faults(const Parameters& p, bool with_solid) {
+std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene, bool with_solid) {
   if (p.model != Model::implicit) return {};
   std::vector<StartFault> faults;
   const auto refuse = [&](const std::string& key, const std::string& why) {
@@ -29,6 +31,10 @@ std::vector<StartFault> implicit_faults(const Parameters& p, bool with_solid) {
       refuse(std::string("fluid.") + Term::section,
              std::string("[fluid.") + Term::section + "] is not part of");
   });
+  for (std::size_t i = 0; i < scene.walls.size(); ++i)
+    if (scene.walls[i].press)  // its velocity would be one more unknown of the system
+      refuse(fmt::format("wall.{}.press", i),
+             fmt::format("the wall '{}' is pressed, which is not part of", scene.walls[i].name));
   if (with_solid) refuse(key_of_model, "an elastic solid is not coupled to");
   if (!is_viscous(p))
     refuse(key_of_model,

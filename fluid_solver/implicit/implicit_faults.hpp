@@ -7,7 +7,7 @@
 namespace toryu::fluid {
 
 /// Nothing for another model.
-std::vector<StartFault> implicit_faults(const Parameters& parameters, bool with_solid);
+std::vector<StartFault> implicit_faults(const Parameters& parameters, const Scene& scene, bool with_solid);
 
 /// Of a fluid that has a free surface at the start.
 StartFault implicit_surface_fault();

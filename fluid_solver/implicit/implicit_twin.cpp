@@ -15,7 +15,7 @@ constexpr double peak_share = 1.5;
 
 }  // namespace
 
-std::optional<Parameters> implicit_twin(const Parameters& as_read) {
+std::optional<Parameters> implicit_twin(const Parameters& as_read, const Scene& scene) {
   if (!as_read.similarity) return {};
   const SimilarMedium similar = similar_medium(as_read);
   Parameters twin = as_read;
@@ -26,7 +26,7 @@ std::optional<Parameters> implicit_twin(const Parameters& as_read) {
   twin.implicit = ImplicitSolver{.expected_speed = peak_share * as_read.similarity->mean_speed};
   twin.sound_speed = similar.sound_speed * std::sqrt(similar.density / as_read.density);
   if (!twin.background_pressure) twin.background_pressure = similar_background(similar);
-  if (!implicit_faults(twin, false).empty()) return {};
+  if (!implicit_faults(twin, scene, false).empty()) return {};
   return twin;
 }
 

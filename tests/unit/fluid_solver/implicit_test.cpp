@@ -327,23 +327,23 @@ TEST(ImplicitTwin, HasTheOwnDensityAndTheSameCompression) {
   p.density = 1200;
   p.laminar_viscosity = LaminarViscosity{1000};
   p.density_diffusion = DensityDiffusion{};
-  EXPECT_FALSE(implicit_twin(p));
+  EXPECT_FALSE(implicit_twin(p, {}));
   p.similarity = Similarity{.mean_speed = 0.05, .passage_width = 0.002, .passage_length = 0.016};
-  const Parameters twin = implicit_twin(p).value();
+  const Parameters twin = implicit_twin(p, {}).value();
   EXPECT_EQ(twin.density, 1200);
   EXPECT_NEAR(twin.sound_speed, std::sqrt(2.4e6 / (0.01 * 1200)), 0.01);
   EXPECT_NEAR(twin.background_pressure->pressure, 0.65 * 2.4e6, 1);
   EXPECT_NEAR(twin.implicit->expected_speed, 0.075, 1e-12);
   EXPECT_THAT(keys_of_twin(twin),
               HasSubstr("model = \"implicit\", similarity = false, sound_speed = 447.2,"));
-  EXPECT_TRUE(implicit_faults(twin, false).empty());
+  EXPECT_TRUE(implicit_faults(twin, {}, false).empty());
   p.friction = Friction{};
-  EXPECT_FALSE(implicit_twin(p));
+  EXPECT_FALSE(implicit_twin(p, {}));
 }
 
-std::string faults_of(const Parameters& p, bool with_solid = false) {
+std::string faults_of(const Parameters& p, bool with_solid = false, const Scene& scene = {}) {
   std::string all;
-  for (const auto& [key, message] : implicit_faults(p, with_solid)) all += key + ": " + message + "\n";
+  for (const auto& [key, message] : implicit_faults(p, scene, with_solid)) all += key + ": " + message + "\n";
   return all;
 }
 
@@ -358,6 +358,12 @@ TEST(ImplicitFaults, NameTheTerm) {
             "fluid.surface_tension: [fluid.surface_tension] is not part of model = \"implicit\"\n");
   p.model = Model::weakly_compressible;
   EXPECT_EQ(faults_of(p, true), "");
+  Scene pressed;
+  pressed.walls.resize(2);
+  pressed.walls[1].name = "ram";
+  pressed.walls[1].press.emplace();
+  EXPECT_EQ(faults_of(stirred_slit().parameters, false, pressed),
+            "wall.1.press: the wall 'ram' is pressed, which is not part of model = \"implicit\"\n");
   Parameters thin = stirred_slit().parameters;
   thin.laminar_viscosity.reset();
   thin.wall_model.suction = false;
