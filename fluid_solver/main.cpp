@@ -17,6 +17,8 @@
 #include "common/scene/bodies.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/fluid_model.hpp"
+#include "fluid_solver/implicit/implicit_faults.hpp"
+#include "fluid_solver/implicit/implicit_twin.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/wall_rows.hpp"
@@ -95,6 +97,21 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
       [&] { return link.waiting_time() - joined; });
 }
 
+/// Of the case as it is and, where it could be computed by implicit steps as well, which is cheaper.
+void tell_outlook(FluidModel& model, double end_time, const std::optional<fluid::Parameters>& twin,
+                  const Scene& scene_of_twin) {
+  const Outlook own = outlook("[fluid]", model, end_time);
+  print(own.text);
+  if (!twin) return;
+  const Outlook other =
+      outlook("[fluid] by implicit steps", *fluid::make_model(*twin, scene_of_twin), end_time);
+  print(other.text);
+  if (own.time && other.time)
+    print(*other.time < *own.time
+              ? "[fluid]: implicit steps are cheaper: " + fluid::keys_of_twin(*twin) + '\n'
+              : std::string("[fluid]: the case as it is is cheaper\n"));
+}
+
 /// Adds a fault of `file` for each section that others of the case make pointless or wrong.
 void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters& parameters) {
   const auto is_work_piece = [](const Wall& wall) { return wall.work_piece; };
@@ -143,7 +160,11 @@ ExitCode solve(const Options& options) {
   file.throw_if_faulty();
   for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
     file.fault(key, message);
+  for (const auto& [key, message] : fluid::implicit_faults(parameters, scene, file.has("solid")))
+    file.fault(key, message);
   file.throw_if_faulty();
+  const auto twin = fluid::implicit_twin(parameters, scene);
+  const Scene real_scene = scene;
   if (parameters.similarity) {
     const std::string made = fluid::make_similar(parameters, scene);
     log::info("{}", made);
@@ -161,6 +182,10 @@ ExitCode solve(const Options& options) {
     throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
                      "the fluid has a free surface at the start, where its pressure is 0: give no "
                      "mean pressure"}});
+  if (parameters.model == fluid::Model::implicit && !model.is_enclosed()) {
+    const auto [key, message] = fluid::implicit_surface_fault();
+    throw BadInput({{key, 0, 0, message}});
+  }
   model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
   const auto& particles = model.particles();
@@ -179,7 +204,7 @@ ExitCode solve(const Options& options) {
     log::warn("{}", *jet);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
-    if (options.outlook) print(outlook("[fluid]", model, scene.end_time));
+    if (options.outlook) tell_outlook(model, scene.end_time, twin, real_scene);
     return ExitCode::done;
   }
   if (file.has("solid"))

@@ -179,9 +179,19 @@ void describe_start(ParameterTable& table, Parameters& p) {
   table.optional("initial_flow", p.initial_flow, "a flow to start with");
 }
 
+void describe_model(ParameterTable& table, Parameters& p) {
+  table.choice("model", p.model, {"weakly_compressible", "implicit"},
+               {.help = "how the state advances: explicitly by delta-SPH, or velocity and pressure implicit "
+                        "together in long steps, for creeping media without free surface"});
+  table.optional("implicit", p.implicit, "how model = \"implicit\" solves its steps");
+  table.require(!p.implicit || p.model == Model::implicit, "implicit",
+                "[fluid.implicit] is for model = \"implicit\"");
+}
+
 void describe_terms(ParameterTable& table, Parameters& p) {
+  const bool is_implicit = p.model == Model::implicit;
   for_each_term(p, [&]<class Term>(std::optional<Term>& term) {
-    table.optional(Term::section, term, Term::help, absence_of<Term>());
+    table.optional(Term::section, term, Term::help, is_implicit ? Absence::leaves_out : absence_of<Term>());
   });
   table.group("wall_model", p.wall_model, "how walls act on the fluid (Adami, Hu & Adams 2012)");
 }
@@ -239,6 +249,7 @@ void take_defaults_of_similarity(Parameters& p) {
 
 void describe(ParameterTable& table, Parameters& p) {
   const bool was_similar = p.similarity.has_value();  // what was read is only written then
+  describe_model(table, p);
   describe_medium(table, p);
   if (p.similarity && !was_similar) take_defaults_of_similarity(p);
   describe_discretisation(table, p);

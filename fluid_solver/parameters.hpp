@@ -7,6 +7,7 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/scene/scene.hpp"
+#include "fluid_solver/implicit/solver_parameters.hpp"
 #include "fluid_solver/similarity.hpp"
 #include "fluid_solver/terms.hpp"
 
@@ -77,11 +78,15 @@ struct Observer {
 };
 void describe(ParameterTable& table, Observer& observer);
 
+/// How the state advances: `weakly_compressible/` or `implicit/`.
+enum class Model { weakly_compressible, implicit };
 enum class KernelForm { cubic_spline, wendland_c2 };
 enum class Integrator { midpoint, symplectic };
 
 struct Parameters : OptionalTerms {
-  double density = 1000.0;  ///< rho_0 [kg/m3]
+  Model model = Model::weakly_compressible;
+  std::optional<ImplicitSolver> implicit;  ///< its defaults where the implicit model has none
+  double density = 1000.0;                 ///< rho_0 [kg/m3]
   std::optional<Similarity> similarity;
   double sound_speed = 0;        ///< c_0 [m/s]
   int stiffness_exponent = 7;    ///< gamma of (3)

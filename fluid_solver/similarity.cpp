@@ -183,6 +183,10 @@ SimilarMedium similar_medium(const Parameters& p) {
   return similar;
 }
 
+BackgroundPressure similar_background(const SimilarMedium& similar) {
+  return {.pressure = background_share * similar.pressure_drop};
+}
+
 std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_solid) {
   if (!p.similarity) return {};
   if (with_solid)
@@ -221,8 +225,7 @@ std::string make_similar(Parameters& p, Scene& scene) {
   scene.gravity /= factor;
   p.density = similar.density;
   p.sound_speed = similar.sound_speed;
-  if (!p.background_pressure)
-    p.background_pressure = BackgroundPressure{.pressure = background_share * similar.pressure_drop};
+  if (!p.background_pressure) p.background_pressure = similar_background(similar);
   if (p.friction && p.friction->regularisation_speed == 0)
     p.friction->regularisation_speed = regularisation_share * p.similarity->mean_speed;
   return fmt::format(
@@ -241,8 +244,8 @@ std::string make_similar(Parameters& p, Scene& scene) {
 
 std::optional<std::string> creeping(const Parameters& p, const Scene& scene) {
   const double U = largest_wall_speed(scene);
-  if (p.similarity || U == 0 || !scene.gravity.isZero(0) || !is_viscous(p) || p.artificial_viscosity ||
-      key_of_inertia(p))
+  if (p.similarity || p.model == Model::implicit || U == 0 || !scene.gravity.isZero(0) || !is_viscous(p) ||
+      p.artificial_viscosity || key_of_inertia(p))
     return {};
   const double width = sides(p.regions).minCoeff();
   const double nu = slit_flow(p, U, width).wall_viscosity / p.density, Re = U * width / nu;

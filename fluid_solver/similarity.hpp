@@ -28,6 +28,7 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/scene/scene.hpp"
+#include "fluid_solver/terms/equation_of_state.hpp"
 
 namespace toryu::fluid {
 
@@ -61,6 +62,9 @@ struct SimilarMedium {
   double real_reynolds_number = 0;  ///< of the medium's own density
 };
 SimilarMedium similar_medium(const Parameters& parameters);
+
+/// The background pressure that such a medium has unless the case says another.
+BackgroundPressure similar_background(const SimilarMedium& similar);
 
 /// What stands against similarity in a case: key and fault.
 struct SimilarityFault {

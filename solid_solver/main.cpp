@@ -133,7 +133,7 @@ ExitCode solve(const Options& options) {
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
   for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
   if (options.check) {
-    if (options.outlook) print(outlook("[solid]", *model, scene.end_time));
+    if (options.outlook) print(outlook("[solid]", *model, scene.end_time).text);
     return ExitCode::done;
   }
   log::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());

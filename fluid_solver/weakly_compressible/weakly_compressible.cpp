@@ -97,10 +97,6 @@ WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene
   note_extremes();
 }
 
-std::unique_ptr<FluidModel> make_model(const Parameters& parameters, const Scene& scene) {
-  return std::make_unique<WeaklyCompressible>(parameters, scene);
-}
-
 double WeaklyCompressible::time_step_limit() const {
   return smallest_limit(parameters_, dynamics_.medium(), state_.largest).value;
 }

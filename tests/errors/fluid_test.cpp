@@ -176,6 +176,21 @@ INSTANTIATE_TEST_SUITE_P(
               "exponent=0.5}: error: 'infinite_shear_viscosity' must not exceed 'zero_shear_viscosity'; what "
               "thickens "
               "under shear has an exponent above 1"},
+        Fault{
+            "TermThatImplicitStepsHaveNot",
+            "fluid.artificial_viscosity=false' --set 'fluid.density_diffusion=false' --set "
+            "'fluid.laminar_viscosity.dynamic_viscosity=100' --set 'fluid.surface_tension.coefficient=1' "
+            "--set 'fluid.model=implicit",
+            "--set fluid.surface_tension.coefficient=1: error: [fluid.surface_tension] is not part of model "
+            "= \"implicit\""},
+        Fault{"ImplicitStepsUnderAFreeSurface",
+              "fluid.artificial_viscosity=false' --set 'fluid.density_diffusion=false' --set "
+              "'fluid.laminar_viscosity.dynamic_viscosity=100' --set 'fluid.model=implicit",
+              "[fluid]: error: the fluid has a free surface at the start, and model = \"implicit\" is for "
+              "media "
+              "that walls or periods enclose"},
+        Fault{"SolverOfAnotherModel", "fluid.implicit.tolerance=1e-3",
+              "--set fluid.implicit.tolerance=1e-3: error: [fluid.implicit] is for model = \"implicit\""},
         Fault{"WallInAWall", "wall.left.box.min=[-0.2,-0.1]",
               HYDROSTATIC_TANK
               "/case.toml:18:1: error: the wall 'left' overlaps the wall 'floor' near (-0.1, -0.05) m"},

@@ -27,7 +27,7 @@ class ChannelMiddle {
       if (wall.motion) motion_ = *wall.motion;  // both pistons move alike
   }
 
-  void sample(const WeaklyCompressible& solver, const EquationOfState& state) {
+  void sample(const FluidModel& solver, const EquationOfState& state) {
     const auto& f = solver.particles();
     const double middle = start_ + motion_.displacement_at(solver.time())[0];
     double n = 0, sum_x = 0, sum_p = 0, sum_xx = 0, sum_xp = 0;
@@ -72,13 +72,13 @@ inline constexpr double channel_width = 0.01, mean_velocity = 0.01;
 /// Runs the case; means over the time from `from` to its end, `every` so long [s].
 inline ChannelFlow run_channel(const FluidCase& the_case, const SlitSolution& exact, double from = 0.1,
                                double every = 0.002) {
-  WeaklyCompressible solver = the_case.solver();
+  const auto solver = make_model(the_case.parameters, the_case.scene);
   const auto& p = the_case.parameters;
   const EquationOfState state{p.density, p.sound_speed, p.stiffness_exponent, 0};
   ChannelMiddle middle(the_case, exact);
   for (double time = from; time < the_case.scene.end_time + 1e-9; time += every) {
-    run_until(solver, time);
-    middle.sample(solver, state);
+    run_until(*solver, time);
+    middle.sample(*solver, state);
   }
   return middle.mean();
 }

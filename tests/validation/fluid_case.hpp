@@ -29,7 +29,7 @@ struct FluidCase {
   }
 };
 
-inline void run_until(WeaklyCompressible& solver, double end) {
+inline void run_until(FluidModel& solver, double end) {
   while (solver.time() < end - 1e-12) solver.advance(std::min(solver.time_step_limit(), end - solver.time()));
 }
 

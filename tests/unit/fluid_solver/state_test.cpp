@@ -172,6 +172,14 @@ const Variant variants[] = {
        s.parameters.friction = Friction{0.3, FrictionForm::normalised, 0.5};
        s.parameters.removal = Removal{1e-9, {}, {}};
      }},
+    {"Implicit",
+     [](Setting& s) {
+       s.parameters.model = Model::implicit;
+       s.parameters.density_diffusion.reset();
+       s.parameters.artificial_viscosity.reset();
+       s.parameters.carreau = Carreau{500, 10, 0.1, 0.5};
+       s.parameters.particle_shifting = ParticleShifting{};
+     }},
     {"Plate", [](Setting&) {}, true},
     {"PlateWithImpulse", [](Setting&) {}, true, true},
     {"ConsistentPlateWithImpulse",

@@ -196,7 +196,7 @@ TEST(Columns, NeedNamesOfTheirOwn) {
 
 TEST(Outlook, TellsStepsAndTakesThem) {
   LimitedSolver solver({1e-3});
-  const std::string said = outlook("[fluid]", solver, 2.5);
+  const std::string said = outlook("[fluid]", solver, 2.5).text;
   EXPECT_EQ(
       said.find("[fluid]: time step 0.001 s (given limit) at the start, 2500 steps to t = 2.5 s, about "), 0u)
       << said;

@@ -1,0 +1,148 @@
+#include "fluid_solver/implicit/implicit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error/failure.hpp"
+#include "common/sph/skin.hpp"
+#include "fluid_solver/implicit/krylov.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+/// Of the spacing: how far a particle goes in a step.
+constexpr double advection_share = 0.2;
+/// The linear solver leaves so much of the unbalanced force, which the next update of the viscosity changes
+/// by more, and at the last so much of what is tolerated.
+constexpr double inner_tolerance = 0.1, last_tolerance = 0.5;
+
+double largest_speed_of(const std::vector<Wall>& walls) {
+  double largest = 0;
+  for (const Wall& wall : walls)
+    if (wall.motion)
+      for (const auto& row : wall.motion->velocity)
+        largest = std::max(largest, std::abs(wall.motion->speed) * std::hypot(row[1], row[2]));
+  return largest;
+}
+
+void move(Particles& fluid, double dt) {
+  for (int a = 0; a < dim; ++a)
+    for (std::size_t i = 0; i < fluid.count; ++i) fluid.x[a][i] += dt * fluid.v[a][i];
+}
+
+}  // namespace
+
+Implicit::Implicit(const Parameters& parameters, const Scene& scene)
+    : FluidModel(parameters, scene),
+      dynamics_(parameters, scene.gravity, kernel_, equation_of_state_),
+      terms_(parameters, scene.gravity, kernel_, equation_of_state_),
+      solver_(parameters.implicit.value_or(ImplicitSolver{})),
+      largest_wall_speed_(largest_speed_of(scene.walls)) {
+  dynamics_.allocate(state_.fluid);
+  if (parameters.particle_shifting)
+    shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
+  state_.balance = EnergyBalance(powers());
+  note_extremes();
+}
+
+double Implicit::time_step_limit() const {
+  const double length = advection_share * parameters_.time_step_share * parameters_.spacing;
+  const double u = std::max({state_.largest.speed, largest_wall_speed_, solver_.expected_speed}),
+               g = scene_.gravity.norm();
+  return std::min(length / u, std::sqrt(length / g));
+}
+
+void Implicit::advance(double dt) {
+  update_neighbours(dt);
+  if (shifting_) {
+    const auto timer = timers_.measure("free surface");
+    free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+  }
+  move(state_.fluid, 0.5 * dt);
+  move_boundaries(state_.time + 0.5 * dt);
+  solve(dt);
+  count_forces(dt);
+  move(state_.fluid, 0.5 * dt);
+  for (std::size_t i = 0; i < state_.fluid.count; ++i) state_.fluid.rho[i] += dt * state_.fluid.drho[i];
+  state_.time += dt;
+  move_boundaries(state_.time);
+  if (shifting_) {
+    const auto timer = timers_.measure("shifting");
+    shifting_->shift(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, state_.largest.speed, dt);
+  }
+  note_extremes();
+}
+
+void Implicit::solve(double dt) {
+  const auto timer = timers_.measure("implicit system");
+  StepSystem system(terms_, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, dt);
+  const StepSystem::Vector v_n = system.velocities(), at_rest = StepSystem::Vector::Zero(v_n.size());
+  StepSystem::Vector v = v_n;
+  Effort effort{.steps = 1};
+  for (;; ++effort.viscosity_updates) {
+    system.set_velocities(v);
+    system.update_viscosity();
+    const StepSystem::Vector b = system.unbalance(at_rest), r = system.unbalance(v);
+    const double driving = b.norm(), unbalance = r.norm();
+    if (unbalance <= solver_.tolerance * driving) break;
+    if (!std::isfinite(unbalance) || effort.iterations >= solver_.largest_iterations ||
+        effort.viscosity_updates >= solver_.largest_viscosity_updates)
+      fail(unbalance / driving, effort);
+    const double wanted = last_tolerance * solver_.tolerance * driving / unbalance;
+    correct(system, b, r, terms_.viscosity_varies() ? std::max(wanted, inner_tolerance) : wanted, v, effort);
+  }
+  system.set_accelerations((v - v_n) / dt);
+  effort_.steps += effort.steps;
+  effort_.iterations += effort.iterations;
+  effort_.viscosity_updates += effort.viscosity_updates;
+}
+
+void Implicit::correct(StepSystem& system, const StepSystem::Vector& b, const StepSystem::Vector& r,
+                       double tolerance, StepSystem::Vector& v, Effort& effort) const {
+  const Product product = [&](const StepSystem::Vector& x) -> StepSystem::Vector {
+    return b - system.unbalance(x);
+  };
+  const KrylovResult found = solve_by_bicgstab(product, system.diagonal(), r, tolerance,
+                                               solver_.largest_iterations - effort.iterations);
+  v += found.x;
+  effort.iterations += found.iterations;
+}
+
+void Implicit::fail(double unbalance, const Effort& effort) const {
+  const std::string taken =
+      effort.viscosity_updates >= solver_.largest_viscosity_updates
+          ? fmt::format("{} updates of the viscosity (fluid.implicit.largest_viscosity_updates)",
+                        effort.viscosity_updates)
+          : fmt::format("{} iterations of the linear solver (fluid.implicit.largest_iterations: {})",
+                        effort.iterations, solver_.largest_iterations);
+  throw PhysicsFailure(
+      "fluid", -1, state_.time,
+      "the implicit step is not solved: unbalanced force over the driving one after " + taken,
+      fmt::format("{:.3g}", unbalance), fmt::format("{:g} (fluid.implicit.tolerance)", solver_.tolerance));
+}
+
+void Implicit::note_extremes() {
+  state_.largest.speed = largest_norm(state_.fluid.v, state_.fluid.count);
+  state_.largest.acceleration = largest_norm(state_.fluid.a, state_.fluid.count);
+}
+
+std::vector<ActiveTerm> Implicit::active_terms() const {
+  auto texts = dynamics_.active_terms();
+  texts.push_back({"implicit steps", "(v - v^n)/dt = a(v), with p = p^n + c^2 dt drho(v)",
+                   "backward Euler; BiCGSTAB by van der Vorst 1992",
+                   fmt::format("tolerance {:g}, a particle goes {:g} spacings in a step", solver_.tolerance,
+                               advection_share * parameters_.time_step_share)});
+  return texts;
+}
+
+std::vector<std::pair<std::string, double>> Implicit::figures() const {
+  const auto per_step = [&](long count) {
+    return static_cast<double>(count) / static_cast<double>(std::max(1L, effort_.steps));
+  };
+  return {
+      {"iterations_per_step", per_step(effort_.iterations)},
+      {"viscosity_updates_per_step", terms_.viscosity_varies() ? per_step(effort_.viscosity_updates) : 0.0}};
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,62 @@
+/// Creeping media: velocity and pressure implicit together, in steps as long as advection allows.
+///
+/// A step from t to t + dt, by backward Euler with the places of its middle:
+///
+///     x += dt/2 v^n;   v = the solution of step_system.hpp;   x += dt/2 v;   rho += dt drho(v)
+///
+/// The density stays the state and gives the pressure, as in the weakly compressible model: what is implicit
+/// is that pressure and viscous force are those of the new velocity. Long steps damp inertia and sound, and
+/// what remains is the Stokes flow; errors in time are of first order. The places limit the step: a particle
+/// goes 0.2 spacings in one.
+///
+/// A viscosity that varies is found anew (Picard) until the forces are in balance with it:
+///
+///     |v^n + dt a(v) - v| <= tolerance |v^n + dt a(0)|        with eta(v), in the root mean square
+///
+/// Lagged by a step instead it would be right in steady flow alone. A step whose system is not solved so far
+/// ends the run.
+#pragma once
+
+#include "fluid_solver/fluid_model.hpp"
+#include "fluid_solver/implicit/step_system.hpp"
+#include "fluid_solver/weakly_compressible/dynamics.hpp"
+#include "fluid_solver/weakly_compressible/shifting.hpp"
+
+namespace toryu::fluid {
+
+class Implicit final : public FluidModel {
+ public:
+  Implicit(const Parameters& parameters, const Scene& scene);
+
+  /// Infinite where nothing moves or pulls.
+  double time_step_limit() const override;
+  std::string_view time_step_rule() const override { return "advection"; }
+  /// Throws PhysicsFailure if the system of the step is not solved.
+  void advance(double dt) override;
+  std::vector<ActiveTerm> active_terms() const override;
+  std::vector<Power> powers() const override {
+    return dynamics_.powers(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);
+  }
+  std::vector<std::pair<std::string, double>> figures() const override;
+
+ private:
+  /// What the solver has done, in a step or in all.
+  struct Effort {
+    long steps = 0, iterations = 0, viscosity_updates = 0;
+  };
+  void solve(double dt);
+  /// Adds to `v` what takes the unbalanced force `r` of the present viscosity down to `tolerance` of it.
+  void correct(StepSystem& system, const StepSystem::Vector& b, const StepSystem::Vector& r, double tolerance,
+               StepSystem::Vector& v, Effort& effort) const;
+  [[noreturn]] void fail(double unbalance, const Effort& effort) const;
+  void note_extremes();
+
+  Dynamics dynamics_;
+  ImplicitTerms terms_;
+  ImplicitSolver solver_;
+  double largest_wall_speed_;  ///< over all of the run [m/s]
+  std::optional<Shifting> shifting_;
+  Effort effort_;  ///< of this process
+};
+
+}  // namespace toryu::fluid

@@ -1,0 +1,57 @@
+#include "fluid_solver/implicit/implicit_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+
+namespace toryu::fluid {
+
+namespace {
+
+constexpr const char* key_of_model = "fluid.model";
+
+template <class Term, class... Known>
+constexpr bool is_one_of = (std::is_same_v<Term, Known> || ...);
+
+/// Terms that are in the matrix, or act between steps.
+template <class Term>
+constexpr bool is_implicit = is_one_of<Term, BackgroundPressure, EnclosedMedium, ParticleShifting,
+                                       LaminarViscosity, PowerLaw, Carreau>;
+
+}  // namespace
+
+std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene, bool with_solid) {
+  if (p.model != Model::implicit) return {};
+  std::vector<StartFault> faults;
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    faults.push_back({key, why + " model = \"implicit\""});
+  };
+  for_each_term(p, [&]<class Term>(const std::optional<Term>& term) {
+    if (term && !is_implicit<Term>)
+      refuse(std::string("fluid.") + Term::section,
+             std::string("[fluid.") + Term::section + "] is not part of");
+  });
+  for (std::size_t i = 0; i < scene.walls.size(); ++i)
+    if (scene.walls[i].press)  // its velocity would be one more unknown of the system
+      refuse(fmt::format("wall.{}.press", i),
+             fmt::format("the wall '{}' is pressed, which is not part of", scene.walls[i].name));
+  if (with_solid) refuse(key_of_model, "an elastic solid is not coupled to");
+  if (!is_viscous(p))
+    refuse(key_of_model,
+           "a viscosity ([fluid.laminar_viscosity], [fluid.power_law] or [fluid.carreau]) is needed by");
+  if (p.similarity)
+    refuse("fluid.similarity", "its steps do not depend on the density, so nothing is chosen for");
+  if (!p.wall_model.suction)
+    refuse("fluid.wall_model.suction", "walls that do not hold the fluid are not part of");
+  if (p.wall_model.density == WallDensity::from_pressure)
+    refuse("fluid.wall_model.density", "walls of another density than at rest are not part of");
+  return faults;
+}
+
+StartFault implicit_surface_fault() {
+  return {"[fluid]",
+          "the fluid has a free surface at the start, and model = \"implicit\" is for media that walls or "
+          "periods enclose"};
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,43 @@
+#include "fluid_solver/implicit/implicit_twin.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "fluid_solver/implicit/implicit_faults.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+/// Largest over mean speed between plates, of a Newtonian medium.
+constexpr double peak_share = 1.5;
+
+}  // namespace
+
+std::optional<Parameters> implicit_twin(const Parameters& as_read, const Scene& scene) {
+  if (!as_read.similarity) return {};
+  const SimilarMedium similar = similar_medium(as_read);
+  Parameters twin = as_read;
+  twin.model = Model::implicit;
+  twin.similarity.reset();
+  twin.density_diffusion.reset();
+  twin.time_step_share = 2;
+  twin.implicit = ImplicitSolver{.expected_speed = peak_share * as_read.similarity->mean_speed};
+  twin.sound_speed = similar.sound_speed * std::sqrt(similar.density / as_read.density);
+  if (!twin.background_pressure) twin.background_pressure = similar_background(similar);
+  if (!implicit_faults(twin, scene, false).empty()) return {};
+  return twin;
+}
+
+std::string keys_of_twin(const Parameters& twin) {
+  return fmt::format(
+      "model = \"implicit\", similarity = false, sound_speed = {:.4g}, background_pressure = {{ pressure = "
+      "{:.4g} }}, kernel = \"{}\", smoothing_ratio = {:g}, time_step_share = {:g}, implicit = {{ "
+      "expected_speed = {:.4g} }}",
+      twin.sound_speed, twin.background_pressure->pressure,
+      twin.kernel == KernelForm::wendland_c2 ? "wendland_c2" : "cubic_spline", twin.smoothing_ratio,
+      twin.time_step_share, twin.implicit->expected_speed);
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,193 @@
+#include "fluid_solver/implicit/step_system.hpp"
+
+#include "fluid_solver/terms/velocity_gradient.hpp"
+#include "fluid_solver/wall_extrapolation.hpp"
+#include "fluid_solver/weakly_compressible/pair_loop.hpp"
+
+namespace toryu::fluid {
+
+namespace {
+
+/// The first component of all particles, then the second.
+StepSystem::Vector vector_of_all(const VecField& field, std::size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  StepSystem::Vector all(dim * n);
+  for (int a = 0; a < dim; ++a)
+    all.segment(a * n, n) = Eigen::Map<const StepSystem::Vector>(field[a].data(), n);
+  return all;
+}
+void set_all(VecField& field, const StepSystem::Vector& all) {
+  const Eigen::Index n = all.size() / dim;
+  for (int a = 0; a < dim; ++a) Eigen::Map<StepSystem::Vector>(field[a].data(), n) = all.segment(a * n, n);
+}
+
+/// sum + factor a (x) b.
+TORYU_INLINE void add_dyad(TensorLanes& sum, const Lanes& factor, const VecLanes& a, const VecLanes& b) {
+  for (int k = 0; k < dim; ++k)
+    for (int l = 0; l < dim; ++l) sum[k][l] += factor * a[k] * b[l];
+}
+
+}  // namespace
+
+ImplicitTerms::ImplicitTerms(const Parameters& of_case, const Vec& gravity, const Kernel& W,
+                             const EquationOfState& of_medium)
+    : parameters(of_case),
+      kernel(W),
+      state(of_medium),
+      body_force{.gravity = gravity},
+      viscous_walls(of_case.wall_model.slip == WallSlip::no_slip) {
+  if (const auto& l = of_case.laminar_viscosity)
+    chosen.viscous = LaminarViscosityTerm{l->dynamic_viscosity};
+  else if (is_viscous(of_case))
+    chosen.viscous = VariableViscosityTerm{};
+}
+
+StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const ClusterList& neighbours,
+                       std::vector<Boundary>& boundaries, double dt)
+    : terms_(terms),
+      fluid_(fluid),
+      neighbours_(neighbours),
+      boundaries_(boundaries),
+      dt_(dt),
+      v_n_(velocities()),
+      p_n_(padded(fluid.count)),
+      c2_(padded(fluid.count)) {
+  const EquationOfState& s = terms.state;
+  for (std::size_t i = 0; i < fluid.count; ++i) {
+    const double rho = fluid.rho[i];
+    fluid.V[i] = fluid.m[i] / rho;
+    p_n_[i] = s.pressure(rho);
+    c2_[i] = s.gamma * (p_n_[i] - s.p_b + s.p_0()) / rho;
+  }
+  for (Boundary& boundary : boundaries) {
+    boundary.force_on_fluid.by_cluster.resize(fluid.clusters());
+    if (!terms.viscosity_varies()) continue;
+    boundary.eta.resize(boundary.V.size());
+    resize(boundary.eta_grad_v, boundary.V.size());
+  }
+}
+
+StepSystem::Vector StepSystem::velocities() const {
+  return vector_of_all(fluid_.v, fluid_.count);
+}
+
+void StepSystem::set_velocities(const Vector& v) {
+  set_all(fluid_.v, v);
+}
+
+void StepSystem::set_accelerations(const Vector& a) {
+  set_all(fluid_.a, a);
+}
+
+void StepSystem::pressures() {
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < fluid_.clusters(); ++c) {
+    const std::size_t first = c * lane_count;
+    const Lanes inverse_rho = inverse(load(fluid_.rho, first));
+    const Lanes p = load(p_n_, first) + dt_ * load(c2_, first) * load(fluid_.drho, first);
+    store(p, fluid_.p, first);
+    store(p * inverse_rho * inverse_rho, fluid_.p_rho2, first);
+  }
+}
+
+template <class W>
+void StepSystem::stresses(const W& kernel, std::size_t cluster, bool renew_viscosity) {
+  const std::size_t first = cluster * lane_count;
+  VelocityGradient gradient(load(fluid_.x, first), load(fluid_.v, first));
+  gradient.add(sources(fluid_), neighbours_.near(cluster), kernel);
+  if (terms_.viscous_walls)
+    for (const Boundary& wall : boundaries_)
+      gradient.add(sources(wall), wall.list_for_fluid.near(cluster), kernel);
+  TensorLanes grad_v = gradient.value();
+  if (renew_viscosity) {
+    const Lanes gdot = shear_rate(grad_v);
+    store(gdot, fluid_.gdot, first);
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      fluid_.eta[first + lane] = viscosity_of(terms_.parameters, gdot[lane]);
+  }
+  for (auto& row : grad_v)
+    for (auto& component : row) component *= load(fluid_.eta, first);
+  store(grad_v, fluid_.eta_grad_v, first);
+}
+
+void StepSystem::update_viscosity() {
+  if (!terms_.viscosity_varies()) return;
+  terms_.kernel.visit([&](const auto& W) {
+#pragma omp parallel
+    {
+      for (Boundary& boundary : boundaries_)
+        extrapolate(boundary, fluid_, terms_.kernel, terms_.body_force.gravity);
+#pragma omp for schedule(dynamic, 8)
+      for (std::size_t c = 0; c < fluid_.clusters(); ++c) stresses(W, c, true);
+    }
+  });
+}
+
+void StepSystem::evaluate() {
+  const PairSweeps sweeps = terms_.sweeps();
+  terms_.kernel.visit([&](const auto& W) {
+    sweeps.rates(W, RatesOf::density, fluid_, neighbours_, boundaries_);
+#pragma omp parallel
+    {
+      pressures();
+      for (Boundary& boundary : boundaries_)
+        extrapolate(boundary, fluid_, terms_.kernel, terms_.body_force.gravity);
+      if (terms_.viscosity_varies()) {
+#pragma omp for schedule(dynamic, 8)
+        for (std::size_t c = 0; c < fluid_.clusters(); ++c) stresses(W, c, false);
+        if (terms_.viscous_walls)
+          for (Boundary& boundary : boundaries_) extrapolate_viscosity(boundary, fluid_, terms_.kernel);
+      }
+    }
+    sweeps.rates(W, RatesOf::velocity, fluid_, neighbours_, boundaries_);
+  });
+}
+
+StepSystem::Vector StepSystem::unbalance(const Vector& v) {
+  set_velocities(v);
+  evaluate();
+  return v_n_ + dt_ * vector_of_all(fluid_.a, fluid_.count) - v;
+}
+
+std::vector<StepSystem::Block> StepSystem::diagonal() const {
+  std::vector<Block> blocks(fluid_.count);
+  const double mu =
+      terms_.parameters.laminar_viscosity ? terms_.parameters.laminar_viscosity->dynamic_viscosity : 0;
+  const bool varies = terms_.viscosity_varies();
+  const auto of_cluster = [&](const auto& W, std::size_t c) {
+    const std::size_t first = c * lane_count;
+    const VecLanes x_i = load(fluid_.x, first);
+    const Lanes rho_i = load(fluid_.rho, first), V_i = load(fluid_.V, first), c2_i = load(c2_, first);
+    const Lanes eta_i = varies ? load(fluid_.eta, first) : Lanes(mu);
+    Lanes viscous = 0.0;
+    VecLanes of_volume = zero_vector(), of_mass = zero_vector();
+    TensorLanes of_pressure = zero_tensor();
+    const auto add = [&](const Sources& s, std::span<const ShiftedNeighbours> near, bool is_fluid) {
+      over_neighbours(W, near, x_i, s.x, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+        const Lanes V_G = s.V[j] * n.G;
+        if (is_fluid || terms_.viscous_walls) {
+          const Lanes eta_j = varies ? Lanes(s.eta[j]) : Lanes(mu);
+          viscous += 4.0 * eta_i * eta_j * inverse(max(eta_i + eta_j, 1e-300)) * V_G;
+        }
+        add_product(of_volume, V_G, n.x_ij);
+        add_product(of_mass, s.m[j] * n.G, n.x_ij);
+        if (is_fluid) add_dyad(of_pressure, V_G * n.G * V_i * c2_[j], n.x_ij, n.x_ij);
+      });
+    };
+    add(sources(fluid_), neighbours_.near(c), true);
+    for (const Boundary& wall : boundaries_) add(sources(wall), wall.list_for_fluid.near(c), false);
+    add_dyad(of_pressure, c2_i * inverse(rho_i), of_mass, of_volume);
+    const Lanes own = 1.0 - dt_ * viscous * inverse(rho_i);
+    for (std::size_t i = first; i < std::min(first + lane_count, fluid_.count); ++i)
+      for (int k = 0; k < dim; ++k)
+        for (int l = 0; l < dim; ++l)
+          blocks[i](k, l) = (k == l ? own[i - first] : 0.0) + dt_ * dt_ * of_pressure[k][l][i - first];
+  };
+  terms_.kernel.visit([&](const auto& W) {
+#pragma omp parallel for schedule(dynamic, 8)
+    for (std::size_t c = 0; c < fluid_.clusters(); ++c) of_cluster(W, c);
+  });
+  return blocks;
+}
+
+}  // namespace toryu::fluid

@@ -1,0 +1,85 @@
+/// The system that one implicit step solves: all velocities v at the end of the step, with the places x of
+/// its middle,
+///
+///     (v_i - v_i^n)/dt = a_i(v),   a_i = pressure with p(v) + viscosity with v + gravity
+///     p_i(v) = p_i^n + c_i^2 dt drho_i(v),   c_i^2 = dp/drho at rho_i^n
+///     drho_i(v) = rho_i sum_j V_j v_ij . gradW_ij
+///
+/// with the walls' pressure and velocity extrapolated from p(v) and v. For a given viscosity it is linear in
+/// v: with V the viscous sweep, D and G those of continuity and pressure and K = rho c^2,
+///
+///     (rho/dt - V + dt G K D) v = rho v^n/dt - G p^n + rho g + what walls that move do.
+///
+/// Nothing is assembled: a product is one evaluation of the explicit model's sweeps, so that each pair has
+/// the force that it has there. Pressure and viscosity are not split as projection methods do: that leaves an
+/// error of the order of dt nu/w^2 between walls w apart, and dt is far above w^2/nu here.
+///
+/// The matrix is not symmetric: where walls extrapolate, the force of a pair depends on who else is near.
+/// Where no wall is in reach, G is minus the adjoint of D but for the ratio of the two densities, and the sum
+/// of m_i times its rows is that of m_i/dt: momentum is kept as by the explicit sweeps.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "fluid_solver/boundary.hpp"
+#include "fluid_solver/parameters.hpp"
+#include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
+
+namespace toryu::fluid {
+
+/// What of the model stays the same from step to step.
+struct ImplicitTerms {
+  ImplicitTerms(const Parameters& of_case, const Vec& gravity, const Kernel& W,
+                const EquationOfState& of_medium);
+  bool viscosity_varies() const { return std::holds_alternative<VariableViscosityTerm>(chosen.viscous); }
+  PairSweeps sweeps() const { return {chosen, body_force, viscous_walls, true, parameters.density, false}; }
+
+  Parameters parameters;
+  Kernel kernel;
+  EquationOfState state;
+  BodyForce body_force;
+  ChosenTerms chosen;
+  bool viscous_walls;
+};
+
+class StepSystem {
+ public:
+  using Vector = Eigen::VectorXd;
+  using Block = Eigen::Matrix2d;
+
+  /// For a step of `dt` [s] from the velocities, densities and, if it varies, viscosity of `fluid`, whose
+  /// places and whose boundaries are at the middle of the step.
+  StepSystem(const ImplicitTerms& terms, Particles& fluid, const ClusterList& neighbours,
+             std::vector<Boundary>& boundaries, double dt);
+
+  /// The velocities of `fluid`, x before y [m/s], and back.
+  Vector velocities() const;
+  void set_velocities(const Vector& v);
+  void set_accelerations(const Vector& a);  ///< [m/s2]
+
+  /// Finds the viscosity at the shear rates of the present velocities.
+  void update_viscosity();
+  /// Fills p, drho and a of `fluid` at its velocities, and what the boundaries do to it.
+  void evaluate();
+  /// v^n + dt a(v) - v [m/s]: the unbalanced force, over m/dt.
+  Vector unbalance(const Vector& v);
+  /// The blocks of the matrix 1 - dt da/dv on its diagonal, those of the walls' extrapolation left out.
+  std::vector<Block> diagonal() const;
+
+ private:
+  void pressures();
+  void stresses();
+  template <class W>
+  void stresses(const W& kernel, std::size_t cluster, bool renew_viscosity);
+
+  const ImplicitTerms& terms_;
+  Particles& fluid_;
+  const ClusterList& neighbours_;
+  std::vector<Boundary>& boundaries_;
+  double dt_;
+  Vector v_n_;
+  Field p_n_, c2_;  ///< [Pa], [m2/s2]
+};
+
+}  // namespace toryu::fluid

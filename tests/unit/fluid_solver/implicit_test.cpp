@@ -1,0 +1,377 @@
+// The implicit model: its matrix pair by pair and against the explicit sweeps, momentum, decay, stability,
+// and how a step that is not solved ends.
+#include "fluid_solver/implicit/implicit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+
+#include "common/error/failure.hpp"
+#include "common/sph/skin.hpp"
+#include "fluid_solver/implicit/implicit_faults.hpp"
+#include "fluid_solver/implicit/implicit_twin.hpp"
+#include "tests/unit/fluid_solver/few_particles.hpp"
+#include "tests/unit/fluid_solver/scenes.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+using testing::HasSubstr;
+using Vector = StepSystem::Vector;
+
+[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
+
+constexpr double h = 0.013, c_0 = 20, mu = 3, dt = 0.7e-3;
+
+const std::vector<Point> three{{{0.100, 0.200}, {0.3, -0.2}, 1010, 0.11},
+                               {{0.109, 0.203}, {-0.1, 0.1}, 1005, 0.10},
+                               {{0.095, 0.214}, {0.2, 0.5}, 990, 0.12}};
+
+/// Particles in empty space as a step meets them.
+struct Few {
+  explicit Few(const std::vector<Point>& points) {
+    fluid.count = points.size();
+    fluid.id.resize(fluid.count);
+    std::iota(fluid.id.begin(), fluid.id.end(), 0u);
+    resize_fields(fluid, padded(fluid.count));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      set(fluid.x, i, points[i].x);
+      set(fluid.v, i, points[i].v);
+      fluid.rho[i] = points[i].rho;
+      fluid.m[i] = points[i].m;
+    }
+    lists.build(fluid, none, 0);
+  }
+  Particles fluid;
+  std::vector<Boundary> none;
+  Neighbours lists{2 * h, 0.1 * h, 0.1, {Vec::Zero()}};
+};
+
+ImplicitTerms terms_of(const Parameters& p) {
+  return {p, Vec::Zero(), CubicSpline(h), EquationOfState{1000, c_0, 7, 5000}};
+}
+
+Parameters newtonian() {
+  Parameters p;
+  p.laminar_viscosity = LaminarViscosity{mu};
+  return p;
+}
+
+/// Column by column: what unit velocities change.
+Eigen::MatrixXd matrix_of(StepSystem& system) {
+  const Eigen::Index n = system.velocities().size();
+  const Vector at_rest = system.unbalance(Vector::Zero(n));
+  Eigen::MatrixXd A(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) A.col(k) = at_rest - system.unbalance(Vector::Unit(n, k));
+  return A;
+}
+
+TEST(ImplicitMatrix, HasTheEntriesOfViscosityAndCompressionByHand) {
+  Few few(three);
+  const Particles& f = few.fluid;
+  const ImplicitTerms terms = terms_of(newtonian());
+  StepSystem system(terms, few.fluid, few.lists.of_fluid(), few.none, dt);
+  const Eigen::MatrixXd A = matrix_of(system);
+  const auto grad = [&](std::size_t i, std::size_t j) -> Vec {
+    return i == j ? Vec(Vec::Zero()) : grad_W(at(f.x, i), at(f.x, j), h);
+  };
+  for (std::size_t j = 0; j < 3; ++j)  // who moves
+    for (int b = 0; b < dim; ++b) {    // and in which direction
+      const auto v = [&](std::size_t i) -> Vec { return i == j ? Vec(Vec::Unit(b)) : Vec(Vec::Zero()); };
+      std::array<double, 3> change{};  // of the pressure, K dt D v
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double c2 = c_0 * c_0 * std::pow(f.rho[i] / 1000, 6);
+        for (std::size_t k = 0; k < 3; ++k)
+          change[i] += c2 * dt * f.rho[i] * f.m[k] / f.rho[k] * (v(i) - v(k)).dot(grad(i, k));
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        Vec a = Vec::Zero();
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (k == i) continue;
+          const Vec x_ik = at(f.x, i) - at(f.x, k);
+          a -= f.m[k] * (change[i] / (f.rho[i] * f.rho[i]) + change[k] / (f.rho[k] * f.rho[k])) * grad(i, k);
+          a += f.m[k] * 2 * mu / (f.rho[i] * f.rho[k]) * x_ik.dot(grad(i, k)) / x_ik.squaredNorm() *
+               (v(i) - v(k));
+        }
+        const Vec expected = v(i) - dt * a;
+        for (int k = 0; k < dim; ++k)
+          EXPECT_NEAR(A(3 * k + static_cast<Eigen::Index>(i), 3 * b + static_cast<Eigen::Index>(j)),
+                      expected[k], 1e-12 * A.norm())
+              << i << k << j << b;
+      }
+    }
+  EXPECT_GT((A - Eigen::MatrixXd::Identity(6, 6)).norm(), 0.1);
+}
+
+TEST(ImplicitMatrix, HasTheDiagonalBlocksOfThePreconditioner) {
+  Few few(three);
+  const ImplicitTerms terms = terms_of(newtonian());
+  StepSystem system(terms, few.fluid, few.lists.of_fluid(), few.none, dt);
+  system.evaluate();
+  const auto blocks = system.diagonal();
+  const Eigen::MatrixXd A = matrix_of(system);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (int a = 0; a < dim; ++a)
+      for (int b = 0; b < dim; ++b)
+        EXPECT_NEAR(blocks[static_cast<std::size_t>(i)](a, b), A(3 * a + i, 3 * b + i), 1e-12 * A.norm());
+}
+
+TEST(ImplicitMatrix, GivesAndTakesMomentumPairByPair) {
+  for (const bool varies : {false, true}) {
+    Parameters p = newtonian();
+    if (varies) {
+      p.laminar_viscosity.reset();
+      p.carreau = Carreau{5, 0.1, 0.1, 0.5};
+    }
+    Few few(three);
+    few.fluid.gdot.resize(padded(3));
+    few.fluid.eta.resize(padded(3));
+    resize(few.fluid.eta_grad_v, padded(3));
+    const ImplicitTerms terms = terms_of(p);
+    StepSystem system(terms, few.fluid, few.lists.of_fluid(), few.none, dt);
+    system.update_viscosity();
+    const Eigen::MatrixXd A = matrix_of(system);
+    for (Eigen::Index column = 0; column < 6; ++column)
+      for (int a = 0; a < dim; ++a) {
+        double momentum = 0;
+        for (Eigen::Index i = 0; i < 3; ++i)
+          momentum += few.fluid.m[static_cast<std::size_t>(i)] * A(3 * a + i, column);
+        const bool own = column / 3 == a;
+        EXPECT_NEAR(momentum, own ? few.fluid.m[static_cast<std::size_t>(column % 3)] : 0.0,
+                    1e-14 * A.norm());
+      }
+  }
+}
+
+/// A medium between plates, stirred: walls extrapolate.
+Setting stirred_slit() {
+  Setting s = empty_space();
+  s.parameters.artificial_viscosity.reset();
+  s.parameters.density_diffusion.reset();
+  s.parameters.model = Model::implicit;
+  s.parameters.laminar_viscosity = LaminarViscosity{2000};
+  s.parameters.start_disorder = 0.1;
+  s.parameters.regions = {{"medium", {Vec(0, 0), Vec(1, 0.6)}, Vec(0.3, 0.1)}};
+  s.scene.walls = {{"lower", {Vec(-0.2, -0.2), Vec(1.2, 0)}, {}},
+                   {"upper", {Vec(-0.2, 0.6), Vec(1.2, 0.8)}, {}},
+                   {"left", {Vec(-0.2, 0), Vec(0, 0.6)}, Motion{{{0.0, 0.0, 0.0}, {0.05, 0.3, 0.0}}}},
+                   {"right", {Vec(1, 0), Vec(1.2, 0.6)}, Motion{{{0.0, 0.0, 0.0}, {0.05, 0.3, 0.0}}}}};
+  s.scene.gravity = Vec(0.5, -1);
+  return s;
+}
+
+void thin_under_shear(Setting& s) {
+  s.parameters.laminar_viscosity.reset();
+  s.parameters.power_law = PowerLaw{1000, 0.4, 10, 16000};
+}
+
+// With a step of no length the pressure is that of the state: the rates are those of the explicit model.
+TEST(ImplicitMatrix, HasTheRatesOfTheExplicitSweepsAtWallsToo) {
+  for (const bool varies : {false, true})
+    for (const auto extrapolation : {WallExtrapolation::mean, WallExtrapolation::fit}) {
+      Setting s = stirred_slit();
+      s.parameters.wall_model.extrapolation = extrapolation;
+      if (varies) thin_under_shear(s);
+      Implicit model(s.parameters, s.scene);
+      model.advance(1e-3);  // a flow that nobody chose
+      Particles fluid = model.particles();
+      std::vector<Boundary> boundaries = model.boundaries();
+      Neighbours lists(2 * s.parameters.h(), 0.01, s.parameters.strip_width(), {Vec::Zero()});
+      lists.build(fluid, boundaries, 0);
+      const CubicSpline W(s.parameters.h());
+      const EquationOfState state{s.parameters.density, s.parameters.sound_speed, 7, 0};
+      const ImplicitTerms terms(s.parameters, s.scene.gravity, W, state);
+      StepSystem system(terms, fluid, lists.of_fluid(), boundaries, 0);
+      system.update_viscosity();
+      system.evaluate();
+      const Particles found = fluid;
+      const Dynamics dynamics(s.parameters, s.scene.gravity, W, state);
+      Timers timers;
+      dynamics.evaluate(RatesOf::both, fluid, lists.of_fluid(), boundaries, timers);
+      EXPECT_GT(largest_norm(fluid.a, fluid.count), 1);
+      for (std::size_t i = 0; i < fluid.count; ++i) {
+        EXPECT_LT((at(found.a, i) - at(fluid.a, i)).norm(), 1e-12 * largest_norm(fluid.a, fluid.count));
+        EXPECT_NEAR(found.drho[i], fluid.drho[i], 1e-12 * std::abs(fluid.drho[i]));
+      }
+    }
+}
+
+TEST(Implicit, KeepsMomentumInEmptySpace) {
+  Setting s = colliding_drops();
+  s.parameters.model = Model::implicit;
+  s.parameters.artificial_viscosity.reset();
+  s.parameters.density_diffusion.reset();
+  s.parameters.laminar_viscosity = LaminarViscosity{500};
+  s.parameters.implicit = ImplicitSolver{.tolerance = 1e-10};
+  Implicit model(s.parameters, s.scene);
+  const Vec before = model.momentum();
+  const double energy = model.kinetic_energy();
+  for (int n = 0; n < 5; ++n) model.advance(2e-3);
+  EXPECT_LT(model.kinetic_energy(), 0.9 * energy);
+  EXPECT_LT((model.momentum() - before).norm(), 1e-9 * before.norm());
+}
+
+TEST(Implicit, CountsTheImpulseOfWallsToTheToleranceOfTheSolver) {
+  Setting s = stirred_slit();
+  s.parameters.implicit = ImplicitSolver{.tolerance = 1e-9};
+  Implicit model(s.parameters, s.scene);
+  const Vec before = model.momentum();
+  double mass = 0, scale = 0;
+  for (std::size_t i = 0; i < model.particles().count; ++i) mass += model.particles().m[i];
+  for (int n = 0; n < 10; ++n) model.advance(4e-3);
+  Vec given = 10 * 4e-3 * mass * s.scene.gravity;
+  for (const auto& wall : model.boundaries()) given += wall.impulse.total, scale += wall.impulse.total.norm();
+  EXPECT_LT((model.momentum() - before - given).norm(), 1e-8 * scale);
+}
+
+/// Slow vortices in a periodic square, and the rate at which they decay.
+constexpr double k = 2 * M_PI, nu = 1.0, rate = 2 * nu * k * k;
+Setting vortices() {
+  Setting s = empty_space();
+  s.scene.domain = {Vec(0, 0), Vec(1, 1)};
+  s.scene.periodic = Periodic::xy;
+  s.parameters.model = Model::implicit;
+  s.parameters.artificial_viscosity.reset();
+  s.parameters.density_diffusion.reset();
+  s.parameters.kernel = KernelForm::wendland_c2;
+  s.parameters.smoothing_ratio = 2;
+  s.parameters.spacing = 0.025;
+  s.parameters.laminar_viscosity = LaminarViscosity{1000 * nu};
+  s.parameters.regions = {{"all", s.scene.domain, Vec::Zero()}};
+  s.parameters.initial_flow = InitialFlow{FlowProfile::taylor_green, 1e-4, 1.0, 0, Vec::Zero()};
+  s.parameters.implicit = ImplicitSolver{.tolerance = 1e-9};
+  return s;
+}
+/// Speed of the fastest over that at the start after `steps` steps of dt.
+double left_of_vortices(double step, int steps) {
+  const Setting s = vortices();
+  Implicit model(s.parameters, s.scene);
+  const double before = largest_norm(model.particles().v, model.particles().count);
+  for (int n = 0; n < steps; ++n) model.advance(step);
+  return largest_norm(model.particles().v, model.particles().count) / before;
+}
+
+TEST(Implicit, DecaysVorticesAsTheExactSolutionToFirstOrder) {
+  const double T = 1 / rate;
+  const double coarse = left_of_vortices(T / 8, 8), middle = left_of_vortices(T / 16, 16),
+               fine = left_of_vortices(T / 32, 32);
+  EXPECT_NEAR(std::log2((coarse - middle) / (middle - fine)), 1, 0.06);
+  EXPECT_NEAR(2 * fine - middle, std::exp(-1), 0.01);  // what remains is of the spacing
+}
+
+TEST(Implicit, IsStableAtAHundredTimesTheExplicitViscousStep) {
+  const double h_of_vortices = 2 * 0.025, step = 100 * 0.125 * h_of_vortices * h_of_vortices / nu;
+  EXPECT_NEAR(left_of_vortices(step, 1), 1 / (1 + rate * step), 0.03 / (1 + rate * step));
+  EXPECT_LT(left_of_vortices(step, 6), 1.1 * std::pow(1 + rate * step, -6));
+}
+
+TEST(Implicit, IsTheSameBitByBitForAnyNumberOfThreads) {
+  const auto run = [](int threads) {
+    omp_set_num_threads(threads);
+    Setting s = stirred_slit();
+    thin_under_shear(s);
+    s.parameters.particle_shifting = ParticleShifting{};
+    Implicit model(s.parameters, s.scene);
+    for (int n = 0; n < 3; ++n) model.advance(2e-3);
+    omp_set_num_threads(1);
+    std::vector<Vec> x;
+    for (std::size_t i = 0; i < model.particles().count; ++i) x.push_back(at(model.particles().x, i));
+    return x;
+  };
+  const auto one = run(1);
+  EXPECT_EQ(run(2), one);
+  EXPECT_EQ(run(3), one);
+}
+
+TEST(Implicit, LimitsTheStepByWhatMovesOrPulls) {
+  Setting s = stirred_slit();
+  const double speed = Vec(0.3, 0.1).norm();
+  EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / speed);
+  s.scene.walls[2].motion->speed = 4;  // the fastest of its table
+  EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / 1.2);
+  s.parameters.implicit = ImplicitSolver{.expected_speed = 6};
+  EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), 0.2 * 0.05 / 6);
+  s.parameters.implicit.reset();
+  s.scene.gravity = Vec(0, -1000);
+  s.parameters.time_step_share = 0.5;
+  EXPECT_DOUBLE_EQ(Implicit(s.parameters, s.scene).time_step_limit(), std::sqrt(0.1 * 0.05 / 1000));
+}
+
+std::string failure_of(Setting s, const ImplicitSolver& solver) {
+  s.parameters.implicit = solver;
+  Implicit model(s.parameters, s.scene);
+  try {
+    model.advance(2e-3);
+  } catch (const PhysicsFailure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(Implicit, SaysThatAStepIsNotSolved) {
+  Setting s = stirred_slit();
+  EXPECT_EQ(failure_of(s, {}), "");
+  EXPECT_THAT(failure_of(s, {.largest_iterations = 3}),
+              HasSubstr("the implicit step is not solved: unbalanced force over the driving one after 3 "
+                        "iterations of the linear solver (fluid.implicit.largest_iterations: 3) = "));
+  thin_under_shear(s);
+  EXPECT_THAT(failure_of(s, {.largest_viscosity_updates = 1}),
+              HasSubstr("after 1 updates of the viscosity (fluid.implicit.largest_viscosity_updates) = "));
+}
+
+// The passage of 2 mm at 50 mm/s, of 1000 Pa s: 150 kPa at the wall, 2.4 MPa over 16 mm.
+TEST(ImplicitTwin, HasTheOwnDensityAndTheSameCompression) {
+  Parameters p;
+  p.density = 1200;
+  p.laminar_viscosity = LaminarViscosity{1000};
+  p.density_diffusion = DensityDiffusion{};
+  EXPECT_FALSE(implicit_twin(p, {}));
+  p.similarity = Similarity{.mean_speed = 0.05, .passage_width = 0.002, .passage_length = 0.016};
+  const Parameters twin = implicit_twin(p, {}).value();
+  EXPECT_EQ(twin.density, 1200);
+  EXPECT_NEAR(twin.sound_speed, std::sqrt(2.4e6 / (0.01 * 1200)), 0.01);
+  EXPECT_NEAR(twin.background_pressure->pressure, 0.65 * 2.4e6, 1);
+  EXPECT_NEAR(twin.implicit->expected_speed, 0.075, 1e-12);
+  EXPECT_THAT(keys_of_twin(twin),
+              HasSubstr("model = \"implicit\", similarity = false, sound_speed = 447.2,"));
+  EXPECT_TRUE(implicit_faults(twin, {}, false).empty());
+  p.friction = Friction{};
+  EXPECT_FALSE(implicit_twin(p, {}));
+}
+
+std::string faults_of(const Parameters& p, bool with_solid = false, const Scene& scene = {}) {
+  std::string all;
+  for (const auto& [key, message] : implicit_faults(p, scene, with_solid)) all += key + ": " + message + "\n";
+  return all;
+}
+
+TEST(ImplicitFaults, NameTheTerm) {
+  Parameters p = stirred_slit().parameters;
+  EXPECT_EQ(faults_of(p), "");
+  EXPECT_THAT(faults_of(p, true), HasSubstr("fluid.model: an elastic solid is not coupled to"));
+  p.surface_tension = SurfaceTension{1};
+  p.friction = Friction{};
+  EXPECT_EQ(faults_of(p),
+            "fluid.friction: [fluid.friction] is not part of model = \"implicit\"\n"
+            "fluid.surface_tension: [fluid.surface_tension] is not part of model = \"implicit\"\n");
+  p.model = Model::weakly_compressible;
+  EXPECT_EQ(faults_of(p, true), "");
+  Scene pressed;
+  pressed.walls.resize(2);
+  pressed.walls[1].name = "ram";
+  pressed.walls[1].press.emplace();
+  EXPECT_EQ(faults_of(stirred_slit().parameters, false, pressed),
+            "wall.1.press: the wall 'ram' is pressed, which is not part of model = \"implicit\"\n");
+  Parameters thin = stirred_slit().parameters;
+  thin.laminar_viscosity.reset();
+  thin.wall_model.suction = false;
+  thin.density_diffusion = DensityDiffusion{};
+  EXPECT_THAT(faults_of(thin), HasSubstr("is needed by model"));
+  EXPECT_THAT(faults_of(thin), HasSubstr("fluid.wall_model.suction: "));
+  EXPECT_THAT(faults_of(thin), HasSubstr("fluid.density_diffusion: "));
+}
+
+}  // namespace
+}  // namespace toryu::fluid

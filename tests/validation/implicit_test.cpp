@@ -1,0 +1,51 @@
+// The slit of cases/abrasive_slit by implicit steps, at the medium's own density and in real pascals.
+#include "fluid_solver/implicit/implicit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/validation/channel.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+/// Gradient over the exact one.
+double expect_slit(const std::string& name, double spacing, double gradient_error, double profile_error) {
+  const FluidCase the_case("abrasive_slit/" + name, {"fluid.spacing=" + std::to_string(spacing)});
+  const SlitSolution exact(viscosity_of(the_case.parameters), 0.002, 0.05);
+  ChannelFlow flow = run_channel(the_case, exact, 0.6 * the_case.scene.end_time, 1e-3);
+  flow.pressure_gradient /= exact.pressure_gradient();
+  testing::Test::RecordProperty("pressure_gradient_over_exact", std::to_string(flow.pressure_gradient));
+  testing::Test::RecordProperty("profile_error", std::to_string(flow.profile_error));
+  EXPECT_NEAR(flow.pressure_gradient, 1, gradient_error) << name << ' ' << spacing;
+  EXPECT_LT(flow.profile_error, profile_error) << name << ' ' << spacing;
+  return flow.pressure_gradient;
+}
+
+TEST(ImplicitSlit, HasThePressureDropAndProfileOfItsRealMedium) {
+  const double coarse = expect_slit("implicit_newtonian.toml", 2e-4, 0.06, 0.06);
+  const double fine = expect_slit("implicit_newtonian.toml", 1e-4, 0.02, 0.02);
+  EXPECT_LT(std::abs(fine - 1), 0.5 * std::abs(coarse - 1));
+}
+
+TEST(ImplicitSlit, HasThePressureDropAndProfileOfAPowerLaw) {
+  expect_slit("implicit.toml", 1e-4, 0.02, 0.02);
+}
+
+/// Products of the matrix that a run takes, by the largest viscosity of its medium.
+double products_taken(const std::string& largest_viscosity) {
+  const FluidCase the_case("abrasive_slit/implicit.toml",
+                           {"fluid.spacing=2e-4", "fluid.power_law.largest_viscosity=" + largest_viscosity});
+  Implicit model(the_case.parameters, the_case.scene);
+  run_until(model, the_case.scene.end_time);
+  const auto figures = model.figures();  // iterations and updates, each of some products
+  return 2 * figures.at(0).second + 3 * figures.at(1).second;
+}
+
+TEST(ImplicitSlit, CostsHardlyMoreWhereTheViscositySpansAThousand) {
+  const double ratio = products_taken("1e6") / products_taken("16000");
+  RecordProperty("ratio", std::to_string(ratio));
+  EXPECT_LT(ratio, 1.3);
+}
+
+}  // namespace
+}  // namespace toryu::fluid
