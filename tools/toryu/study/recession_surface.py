@@ -10,7 +10,7 @@ from toryu.report import along
 
 SIDES = {"left": (0, -1.0), "right": (0, 1.0), "lower": (1, -1.0), "upper": (1, 1.0)}  # axis and sense of the normal
 LEAST_NORMAL = 0.5  # a point with more of its normal along a side belongs to it: one of an edge to both
-DEPTHS = ("preston_depth", "archard_depth")  # the first that a run has counts
+DEPTHS = ("preston_depth", "archard_depth", "shear_depth")  # the first that a run has counts
 MIRROR_TOLERANCE = 0.1  # spacings by which mirror images may miss each other
 
 
