@@ -59,5 +59,6 @@ def write_passage(path, times, opening, worn, unsteady):
         file["work_piece"].attrs["names"] = "lower;upper"
         file["time"] = times
         file["preston_depth"] = np.outer(passed, np.tile(rate, 2))
+        file["sliding_pressure"] = np.outer(passed, np.tile(rate, 2)) / 1e-12
         file["contact_pressure"] = np.full((len(times), 2 * POINTS), 1e6)
         file["sliding_speed"] = np.full((len(times), 2 * POINTS), 1e-2)

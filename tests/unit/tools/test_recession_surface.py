@@ -49,6 +49,10 @@ class OfABlock(unittest.TestCase):
         worn = found.worn(np.arange(8.0), ["floor", "block"])
         self.assertEqual(worn["wall.1.worn"][2], {"face": "upper", "depth": [[0.5, 4.0], [1.5, 5.0], [2.5, 6.0], [3.5, 7.0]]})
 
+    def test_its_outline_recedes_from_half_a_cell_before_its_points(self):
+        outline = wetted(block()).outline(np.full(8, 0.2))
+        np.testing.assert_allclose(outline[[0, 2, 5]], [[0.2, 0.5], [3.8, 0.5], [1.5, 1.8]])
+
     def test_an_edge_holds_a_jump(self):
         found = wetted(block())
         view = Recession(None, time=100, gap=1000, jump=0.1, edge_jump=0.25)
@@ -80,17 +84,27 @@ class OfABlock(unittest.TestCase):
 
 
 class OfTheMedium(unittest.TestCase):
+    def test_what_is_missing_wears_with_the_speed_that_is_found(self):
+        found, file = wetted(block()), block()
+        file["sliding_pressure"] = Column(file["preston_depth"][:] / 2e-9)
+        more = Pressure([[0.0, 3e6], [4.0, 3e6]], 0, 2.0)  # 2 MPa more
+        rate, _ = rates(found, file, (0.5, 1.0), more)
+        np.testing.assert_allclose(rate, np.array([1, 2, 1, 2, 2, 1, 1, 2]) + 2e-9 * 2e6 * 1e-3)
+        file["shear_depth"] = file.pop("preston_depth")
+        with self.assertRaisesRegex(NoRate, "shear_depth is none"):
+            rates(found, file, (0.5, 1.0), more)
+
     def test_a_constant_and_a_gradient_are_made_good_and_a_bend_stays(self):
         x = np.linspace(0.05, 9.95, 100)
         place = np.column_stack([x, np.zeros(100)])
-        pressure = Pressure([[0.0, 5e6], [10.0, 1e6]], 0, 0.5, 1e-12)
+        pressure = Pressure([[0.0, 5e6], [10.0, 1e6]], 0, 0.5)
         true = 5e6 - 4e5 * x + 1e5 * np.sin(np.pi * x / 10) ** 3
         missing = pressure.missing(place, true - 7e6 + 3e5 * x)
         np.testing.assert_allclose(true - 7e6 + 3e5 * x + missing, true, atol=2e3)
 
     def test_it_needs_points_where_the_pressure_is_known(self):
         with self.assertRaisesRegex(NoRate, "a row at 90 m"):
-            Pressure([[90.0, 1.0]], 0, 0.5, 1e-12).missing(np.zeros((5, 2)), np.zeros(5))
+            Pressure([[90.0, 1.0]], 0, 0.5).missing(np.zeros((5, 2)), np.zeros(5))
 
 
 if __name__ == "__main__":

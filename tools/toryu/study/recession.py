@@ -83,12 +83,14 @@ class Recession:
         """The shape over time, a row a point."""
         with whole_file(path) as file:
             writer = csv.writer(file)
-            writer.writerow(["line", "solution", "machining_time[s]", "wall", "face", "position[m]", "depth[m]", "rate[m/s]"])
+            writer.writerow(["line", "solution", "machining_time[s]", "wall", "face", "position[m]", "depth[m]", "rate[m/s]",
+                             "x[m]", "y[m]"])
             for chain in self.chains:
                 for solved in chain.states():
-                    parts = (chain.surface.parts(values) for values in (solved.state.depth, solved.state.rate))
-                    for face, depths, rates in zip(chain.surface.faces, *parts):
-                        for values in zip(face.position, depths, rates):
+                    outline = chain.surface.outline(solved.state.depth)
+                    columns = map(chain.surface.parts, (solved.state.depth, solved.state.rate, *outline.T))
+                    for face, *values_of in zip(chain.surface.faces, *columns):
+                        for values in zip(face.position, *values_of):
                             writer.writerow([chain.label, solved.name, text(solved.state.time), face.wall, face.side,
                                              *(f"{float(value):.9g}" for value in values)])
 
@@ -98,7 +100,7 @@ class Recession:
         when = f"After {figures['machining_time']:.4g} s" + (f", {figures['cycles']:.4g} cycles," if self.cycle else "")
         sentence = (f"{when} {in_words(figures['depth_mean'], 'm')} are off on the mean and "
                     f"{in_words(figures['depth_largest'], 'm')} at most, {figures['removed_area'] * 1e6:.4g} mm² in all; the "
-                    f"taper is {figures['taper']:.2f} of the mean depth. It took {len(chain.solved)} solutions of the flow; the "
+                    f"taper is {round(figures['taper'], 2) + 0.0:.2f} of the mean depth. It took {len(chain.solved)} solutions of the flow; the "
                     f"rate has changed by {(last.mean_rate() / first.mean_rate() - 1) * 100:+.1f} %.")
         if chain.failure:
             sentence += f" There it ended: {chain.failure}"
@@ -129,7 +131,7 @@ def read(table, study):
     if (made.way == "both") != bool(made.reverse):
         table.fault("'reverse', what turns the flow in the case, goes with way = \"both\" and with no other", "way")
     rows = _pressure(table)
-    made.pressure = Pressure(rows, made.along, made.gap, _wear_rate(study)) if rows else None
+    made.pressure = Pressure(rows, made.along, made.gap) if rows else None
     made.window = tuple(table.numbers("shares", 2, [0.5, 1.0]))
     if not 0 <= made.window[0] < made.window[1] <= 1:
         table.fault(f"'shares' must lie between 0 and 1, found {list(made.window)}", "shares")
@@ -167,14 +169,3 @@ def _read_case(table, study, made):
         table.fault("the case has walls that are 'worn': the study says how far they are")
     if study.kind == "coupled":
         table.fault("surfaces recede on rigid walls alone: the case has a [solid]")
-
-
-def _wear_rate(study):
-    """Depth over pressure times path [1/Pa], of the law that counts; the programs tell what is wrong with it."""
-    try:
-        removal = study.content["fluid"]["removal"]
-        if rate := removal.get("preston_coefficient"):
-            return float(rate)
-        return removal["archard"]["wear_coefficient"] / removal["archard"]["hardness"]
-    except (KeyError, TypeError, AttributeError, ValueError, ZeroDivisionError):
-        return 0.0

@@ -16,7 +16,8 @@ def draw(view, study, folder):
     drawn = []
     for number, chain in enumerate((chain for chain in view.chains if len(chain.states()) > 1), 1):
         of = f": {chain.label}" if chain.label else ""
-        for title, name, make in (("The shape over time", "shape", shape), ("Depth over time", "depth", over_time)):
+        for title, name, make in (("The shape over time", "shape", shape), ("The profile over time", "profile", profile),
+                                  ("Depth over time", "depth", over_time)):
             name = name if len(view.chains) == 1 else f"{name}_{number:02}"
             drawn.append((title + of, drawing.save(make(view, chain), folder / name), f"charts/{name}"))
     return drawn
@@ -33,20 +34,39 @@ def shape(view, chain):
     deepest = max(float(state.depth.max()) for state in states)
     factor, unit = data.scaled("m", deepest)
     made, panels = drawing.figure(len(chain.surface.faces))
-    times = [moment(view, state.time)[0] for state in states]
-    norm = matplotlib.colors.Normalize(0, max(times))
-    colours = matplotlib.colormaps[SCALE].reversed()
     counts = chain.surface.parts(view.counts(chain.surface))
-    for state, time in zip(states, times):
+    colours, scale = by_time(view, states)
+    for state, colour in zip(states, colours):
         for panel, face, part, depth in zip(panels, chain.surface.faces, counts, chain.surface.parts(state.depth)):
-            panel.plot(face.position[part] * 1e3, depth[part] * factor, color=colours(norm(time)), linewidth=1.2)
+            panel.plot(face.position[part] * 1e3, depth[part] * factor, color=colour, linewidth=1.2)
     for panel, face in zip(panels, chain.surface.faces):
         panel.set_title(f"{face.wall.replace('_', ' ')}, {face.side} face")
         panel.set_xlabel(f"{'yx'[face.axis]}  [mm]")
     panels[0].set_ylabel(f"removed depth  [{unit}]")
     panels[0].set_ylim(bottom=0)
-    mappable = matplotlib.cm.ScalarMappable(norm, colours)
-    made.colorbar(mappable, ax=panels, label=moment(view, 0.0)[1])
+    made.colorbar(scale, ax=panels, label=moment(view, 0.0)[1])
+    return made
+
+
+def by_time(view, states):
+    """A colour for each state, and the scale of them."""
+    times = [moment(view, state.time)[0] for state in states]
+    scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, max(times)), matplotlib.colormaps[SCALE].reversed())
+    return scale.to_rgba(times), scale
+
+
+def profile(view, chain):
+    """The faces where they are at the end of each jump, by colour; the height is stretched."""
+    states, counts = [solved.state for solved in chain.states()], chain.surface.parts(view.counts(chain.surface))
+    made, (panel,) = drawing.figure()
+    colours, scale = by_time(view, states)
+    for state, colour in zip(states, colours):
+        outline = chain.surface.outline(state.depth) * 1e3
+        for part, x, y in zip(counts, *map(chain.surface.parts, outline.T)):
+            panel.plot(x[part], y[part], color=colour, linewidth=1.2)
+    panel.set_xlabel("x  [mm]")
+    panel.set_ylabel("y  [mm]")
+    made.colorbar(scale, ax=panel, label=moment(view, 0.0)[1])
     return made
 
 

@@ -64,7 +64,8 @@ class Chain:
         self.view, self.make, self.others = study.recession, make, others
         self.label = ", ".join(f"{axis.name.replace('_', ' ')} {page.text(value.name)} {axis.unit}".strip()
                                for axis, value in zip([a for a in study.axes if a is not self.view.axis], others))
-        self.end_time, self.longer = study.content.get("case", {}).get("end_time"), 1
+        self.end_time = study.overrides.get("case.end_time", study.content.get("case", {}).get("end_time"))
+        self.longer = 1  # times that
         self.surface, self.failure, self.failed_code = None, "", DONE
         self.solved = {}  # folder of the run -> Solved, in the order of time; of two directions the first
         self.records = {}  # name of the solution -> record

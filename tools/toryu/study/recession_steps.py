@@ -1,6 +1,6 @@
 """Wear over machining time in jumps: dh/dt = r(h), where each rate r costs a solution of the flow.
 
-Heun's rule: the rate at the end of a jump is taken at the shape that the rate at its start foresees, and the mean of
+Heun's rule (1900): the rate at the end of a jump is taken at the shape that the rate at its start foresees, and the mean of
 both counts. What that differs by from the first rate alone is of second order in the jump and bounds the error, which is of
 third order: where a jump of 10 % of a gap lets the rate grow by 10 %, they differ by 5 % and the error is 0.2 % of what
 the jump takes off. A jump in which they differ by more than the tolerance is made anew, and shorter."""

@@ -11,6 +11,7 @@ from toryu.report import along
 SIDES = {"left": (0, -1.0), "right": (0, 1.0), "lower": (1, -1.0), "upper": (1, 1.0)}  # axis and sense of the normal
 LEAST_NORMAL = 0.5  # a point with more of its normal along a side belongs to it: one of an edge to both
 DEPTHS = ("preston_depth", "archard_depth", "shear_depth")  # the first that a run has counts
+OF_PRESSURE = DEPTHS[:2]
 MIRROR_TOLERANCE = 0.1  # spacings by which mirror images may miss each other
 
 
@@ -59,6 +60,10 @@ class Surface:
             rows = [[float(s), max(float(h), 0.0)] for s, h in zip(face.position, part)]
             found.setdefault(f"wall.{walls.index(face.wall)}.worn", []).append({"face": face.side, "depth": rows})
         return found
+
+    def outline(self, depth):
+        """Where the surface is once `depth` [m] is off, n x 2 [m]: its points are half a cell behind it at the start."""
+        return self.place + self.normal * (self.length / 2 - depth)[:, None]
 
     def middle(self, axis):
         return (self.place[:, axis].min() + self.place[:, axis].max()) / 2
@@ -134,7 +139,6 @@ class Pressure:
     rows: list  # of place [m] and pressure [Pa]
     axis: int
     gap: float  # [m]
-    coefficient: float  # depth over pressure times path [1/Pa]
 
     def missing(self, place, found):
         """What the pressures `found` lack at each place [Pa]: linear between the rows. At a row itself the passage may end or
@@ -146,6 +150,14 @@ class Pressure:
                 raise NoRate(f"'pressure' has a row at {where:g} m, and no three points of the surface lie near it")
             lacks.append(pressure - np.polynomial.polynomial.polyfit(x[near] - where, found[near], 1)[0])
         return np.interp(x, [row[0] for row in self.rows], lacks)
+
+
+def coefficient(file, law):
+    """Depth over pressure times path [1/Pa]."""
+    if law not in OF_PRESSURE:
+        raise NoRate(f"'pressure' needs a law of pressure times speed, and {law} is none")
+    whole = file["sliding_pressure"][:][-1].sum()
+    return file[law][:][-1].sum() / whole if whole > 0 else 0.0
 
 
 def rates(first, file, window, pressure=None):
@@ -164,7 +176,7 @@ def rates(first, file, window, pressure=None):
     if pressure:
         path = np.cumsum(file["sliding_speed"][:][:, rows] * np.diff(time, prepend=0.0)[:, None], axis=0)
         found = file["contact_pressure"][:][ends[0] + 1:ends[2] + 1][:, rows].mean(axis=0)
-        depth = depth + pressure.coefficient * pressure.missing(file["start_position"][:][rows], found) * path
+        depth = depth + coefficient(file, law) * pressure.missing(file["start_position"][:][rows], found) * path
     early, late = ((depth[b] - depth[a]) / (time[b] - time[a]) for a, b in zip(ends, ends[1:]))
     whole = (depth[ends[2]] - depth[ends[0]]) / (time[ends[2]] - time[ends[0]])
     mean = first.mean(whole)
