@@ -6,7 +6,7 @@ along x, the flow is everywhere that between two plates,
 with Navier slip u_s = b_w tau_w at the walls (0: none), and each of them recedes by dh/dt = k p v, v = b tau_w. Both ways
 in turn it opens evenly, w = w_0 exp(k b P^2 t/(2 L)).
 
-    python3 lubrication.py RESULTS/recession.csv     # a study's last shape against it
+    python3 lubrication.py RESULTS/recession.csv [b_w]     # a study's last shape against it
 """
 
 import csv
@@ -64,8 +64,8 @@ if __name__ == "__main__":
     time, x, depth = last_shape(sys.argv[1], "lower", slit.length)
     places, exact, rate = slit.opened_one_way(time)
     exact = np.interp(x, places, exact)
-    print(f"{time:g} s: mean depth {depth.mean() * 1e6:.2f} µm, one-way {exact.mean() * 1e6:.2f} µm with the flow rate {rate:.5g} "
-          f"m2/s, two-way {(slit.opened_two_way(time) - slit.width) * 0.5e6:.2f} µm")
+    print(f"{time:g} s: mean depth {depth.mean() * 1e6:.2f} µm, one-way {exact.mean() * 1e6:.2f} µm with the flow rate "
+          f"{rate:.5g} m2/s, two-way {(slit.opened_two_way(time) - slit.width) * 0.5e6:.2f} µm")
     for share in np.arange(0.05, 1, 0.1):
         print(f"  x = {share * slit.length * 1e3:4.1f} mm  {np.interp(share * slit.length, x, depth) * 1e6:7.2f} µm  "
               f"one-way {np.interp(share * slit.length, x, exact) * 1e6:7.2f} µm")

@@ -29,7 +29,8 @@ def block(shift=0.0, touched=True, seconds=10):
     rate = np.where(np.abs(n_x * n_y) > 0.1, 2.0, 1.0)
     time = np.arange(seconds + 1.0)
     return {"start_position": Column(np.column_stack([x + shift, y])), "normal": Column(np.column_stack([n_x, n_y])),
-            "area": Column(np.where(rate > 1, 1 / r, 1.0)), "work_piece": Column(np.zeros(6), names="block"), "time": Column(time),
+            "area": Column(np.where(rate > 1, 1 / r, 1.0)), "work_piece": Column(np.zeros(6), names="block"),
+            "time": Column(time),
             "preston_depth": Column(np.outer(time - np.minimum(time, 5) / 2, rate)),
             "contact_pressure": Column(np.full((len(time), 6), 1e6 * touched)),
             "sliding_speed": Column(np.full((len(time), 6), 1e-3))}

@@ -124,7 +124,8 @@ class Recession(Study):
 class Faults(Study):
     def test_all_are_told_with_their_line(self):
         (self.case / "case.toml").write_text(CASE.replace('name = "upper"', 'name = "upper"\nworn = [{}]'))
-        self.write('[recession]\ncycles = 0\ncycle = 1.0\njump = 2\nway = "to and fro"\npressure = [[1, 2], [0, 2]]\ngapp = 1\n')
+        self.write('[recession]\ncycles = 0\ncycle = 1.0\njump = 2\nway = "to and fro"\npressure = [[1, 2], [0, 2]]\n'
+                   'gapp = 1\n')
         ended = self.study("--check")
         self.assertEqual(ended.returncode, 2)
         for words in ("window.toml:5: error: 'cycles' must be above 0, found 0", "[recession] needs 'gap', a finite number",

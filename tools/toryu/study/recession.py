@@ -9,7 +9,7 @@ import numpy as np
 
 from toryu.program import whole_file
 from toryu.report import tables
-from toryu.study import page, recession_charts, study_file
+from toryu.study import recession_charts, study_file
 from toryu.study.answer import Answer
 from toryu.study.document import found, is_number
 from toryu.study.recession_steps import March
@@ -100,8 +100,10 @@ class Recession:
         when = f"After {figures['machining_time']:.4g} s" + (f", {figures['cycles']:.4g} cycles," if self.cycle else "")
         sentence = (f"{when} {in_words(figures['depth_mean'], 'm')} are off on the mean and "
                     f"{in_words(figures['depth_largest'], 'm')} at most, {figures['removed_area'] * 1e6:.4g} mm² in all; the "
-                    f"taper is {round(figures['taper'], 2) + 0.0:.2f} of the mean depth. It took {len(chain.solved)} solutions of the flow; the "
-                    f"rate has changed by {(last.mean_rate() / first.mean_rate() - 1) * 100:+.1f} %.")
+                    f"taper is {round(figures['taper'], 2) + 0.0:.2f} of the mean depth. It took {len(chain.solved)} solutions of "
+                    "the flow")
+        began = first.mean_rate()
+        sentence += f"; the rate has changed by {(last.mean_rate() / began - 1) * 100:+.1f} %." if began else ": nothing comes off."
         if chain.failure:
             sentence += f" There it ended: {chain.failure}"
         rows = [[solved.name, *(text(value) for value in solved.figures().values())] for solved in chain.states()]
@@ -117,7 +119,7 @@ def add_axes(table, study):
 
 def read(table, study):
     made = study.recession
-    made.cycle = table.get("cycle", float, None)
+    made.cycle = _positive(table, "cycle", None)
     made.time = _positive(table, "time") if not made.cycle else made.cycle * (_positive(table, "cycles") or math.nan)
     made.gap = _positive(table, "gap")
     for name, most in (("jump", 0.5), ("edge_jump", 1.0), ("tolerance", 1.0), ("steady_within", 1.0)):
