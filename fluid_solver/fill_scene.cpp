@@ -10,6 +10,7 @@
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/wall_rows.hpp"
 #include "fluid_solver/work_piece.hpp"
+#include "fluid_solver/worn_walls.hpp"
 
 namespace toryu::fluid {
 
@@ -32,15 +33,49 @@ void disorder(std::vector<Vec>& points, double largest) {
     for (double& component : x) component += draw();
 }
 
+/// The lattice of a wall, and what stands where of it.
+struct WallParticles {
+  std::vector<Vec> lattice;
+  std::vector<std::size_t> stands;  ///< points of the lattice that have a particle
+  std::vector<Vec> places;
+  std::vector<double> volumes;  ///< [m2]
+
+  WallParticles() = default;
+  WallParticles(const Wall& wall, const Filling& filling) : lattice(filling.points) {
+    const auto worn = worn_places(wall, lattice);
+    for (std::size_t k = 0; k < lattice.size(); ++k) {
+      if (!worn[k]) continue;
+      stands.push_back(k);
+      places.push_back(*worn[k]);
+      volumes.push_back(filling.cells[k].prod());
+    }
+  }
+  void join(const WallParticles& other) {
+    for (const std::size_t k : other.stands) stands.push_back(lattice.size() + k);
+    const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+    append(lattice, other.lattice);
+    append(places, other.places);
+    append(volumes, other.volumes);
+  }
+  template <class Value>
+  std::vector<Value> kept(const std::vector<Value>& of_lattice) const {
+    std::vector<Value> values;
+    for (const std::size_t k : stands) values.push_back(of_lattice[k]);
+    return values;
+  }
+  FaceDepths kept(const FaceDepths& depths) const { return {kept(depths.up), kept(depths.down)}; }
+};
+
 }  // namespace
 
 void FluidModel::fill_regions() {
   const Blocks fluid = blocks_of(parameters_);
   const auto& boxes = fluid.boxes;
-  const Filling filling = fill_to_faces(fluid, parameters_.spacing);
-  const auto& lattice = filling.points;
+  Filling filling = fill_to_faces(fluid, parameters_.spacing);
+  auto home = filling.points;  // where each particle is in its region
+  fill_worn_space(filling, home, scene_.walls, parameters_.spacing);
   misfits_ = filling.misfits;
-  auto points = lattice;
+  auto points = filling.points;
   disorder(points, parameters_.start_disorder * parameters_.spacing);
 
   auto& f = state_.fluid;
@@ -54,7 +89,7 @@ void FluidModel::fill_regions() {
   for (std::size_t i = 0; i < f.count; ++i) {
     set(f.x, i, points[i]);
     for (std::size_t r = 0; r < boxes.size(); ++r)
-      if (boxes[r].contains(lattice[i])) {
+      if (boxes[r].contains(home[i])) {
         set(f.v, i, parameters_.regions[r].velocity);
         filled[r] = 1;
       }
@@ -99,41 +134,35 @@ PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& poin
 }
 
 void FluidModel::fill_walls() {
-  std::vector<Vec> still;
-  std::vector<double> still_volumes;
-  const auto add = [&](const std::string& name, const std::vector<Vec>& points,
-                       const std::vector<double>& volumes, const Wall* wall) {
+  WallParticles still;
+  const auto add = [&](const std::string& name, const WallParticles& made, const Wall* wall) {
     Boundary& boundary = state_.boundaries.emplace_back();
     boundary.name = name;
     if (wall && wall->motion)
-      boundary.motion = PrescribedMotion{*wall->motion, points, reach() / parameters_.sound_speed};
-    if (wall && wall->press) boundary.motion = pressed(*wall, points);
-    boundary.place(points, volumes, parameters_.density, parameters_.strip_width());
+      boundary.motion = PrescribedMotion{*wall->motion, made.places, reach() / parameters_.sound_speed};
+    if (wall && wall->press) boundary.motion = pressed(*wall, made.places);
+    boundary.place(made.places, made.volumes, parameters_.density, parameters_.strip_width());
     const bool fit = parameters_.wall_model.extrapolation == WallExtrapolation::fit;
     if (fit || parameters_.wall_slip)
-      boundary.know_faces(lattice_face_depths(points, parameters_.spacing, 2 * reach()), fit);
-    if (wall && wall->work_piece) boundary.make_work_piece(lattice_faces(points, parameters_.spacing));
+      boundary.know_faces(made.kept(lattice_face_depths(made.lattice, parameters_.spacing, 2 * reach())), fit);
+    if (wall && wall->work_piece)
+      boundary.make_work_piece(made.kept(lattice_faces(made.lattice, parameters_.spacing, period_.shifts())));
   };
   for (const auto& wall : scene_.walls) {
-    const Filling filling = fill_wall(wall, parameters_, scene_.gravity);
-    const auto& points = filling.points;
-    std::vector<double> volumes;
-    for (const Vec& cell : filling.cells) volumes.push_back(cell.prod());
+    const WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));
     const std::string place = fmt::format("[[wall]] '{}'", wall.name);
     const bool on_its_own = wall.motion || wall.press || wall.work_piece;
-    if (points.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
+    if (made.places.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
     if (on_its_own && (wall.name == "walls" || wall.name == "interface"))
       throw BadInput({{place, 0, 0,
                        "results call the walls at rest 'walls', the solid 'interface'; this "
                        "one, a body of its own, needs another name"}});
-    if (on_its_own) {
-      add(wall.name, points, volumes, &wall);
-    } else {
-      still.insert(still.end(), points.begin(), points.end());
-      still_volumes.insert(still_volumes.end(), volumes.begin(), volumes.end());
-    }
+    if (on_its_own)
+      add(wall.name, made, &wall);
+    else
+      still.join(made);
   }
-  if (!still.empty()) add("walls", still, still_volumes, nullptr);
+  if (!still.places.empty()) add("walls", still, nullptr);
   move_boundaries(0.0);
   for (auto& boundary : state_.boundaries)
     if (boundary.is_work_piece())

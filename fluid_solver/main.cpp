@@ -22,6 +22,7 @@
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/wall_rows.hpp"
+#include "fluid_solver/worn_walls.hpp"
 
 namespace {
 
@@ -191,12 +192,13 @@ ExitCode solve(const Options& options) {
   const auto& particles = model.particles();
   const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
                            .blow = fluid::hardest_blow(scene, parameters),
-                           .gravity = scene.gravity};
+                           .gravity = fluid::gravity_on_columns(scene)};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
   for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
   if (!file.value<double>("fluid.removal.grain_length"))
     if (const auto unknown = fluid::removal_by_grain_length(parameters)) log::warn("{}", *unknown);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
+  for (const auto& thin : fluid::thin_remains(scene.walls, model.reach())) log::warn("{}", thin);
   for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
   for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));
   for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);

@@ -21,6 +21,23 @@ double share_in(const Box& box, const Vec& x, double side) {
   return share;
 }
 
+/// Sums over what lies in a box.
+struct Inside {
+  double V = 0;    ///< volume [m2]
+  double V_v = 0;  ///< times velocity [m3/s]
+};
+
+Inside inside(const Particles& fluid, const Box& box, int along) {
+  Inside sum;
+  for (std::size_t i = 0; i < fluid.count; ++i) {
+    const double V = fluid.m[i] / fluid.rho[i];
+    const double V_inside = V * share_in(box, at(fluid.x, i), std::sqrt(V));
+    sum.V += V_inside;
+    sum.V_v += V_inside * fluid.v[along][i];
+  }
+  return sum;
+}
+
 /// Farthest that one of the points which fill a box, `step` apart, lies from any of `particles`; at most
 /// `reach`. Column by column of points, so that it takes little memory.
 double farthest_from_any(std::vector<Vec> particles, const Box& box, double step, double reach) {
@@ -69,17 +86,16 @@ double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kerne
 
 double flow_rate(const Particles& fluid, const Box& box, Axis axis) {
   const int along = static_cast<int>(axis);
-  double sum_V = 0, sum_V_v = 0;
-  for (std::size_t i = 0; i < fluid.count; ++i) {
-    const double V = fluid.m[i] / fluid.rho[i];
-    const double V_inside = V * share_in(box, at(fluid.x, i), std::sqrt(V));
-    sum_V += V_inside;
-    sum_V_v += V_inside * fluid.v[along][i];
-  }
+  const Inside sum = inside(fluid, box, along);
   double cross_section = 1;
   for (int a = 0; a < dim; ++a)
     if (a != along) cross_section *= box.max[a] - box.min[a];
-  return sum_V > 0 ? cross_section * sum_V_v / sum_V : 0.0;
+  return sum.V > 0 ? cross_section * sum.V_v / sum.V : 0.0;
+}
+
+double volume_flux(const Particles& fluid, const Box& box, Axis axis) {
+  const int along = static_cast<int>(axis);
+  return inside(fluid, box, along).V_v / (box.max[along] - box.min[along]);
 }
 
 double flow_amplitude(const Particles& fluid, const InitialFlow& flow) {
@@ -131,6 +147,8 @@ Observation observe(const Observer& observer, const Observed& now) {
       return {observer.name, "1",
               flow_error(now.fluid, *p.initial_flow, decay(*p.initial_flow, nu, now.time))};
     }
+    case Quantity::volume_flux:
+      return {observer.name, "m2/s", volume_flux(now.fluid, *observer.box, observer.axis)};
     case Quantity::largest_void:
       return {observer.name, "1", largest_void(now.fluid, now.walls, *observer.box, p.spacing, now.period)};
   }

@@ -24,6 +24,10 @@ double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kerne
 /// empty.
 double flow_rate(const Particles& fluid, const Box& box, Axis axis);
 
+/// The same of a passage whose walls stand somewhere in `box`: the sum of volume times velocity in it, over
+/// its length along `axis` [m2/s]. What a passage has in the mean over that length.
+double volume_flux(const Particles& fluid, const Box& box, Axis axis);
+
 /// sum m v . v_0(x)/sum m v_0(x)^2: the velocity's share of the flow v_0 that it started with.
 double flow_amplitude(const Particles& fluid, const InitialFlow& flow);
 

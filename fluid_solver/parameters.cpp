@@ -109,7 +109,7 @@ void describe(ParameterTable& table, Observer& observer) {
              {.required = true, .help = "name of the column in fluid.csv", .names_columns = true});
   table.choice(
       "quantity", observer.quantity,
-      {"front_x", "pressure", "flow_rate", "flow_amplitude", "flow_error", "largest_void"},
+      {"front_x", "pressure", "flow_rate", "flow_amplitude", "flow_error", "largest_void", "volume_flux"},
       {.required = true,
        .help =
            "front_x: largest x of the fluid; pressure: kernel mean about `point`; flow_rate: along `axis`, "
@@ -117,12 +117,17 @@ void describe(ParameterTable& table, Observer& observer) {
            "the velocity holds; flow_error: of a Taylor-Green flow, root mean square difference from the "
            "exact "
            "velocity over the initial speed; largest_void: farthest that a point of `box` lies from any "
-           "particle, walls' too, in spacings, at most 2 (0.71 in a lattice)"});
+           "particle, walls' too, in spacings, at most 2 (0.71 in a lattice); volume_flux: along `axis`, of "
+           "what is "
+           "in `box`, however wide the passage is in it"});
   table.vector("point", observer.point, {.unit = "m", .help = "where the pressure is probed"});
-  table.optional("box", observer.box, "where flow rate or void is taken, to be full of fluid");
-  table.choice("axis", observer.axis, {"x", "y"}, {.help = "direction in which the flow rate counts"});
+  table.optional("box", observer.box,
+                 "where a flow rate or a void is taken, to be full of fluid, or a volume flux");
+  table.choice("axis", observer.axis, {"x", "y"}, {.help = "direction in which a flow counts"});
   table.require(observer.quantity != Quantity::flow_rate || observer.box, "quantity",
                 "a flow rate needs a 'box'");
+  table.require(observer.quantity != Quantity::volume_flux || observer.box, "quantity",
+                "a volume flux needs a 'box'");
   table.require(observer.quantity != Quantity::largest_void || observer.box, "quantity",
                 "a largest void needs a 'box'");
 }

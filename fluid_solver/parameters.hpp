@@ -66,15 +66,15 @@ struct Limits {
 };
 void describe(ParameterTable& table, Limits& limits);
 
-enum class Quantity { front_x, pressure, flow_rate, flow_amplitude, flow_error, largest_void };
+enum class Quantity { front_x, pressure, flow_rate, flow_amplitude, flow_error, largest_void, volume_flux };
 enum class Axis { x, y };
 /// A number that the run reports over time.
 struct Observer {
   std::string name;
   Quantity quantity = Quantity::pressure;
   Vec point = Vec::Zero();  ///< [m], of a pressure probe
-  std::optional<Box> box;   ///< of a flow rate, of a largest void
-  Axis axis = Axis::y;      ///< of a flow rate
+  std::optional<Box> box;   ///< of a flow rate, a volume flux, a largest void
+  Axis axis = Axis::y;      ///< of a flow rate, a volume flux
 };
 void describe(ParameterTable& table, Observer& observer);
 

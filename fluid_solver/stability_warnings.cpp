@@ -78,6 +78,13 @@ double weight_of_depth(const Parameters& p, const Vec& gravity) {
 
 }  // namespace
 
+Vec gravity_on_columns(const Scene& scene) {
+  Vec gravity = scene.gravity;
+  if (scene.periodic == Periodic::x || scene.periodic == Periodic::xy) gravity[0] = 0;
+  if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy) gravity[1] = 0;
+  return gravity;
+}
+
 double time_step_edge(const Parameters& p) {
   if (p.integrator == Integrator::symplectic) return 6.7;
   const double delta = p.density_diffusion ? p.density_diffusion->delta : 0.0;

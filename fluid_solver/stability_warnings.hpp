@@ -61,8 +61,12 @@ struct Blow {
 struct Start {
   double speed = 0;           ///< the largest of the fluid [m/s]
   Blow blow = {};             ///< the hardest by a wall
-  Vec gravity = Vec::Zero();  ///< [m/s2]
+  Vec gravity = Vec::Zero();  ///< under which the fluid has a depth [m/s2]
 };
+
+/// Gravity less its part along directions in which space repeats itself: there it drives a flow, and no fluid
+/// weighs on another.
+Vec gravity_on_columns(const Scene& scene);
 
 /// The hardest blow by a prescribed motion until the end of the run; at the start against the fluid's own
 /// velocity.

@@ -18,7 +18,8 @@
 /// length l rubs the surface so fast: depths are in proportion to that length.
 ///
 /// Where the kernel sum of the fluid is below 1e-3 (about 0.25 at a plane interface) there is no contact: all
-/// are 0. The surface stays where it is: depths are far below a particle's spacing.
+/// are 0. The surface stays where it is in a run: depths are far below a particle's spacing. A study takes it
+/// on from run to run (worn_walls.hpp).
 #pragma once
 
 #include <filesystem>

@@ -6,9 +6,14 @@
 
 namespace toryu::fluid {
 
-std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing) {
+std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing,
+                                 const std::vector<Vec>& shifts) {
   OccupancyIndex places(0.5 * spacing);
-  places.take(points, "");
+  for (const Vec& shift : shifts) {
+    std::vector<Vec> image = points;
+    for (Vec& x : image) x += shift;
+    places.take(image, "");
+  }
   std::vector<Faces> faces(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     for (int axis = 0; axis < dim; ++axis) {

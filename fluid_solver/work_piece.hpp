@@ -8,8 +8,10 @@
 
 namespace toryu::fluid {
 
-/// Open faces of a body whose particles lie on a square lattice of `spacing` [m].
-std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing);
+/// Open faces of a body whose particles lie on a square lattice of `spacing` [m], and which repeats itself by
+/// `shifts` (Period).
+std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing,
+                                 const std::vector<Vec>& shifts);
 
 /// Where a work piece stands on a wall no fluid comes: closes the faces of its cells, `spacing` [m] wide,
 /// that border on a cell of those `boundaries`, `wall_spacing` [m] wide, that stand still as it does or move

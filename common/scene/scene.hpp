@@ -9,6 +9,7 @@
 
 #include "common/case/case_file.hpp"
 #include "common/scene/reference.hpp"
+#include "common/scene/worn_face.hpp"
 #include "common/vector.hpp"
 
 namespace toryu {
@@ -66,7 +67,8 @@ struct Wall {
   Box box;
   std::optional<Motion> motion;
   std::optional<Press> press = {};
-  bool work_piece = false;  ///< what the fluid's abrasive rubs on; a body of its own in the results
+  bool work_piece = false;          ///< what the fluid's abrasive rubs on; a body of its own in the results
+  std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box
 };
 void describe(ParameterTable& table, Wall& wall);
 /// Of the face with which a pressed wall presses [m per metre depth].

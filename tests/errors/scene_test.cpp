@@ -52,6 +52,30 @@ TEST(SceneFaults, WallWithAFaultyBoxIsNotComparedWithTheDomain) {
             "case.toml:10:19: error: 'max' must exceed 'min' in each direction");
 }
 
+/// The faults of a floor that is worn so.
+std::string faults_of_worn(const std::string& worn) {
+  return CaseText(sound_scene + "worn = [" + worn + "]\n").scene_faults();
+}
+
+TEST(SceneFaults, OfAWornFace) {
+  EXPECT_EQ(faults_of_worn("{ face = 'upper', depth = [[0, 0.1], [2, 0.2]] }"), "");
+  EXPECT_EQ(faults_of_worn("{ face = 'top', depth = [[0, 0.1]] }"),
+            "case.toml:8:11: error: 'face' in [[wall.worn]] must be one of 'left', 'right', 'lower', "
+            "'upper', found 'top'");
+  EXPECT_EQ(faults_of_worn("{ face = 'upper', depth = [[1, 0.1], [1, 0.2]] }"),
+            "case.toml:8:27: error: positions in 'depth' must increase: 1 comes after 1");
+  EXPECT_EQ(faults_of_worn("{ face = 'upper', depth = [[1, -0.1]] }"),
+            "case.toml:8:27: error: a depth must be at least 0 [m], found -0.1 at 1");
+  EXPECT_EQ(faults_of_worn("{ face = 'upper', depth = [] }"),
+            "case.toml:8:27: error: 'depth' needs at least one row");
+  EXPECT_EQ(faults_of_worn("{ face = 'upper', depth = [[20, 0.1]] }"),
+            "case.toml:8:1: error: positions along the upper face lie between 0 and 2 [m], found 20");
+  EXPECT_EQ(faults_of_worn("{ face = 'upper', depth = [[0, 0.6]] }, { face = 'lower', depth = [[0, 0.4]] }"),
+            "case.toml:8:1: error: the depths along y add up to 1 [m]: the wall is only 1 [m] thick");
+  EXPECT_EQ(faults_of_worn("{ face = 'upper', depth = [[0, 0.1]] }, { face = 'upper', depth = [[0, 0.2]] }"),
+            "case.toml:8:1: error: the upper face is 'worn' twice");
+}
+
 TEST(SceneFaults, MotionWithoutRows) {
   EXPECT_EQ(CaseText(sound_scene + "motion = { velocity = [] }\n").scene_faults(),
             "case.toml:8:12: error: 'velocity' needs at least one row");

@@ -148,7 +148,7 @@ class DamagedStudies(Mutations):
             small = path.stat().st_size % 2 == 0
             study = study_file.read(path, options.bin / "coupler", study_main.VIEWS, small)
             make = settings.Maker(study)
-            made = make([axis.values[0] for axis in study.axes]) if study.bisects else settings.settings(study, make)
+            made = make([axis.values[0] for axis in study.axes]) if study.searched else settings.settings(study, make)
             self.assertTrue(made, what)
         except BadStudy as error:
             for fault in str(error).splitlines():

@@ -12,6 +12,9 @@ Every start of a run is written into `starts.txt` beside it. What an overridden 
     fluid.error          of the displacement's period, which is 1 s without; it loses a tenth of its amplitude a second
     fluid.checkpoints    writes one before it waits if above 0, a whole one if 1; restarted it does not wait
     fluid.refuses        does not restart if above 0
+    fluid.opens          a surface.h5 of a passage that opens: see made_up_surface.passage; the worn walls count
+    fluid.unsteady       what the rate of that has too much at the start, over it; it is gone after 2 s
+    fluid.sticks         it fails where a wall is worn by more than that [m]
     fluid.removes        a surface.h5 from which that depth [m] comes off in each cycle of 1 s, twice that at the corners
 """
 
@@ -20,20 +23,26 @@ import pathlib
 import signal
 import sys
 import time
+import tomllib
 
 KEYS = {"fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
         "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.checkpoints": 0,
-        "fluid.refuses": 0, "fluid.cost": 0.25, "fluid.error": 0.0}
+        "fluid.refuses": 0, "fluid.cost": 0.25, "fluid.error": 0.0, "fluid.opens": 0.0, "fluid.unsteady": 0.0,
+        "fluid.sticks": 1e9}
 HERE = pathlib.Path(__file__).resolve().parent
 case, arguments = sys.argv[1], sys.argv[2:]
 if case == "--version":
     print("fluid_solver of toryu 0.1.0 (commit 0123456789ab)")
     sys.exit(0)
-values, faults = dict(KEYS), []
+values, faults, worn, end = dict(KEYS), [], [None, None], None
 for pair in (a.removeprefix("--set=") for a in arguments if a.startswith("--set=")):
     key, _, value = pair.partition("=")
     if key in KEYS:
         values[key] = float(value)
+    elif key.endswith(".worn"):
+        worn[int(key.split(".")[1])] = tomllib.loads(f"faces = {value}")["faces"][0]["depth"]
+    elif key == "case.end_time":
+        end = float(value)
     elif not key.startswith(("case.", "wall.")):
         faults.append(f"--set {pair}: error: unknown key '{key.removeprefix('fluid.')}' in [fluid]")
 if faults:
@@ -63,8 +72,9 @@ while values["fluid.hangs"]:
 code = int(values["fluid.fails"])
 speed = values["fluid.step"] * math.sqrt(values["fluid.k"]) if values["fluid.step"] < values["fluid.islands"] else 0
 code = 3 if speed > 2 else code
+code = 3 if any(row[1] > values["fluid.sticks"] for rows in worn if rows for row in rows) else code
 
-END = 3.0
+END = end or 3.0
 times = [END * k / 300 for k in range(301)]
 rows = [f"{t},{values['fluid.x'] + values['fluid.y'] * t},0,{300 * values['fluid.x'] * min(t, 1.5)},"
         f"{0.9 ** t * math.sin(2 * math.pi * t / (1 + values['fluid.error']))},{1 + (10 * t if speed > 1 else 0)}"
@@ -92,6 +102,9 @@ compiler = "GNU 12.2.0"
 if values["fluid.removes"]:
     from toryu_testing import made_up_surface  # imports h5py, which takes its time
     made_up_surface.write(out / "surface.h5", times, values["fluid.removes"])
+if values["fluid.opens"]:
+    from toryu_testing import made_up_surface
+    made_up_surface.write_passage(out / "surface.h5", times, values["fluid.opens"], worn, values["fluid.unsteady"])
 if code:
     print("fluid_solver: error: particle 7 left the domain", file=sys.stderr)
 sys.exit(code)

@@ -34,3 +34,31 @@ def write(path, times, depth):
         file["work_piece"].attrs["names"] = "left_piece;right_piece"
         file["time"] = times
         file["preston_depth"] = np.outer(times + np.minimum(times, 1), a_second)
+
+
+GAP, LENGTH, POINTS = 2e-3, 1e-2, 20  # of a passage [m]
+
+
+def write_passage(path, times, opening, worn, unsteady):
+    """A surface.h5 of a passage along x between the walls 'lower' and 'upper', whose upper and lower face are worn by the
+    rows `worn` of place and depth [m]. Each face recedes by (opening/2) w 2 (1 - x/L) [m/s], w the width at x: evenly if the
+    medium goes both ways, w = GAP exp(opening t). `unsteady` times too much at the start, falling to 0 after 2 s."""
+    import h5py
+
+    x = (np.arange(POINTS) + 0.5) * LENGTH / POINTS
+    depth = [np.interp(x, *zip(*rows)) if rows else np.zeros(POINTS) for rows in worn]
+    rate = 0.5 * opening * (GAP + sum(depth)) * 2 * (1 - x / LENGTH)
+    times = np.asarray(times)
+    passed = times + unsteady * (times - np.minimum(times, 2) / 2) * (np.minimum(times, 2) / np.maximum(times, 1e-9))
+    with h5py.File(path, "w") as file:
+        sides = [(-GAP / 2 - 2.5e-4, 1.0, depth[0]), (GAP / 2 + 2.5e-4, -1.0, depth[1])]
+        file["start_position"] = np.concatenate([np.column_stack([x, y - sense * h]) for y, sense, h in sides])
+        file["normal"] = np.concatenate([np.tile([0.0, sense], (POINTS, 1)) for _, sense, _ in sides])
+        file["area"] = np.full(2 * POINTS, LENGTH / POINTS)
+        file["work_piece"] = np.repeat([0, 1], POINTS)
+        file["work_piece"].attrs["names"] = "lower;upper"
+        file["time"] = times
+        file["preston_depth"] = np.outer(passed, np.tile(rate, 2))
+        file["sliding_pressure"] = np.outer(passed, np.tile(rate, 2)) / 1e-12
+        file["contact_pressure"] = np.full((len(times), 2 * POINTS), 1e6)
+        file["sliding_speed"] = np.full((len(times), 2 * POINTS), 1e-2)

@@ -42,6 +42,12 @@ TEST(FlowRate, IsZeroWhereThereIsNoFluid) {
   EXPECT_EQ(flow_rate(particles({{{9, 9}, {1, 1}, 1}}), {Vec(0, 0), Vec(1, 1)}, Axis::x), 0);
 }
 
+TEST(VolumeFlux, IsOfWhatIsInTheBoxHoweverMuchItFills) {
+  // a row of two particles of 1 x 1 in a box 2 long and 5 wide, a third outside it
+  const auto f = particles({{{0.5, 0.5}, {7, 1}, 1}, {{1.5, 0.5}, {5, 4}, 1}, {{0.5, 9}, {7, 100}, 1}});
+  EXPECT_DOUBLE_EQ(volume_flux(f, {Vec(0, -2), Vec(2, 3)}, Axis::x), 1 * 6);
+}
+
 TEST(PressureProbe, IsTheKernelMean) {
   // one particle at the probe, one at distance h: W(1)/W(0) = 1/4 by (11)
   const CubicSpline kernel(0.5);

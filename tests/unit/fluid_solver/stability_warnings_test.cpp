@@ -188,5 +188,15 @@ TEST(FluidGuards, WantSoundFasterThanDeepWaterFalls) {
               ElementsAre(HasSubstr("below the edge of 6.3 m/s for fluid that deep;")));
 }
 
+TEST(FluidGuards, KnowThatAlongAPeriodGravityMakesNoDepth) {
+  Scene scene;
+  scene.gravity = Vec(3, -4);
+  EXPECT_EQ(gravity_on_columns(scene), Vec(3, -4));
+  scene.periodic = Periodic::x;
+  EXPECT_EQ(gravity_on_columns(scene), Vec(0, -4));
+  scene.periodic = Periodic::xy;
+  EXPECT_EQ(gravity_on_columns(scene), Vec(0, 0));
+}
+
 }  // namespace
 }  // namespace toryu::fluid

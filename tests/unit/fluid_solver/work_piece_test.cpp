@@ -38,6 +38,17 @@ void expect_near(const std::vector<Vec>& found, const std::vector<Vec>& expected
     EXPECT_LT((found[k] - expected[k]).norm(), 1e-12) << k << ": " << found[k].transpose();
 }
 
+TEST(WorkPiece, OfAPeriodicSceneGoesOnBeyondItsEnds) {
+  Setting setting = empty_space();
+  setting.scene.domain = {Vec(0, -1), Vec(1, 1)};
+  setting.scene.periodic = Periodic::x;
+  setting.scene.walls = {
+      {.name = "piece", .box = {Vec(0, -0.15), Vec(1, 0)}, .motion = {}, .work_piece = true}};
+  setting.parameters.regions = {{"medium", {Vec(0, 0), Vec(1, 0.2)}, Vec::Zero()}};
+  const WeaklyCompressible solver = setting.solver();
+  for (const Vec& face : faces(boundary_of(solver, "piece"))) EXPECT_EQ(face[0], 0);
+}
+
 TEST(WorkPiece, IsABodyOfItsOwnWithOpenFacesOnly) {
   const WeaklyCompressible solver = piece_on_a_floor().solver();
   ASSERT_EQ(solver.boundaries().size(), 2u);

@@ -219,6 +219,15 @@ class Pieces(unittest.TestCase):
         self.assertIn((4321, 5.0), points)
         self.assertIn((7000, -3.0), points)
 
+    def test_a_worn_wall_is_drawn_with_its_outline(self):
+        box = {"min": [0, 0], "max": [2, 1]}
+        wall, = scene.wall_paths({"wall": [{"name": "floor", "box": box, "worn": [
+            {"face": "upper", "depth": [[0.0, 0.1], [1.0, 0.3], [2.0, 0.1]]}, {"face": "left", "depth": [[0.5, 0.2]]}]}]}, 1.0)
+        self.assertEqual(wall["outline"], [[0, 0], [2, 0], [2, 0], [2, 1], [2, 0.9], [1, 0.7], [0, 0.9], [0.2, 1],
+                                           [0.2, 0.5], [0.2, 0]])
+        wall, = scene.wall_paths({"wall": [{"name": "floor", "box": box, "worn": [{"face": "upper", "depth": [[0, 0]]}]}]}, 1.0)
+        self.assertEqual(wall["outline"], [])
+
     def test_a_wall_moves_by_the_integral_of_its_velocity(self):
         wall, = scene.wall_paths({"wall": [
             {"name": "w", "box": {"min": [0, 0], "max": [1, 1]},

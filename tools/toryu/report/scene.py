@@ -58,8 +58,27 @@ def wall_paths(case, end):
             moved -= moved[np.searchsorted(times, 0)]
             path = np.column_stack([times, moved, velocity]).tolist()
         walls.append({"name": str(wall.get("name", "")), "box": box, "round": wall["box"].get("round") is True,
-                      "path": path, "work_piece": wall.get("work_piece") is True})
+                      "path": path, "work_piece": wall.get("work_piece") is True, "outline": outline(wall, box)})
     return walls
+
+
+def outline(wall, box):
+    """Corners of a wall whose faces are worn, anticlockwise [x, y]; none of one that is as its box."""
+    low_x, low_y, high_x, high_y = box
+    depths = {worn.get("face"): depth for worn in data.tables_of(wall, "worn")
+              if isinstance(depth := worn.get("depth"), list) and depth and all(data.numbers(row, 2) for row in depth)}
+    if not any(row[1] for depth in depths.values() for row in depth):
+        return []
+    corners = []
+    for face, across, along, turned in (("lower", low_y, (low_x, high_x), False), ("right", high_x, (low_y, high_y), True),
+                                        ("upper", high_y, (high_x, low_x), False), ("left", low_x, (high_y, low_y), True)):
+        inward, rows = 1 if face in ("lower", "left") else -1, depths.get(face, [[along[0], 0.0]])
+        places, worn = zip(*rows)
+        inner = [s for s in places if min(along) < s < max(along)]
+        for s in [along[0], *(inner if along[0] < along[1] else inner[::-1]), along[1]]:
+            level = across + inward * float(np.interp(s, places, worn))
+            corners.append([level, s] if turned else [s, level])
+    return corners
 
 
 def rows_of(motion):

@@ -59,7 +59,7 @@ def tiles(study, table, records):
 
 def combinations(study):
     """How the number of runs comes about."""
-    if study.bisects:
+    if study.searched:
         return "as many as the search took"
     rounds = f"{study.timing.repeat} times " if study.timing else ""
     but = ", some left out" if study.leave_out else ""

@@ -56,7 +56,8 @@ class Study:
     small: bool = False  # the small version that [small] describes
     removal: object = None  # the tables of special views: removal.py,
     map: object = None  # map_file.py,
-    terms: object = None  # terms.py
+    terms: object = None  # terms.py,
+    recession: object = None  # recession.py
 
     @property
     def name(self):
@@ -73,9 +74,9 @@ class Study:
         return OF_RUN | (timing.UNITS if self.timing else {})
 
     @property
-    def bisects(self):
-        """Whether its runs depend on how others ended."""
-        return self.map is not None and self.map.y is not None
+    def searched(self):
+        """What looks for the next runs where these depend on how others ended, else None."""
+        return self.recession or (self.map and self.map.y)
 
     def units(self):
         return {thing.name: thing.unit for thing in [*self.axes, *self.metrics]} | self.of_run()

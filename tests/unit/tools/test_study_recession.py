@@ -1,0 +1,145 @@
+"""Studies of surfaces that recede, of a made-up passage that opens by exp(rate t)."""
+
+import csv
+import math
+import unittest
+
+from toryu_testing.study_case import HEAD, Study
+
+CASE = """[case]
+title = "passage"
+end_time = 3.0
+[[wall]]
+name = "lower"
+[[wall]]
+name = "upper"
+[fluid]
+[fluid.removal]
+preston_coefficient = 1e-12
+"""
+RECESSION = """
+[recession]
+cycles = 200
+cycle = 13.5
+gap = 0.002
+"""
+SHORT = RECESSION.replace("200", "2")  # a single jump
+TWO_WAY = 'way = "mirrored"\n'
+
+
+class Recession(Study):
+    def setUp(self):
+        super().setUp()
+        (self.case / "case.toml").write_text(CASE)
+
+    def write(self, text, sets="fluid.opens = 6.75e-5"):
+        super().write(text, HEAD + f"set = {{ {sets} }}\n")
+
+    def shape(self):
+        """(solution, wall) -> depths [m] in the order of the place."""
+        with open(self.out / "recession.csv", newline="") as file:
+            found = {}
+            for row in csv.DictReader(file):
+                found.setdefault((row["solution"], row["wall"]), []).append(float(row["depth[m]"]))
+        return found
+
+    def last(self):
+        return [row for row in self.table() if row["machining_time[s]"]][-1]
+
+    def test_two_ways_open_a_passage_evenly_and_it_goes_on_where_it_was_stopped(self):
+        self.write(RECESSION + TWO_WAY)
+        ended = self.done()
+        exact = 1e-3 * (math.exp(6.75e-5 * 2700) - 1)
+        self.assertEqual(len(self.starts()), 5, "solutions of the flow")
+        row = self.last()
+        self.assertEqual((row["solution"], row["cycles"]), ("2", "200"))
+        self.assertAlmostEqual(float(row["depth_mean[m]"]) / exact, 1, delta=2e-3)
+        self.assertAlmostEqual(float(row["taper"]), 0, delta=1e-6)
+        self.assertAlmostEqual(float(row["removed_area[m2]"]) / (2e-2 * exact), 1, delta=2e-3)
+        self.assertAlmostEqual(float(row["balance_error"]), 0, delta=1e-9)
+        depths = self.shape()["2", "upper"]
+        self.assertEqual(len(depths), 20)
+        self.assertAlmostEqual(max(depths), min(depths), delta=1e-9)
+        self.assertIn("200 cycles", ended.stdout)
+        self.assertTrue((self.out / "charts/shape.png").is_file())
+        started = self.starts()
+        self.assertIn("5 of them done", self.done("--check").stdout)
+        (self.out / "runs" / started[2] / "run.json").unlink()
+        self.done()
+        self.assertEqual(self.starts(), [*started, started[2]], "the others are kept")
+
+    def test_one_way_opens_it_like_a_funnel(self):
+        self.write(SHORT)
+        self.done()
+        row = self.last()
+        self.assertAlmostEqual(float(row["taper"]), 2, delta=0.02)
+        depths = self.shape()[row["solution"], "lower"]
+        self.assertAlmostEqual(depths[0] / depths[19], 39, delta=0.5)
+
+    def test_of_a_passage_with_its_image_the_first_half_counts(self):
+        self.write(SHORT + 'way = "first_half"\n')
+        self.done()
+        depths = self.shape()["1", "lower"]
+        self.assertEqual(depths, depths[::-1])
+        self.assertGreater(depths[0], depths[9])
+
+    def test_both_ways_run(self):
+        self.write(SHORT + 'way = "both"\nreverse = { fluid.x = 2.0 }\n')
+        self.done()
+        self.assertIn("1 predicted, reversed", [row["solution"] for row in self.table()])
+
+    def test_a_run_that_fails_ends_it_with_its_cause(self):
+        self.write(RECESSION + TWO_WAY, "fluid.opens = 6.75e-5, fluid.sticks = 5e-5")
+        ended = self.study()
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn("the solution '1 predicted' failed: particle 7 left the domain", ended.stderr)
+        self.assertTrue((self.out / "study.html").is_file())
+
+    def test_a_flow_that_is_not_steady_runs_longer(self):
+        self.write(SHORT + TWO_WAY, "fluid.opens = 6.75e-5, fluid.unsteady = 0.2")
+        self.done()
+        self.assertIn("0, 2 times as long", [row["solution"] for row in self.table()])
+
+    def test_or_ends_the_study(self):
+        self.write(SHORT + TWO_WAY + "steady_within = 1e-12\n", "fluid.opens = 6.75e-5, fluid.unsteady = 0.2")
+        ended = self.study()
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn("does not become steady", ended.stderr)
+
+    def test_the_pressure_at_places_takes_the_place_of_what_was_found(self):
+        # what is found is 1 MPa; 2 MPa at the first end and 1 at the other add k p v = 1e-12 * 1e6 * 1e-2 there
+        self.write(RECESSION.replace("200", "1") + "pressure = [[0.0, 2e6], [0.01, 1e6]]\n", "fluid.opens = 1e-12")
+        self.done()
+        depths = self.shape()["1", "upper"]
+        self.assertAlmostEqual(depths[0] / (1e-8 * 13.5 * 0.975), 1, delta=1e-4)
+        self.assertAlmostEqual(depths[19] / (1e-8 * 13.5 * 0.025), 1, delta=1e-3)
+
+    def test_over_another_axis_a_line_each(self):
+        self.write(SHORT + TWO_WAY + "[[axis]]\nname = 'speed'\nvalues = [1, 2]\nkeys = ['fluid.x']\n")
+        self.done()
+        self.assertEqual(len(self.starts()), 6)
+        self.assertTrue((self.out / "charts/shape_02.png").is_file())
+
+
+class Faults(Study):
+    def test_all_are_told_with_their_line(self):
+        (self.case / "case.toml").write_text(CASE.replace('name = "upper"', 'name = "upper"\nworn = [{}]'))
+        self.write('[recession]\ncycles = 0\ncycle = 1.0\njump = 2\nway = "to and fro"\npressure = [[1, 2], [0, 2]]\n'
+                   'gapp = 1\n')
+        ended = self.study("--check")
+        self.assertEqual(ended.returncode, 2)
+        for words in ("window.toml:5: error: 'cycles' must be above 0, found 0", "[recession] needs 'gap', a finite number",
+                      "window.toml:7: error: 'jump' must be above 0 and at most 0.5, found 2",
+                      "'way' must be one of 'one_way', 'first_half', 'mirrored', 'both', found 'to and fro'",
+                      "the places ascending, found [[1, 2], [0, 2]]", "the case has walls that are 'worn'",
+                      "unknown key 'gapp' in [recession]; did you mean 'gap'?"):
+            self.assertIn(words, ended.stderr)
+
+    def test_reverse_goes_with_both_ways(self):
+        (self.case / "case.toml").write_text(CASE)
+        self.write(RECESSION + 'way = "both"\n')
+        self.assertIn("'reverse', what turns the flow in the case, goes with way = \"both\"", self.study("--check").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

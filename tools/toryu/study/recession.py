@@ -1,0 +1,173 @@
+"""Surfaces that recede: what the table [recession] of a study file says, and what came of it. README.md describes the
+keys."""
+
+import csv
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from toryu.program import whole_file
+from toryu.report import tables
+from toryu.study import recession_charts, study_file
+from toryu.study.answer import Answer
+from toryu.study.document import found, is_number
+from toryu.study.recession_steps import March
+from toryu.study.recession_surface import Pressure
+from toryu.study.removal_answer import in_words
+from toryu.study.table import text
+
+AXIS = "solution"  # of the study: the solutions of the flow
+UNITS = {"machining_time": "s", "cycles": "", "depth_mean": "m", "depth_largest": "m", "taper": "", "removed_area": "m2",
+         "balance_error": "", "removal_rate": "m/s", "jump_error": "", "unsteadiness": ""}
+WAYS = ("one_way", "first_half", "mirrored", "both")
+
+
+@dataclass
+class Recession:
+    """The table [recession]."""
+
+    axis: study_file.Axis  # its values are the solutions, in the end all that ran
+    time: float = math.nan  # [s] of machining
+    cycle: float | None = None  # [s] of a cycle, if cycles count
+    gap: float = math.nan  # [m] of the narrowest passage
+    jump: float = 0.1  # largest change of the gap in a jump, as a share of it
+    edge_jump: float = 0.25  # most that comes off an edge in a jump [spacings]
+    tolerance: float = 0.1  # of State.jump_error
+    target: float = math.inf  # mean depth [m] at which it ends
+    way: str = "one_way"
+    along: int = 0  # axis of the flow: 0 is x
+    reverse: dict = field(default_factory=dict)  # overrides of the case that turn the flow
+    pressure: Pressure | None = None  # where the contact pressure of a run is not the medium's
+    window: tuple = (0.5, 1.0)  # shares of a run's time within which its rate is taken
+    steady_within: float = 0.01
+    walls: list[str] = field(default_factory=list)  # of the case
+    chains: list = field(default_factory=list)  # recession_search.Chain, a combination of the other axes each
+
+    def march(self, surface):
+        """`surface()`: the Surface, once the first run has told it."""
+        def allowed(depth):
+            across = 0.5 * self.jump * (self.gap + 2 * float(depth.min()))
+            rows = np.concatenate([face.rows for face in surface().faces])
+            edges = np.isin(rows, [row for row in set(rows) if (rows == row).sum() > 1])
+            return np.where(edges, min(across, self.edge_jump * float(np.median(surface().length))), across)
+
+        return March(self.time, allowed, self.tolerance, self.target, lambda depth: surface().mean(depth))
+
+    def counts(self, surface):
+        """Which points tell of the passage; the others are its image."""
+        return surface.first_half(self.along) if self.way == "first_half" else np.full(len(surface.place), True)
+
+    def take_all_values(self, _):
+        """Makes all that ran values of the axis."""
+        names = dict.fromkeys(name for chain in self.chains for name in chain.records)
+        self.axis.values = [study_file.Value(name, {"wall.N.worn": "as far as it has come"}) for name in names]
+
+    def units(self):
+        return {name: unit for name, unit in UNITS.items() if name != "cycles" or self.cycle}
+
+    def figures(self, study, row):
+        """Of a solution at the end of a jump; a predicted one has its rate alone."""
+        run = row["record"].folder.name
+        solved = next((chain.solved[run] for chain in self.chains if run in chain.solved), None)
+        return solved.figures() if solved else {}
+
+    def charts(self, study, table, folder):
+        return recession_charts.draw(self, study, folder)
+
+    def answers(self, study, table, out):
+        self.write(out / "recession.csv")
+        return [self.answer(study, chain) for chain in self.chains if chain.states()]
+
+    def write(self, path):
+        """The shape over time, a row a point."""
+        with whole_file(path) as file:
+            writer = csv.writer(file)
+            writer.writerow(["line", "solution", "machining_time[s]", "wall", "face", "position[m]", "depth[m]", "rate[m/s]",
+                             "x[m]", "y[m]"])
+            for chain in self.chains:
+                for solved in chain.states():
+                    outline = chain.surface.outline(solved.state.depth)
+                    columns = map(chain.surface.parts, (solved.state.depth, solved.state.rate, *outline.T))
+                    for face, *values_of in zip(chain.surface.faces, *columns):
+                        for values in zip(face.position, *values_of):
+                            writer.writerow([chain.label, solved.name, text(solved.state.time), face.wall, face.side,
+                                             *(f"{float(value):.9g}" for value in values)])
+
+    def answer(self, study, chain):
+        first, last = chain.states()[0], chain.states()[-1]
+        figures = last.figures()
+        when = f"After {figures['machining_time']:.4g} s" + (f", {figures['cycles']:.4g} cycles," if self.cycle else "")
+        sentence = (f"{when} {in_words(figures['depth_mean'], 'm')} are off on the mean and "
+                    f"{in_words(figures['depth_largest'], 'm')} at most, {figures['removed_area'] * 1e6:.4g} mm² in all; the "
+                    f"taper is {round(figures['taper'], 2) + 0.0:.2f} of the mean depth. It took {len(chain.solved)} solutions of "
+                    "the flow")
+        began = first.mean_rate()
+        sentence += f"; the rate has changed by {(last.mean_rate() / began - 1) * 100:+.1f} %." if began else ": nothing comes off."
+        if chain.failure:
+            sentence += f" There it ended: {chain.failure}"
+        rows = [[solved.name, *(text(value) for value in solved.figures().values())] for solved in chain.states()]
+        return Answer(f"The surface after wear{f': {chain.label}' if chain.label else ''}", sentence,
+                      tables.table(["solution", *(f"{n} [{u}]" if u else n for n, u in self.units().items())], rows))
+
+
+def add_axes(table, study):
+    axis = study_file.Axis(AXIS, "", [study_file.Value("0", {})], table.document.line(table.path, ""))
+    study.axes.append(axis)
+    study.recession = Recession(axis)
+
+
+def read(table, study):
+    made = study.recession
+    made.cycle = _positive(table, "cycle", None)
+    made.time = _positive(table, "time") if not made.cycle else made.cycle * (_positive(table, "cycles") or math.nan)
+    made.gap = _positive(table, "gap")
+    for name, most in (("jump", 0.5), ("edge_jump", 1.0), ("tolerance", 1.0), ("steady_within", 1.0)):
+        setattr(made, name, value := table.get(name, float, getattr(made, name)))
+        if not 0 < value <= most:
+            table.fault(f"'{name}' must be above 0 and at most {most:g}, found {value}", name)
+    made.target = _positive(table, "target_depth", math.inf)
+    made.way = table.get("way", str, "one_way", allowed=WAYS)
+    made.along = "xy".index(table.get("axis", str, "x", allowed=["x", "y"]) or "x")
+    made.reverse = study_file.flat(table.get("reverse", dict, {}))
+    if (made.way == "both") != bool(made.reverse):
+        table.fault("'reverse', what turns the flow in the case, goes with way = \"both\" and with no other", "way")
+    rows = _pressure(table)
+    made.pressure = Pressure(rows, made.along, made.gap) if rows else None
+    made.window = tuple(table.numbers("shares", 2, [0.5, 1.0]))
+    if not 0 <= made.window[0] < made.window[1] <= 1:
+        table.fault(f"'shares' must lie between 0 and 1, found {list(made.window)}", "shares")
+    if study.timing or study.map:
+        table.fault("[recession] goes with neither [timing] nor [map]")
+    _read_case(table, study, made)
+    table.close()
+    return made
+
+
+def _positive(table, key, *default):
+    value = table.get(key, float, *default)
+    if value is not None and not value > 0:
+        table.fault(f"'{key}' must be above 0, found {value}", key)
+    return value
+
+
+def _pressure(table):
+    rows = table.get("pressure", list, None)
+    if rows is None:
+        return None
+    right = rows and all(isinstance(row, list) and len(row) == 2 and all(map(is_number, row)) for row in rows)
+    if not right or [row[0] for row in rows] != sorted({row[0] for row in rows}):
+        table.fault(f"'pressure' must be rows of place [m] and pressure [Pa], the places ascending, found {found(rows)}",
+                    "pressure")
+        return None
+    return rows
+
+
+def _read_case(table, study, made):
+    """What the study needs of its case."""
+    walls = study.content.get("wall", [])
+    made.walls = [wall.get("name") for wall in walls if isinstance(wall, dict)]
+    if any(isinstance(wall, dict) and wall.get("worn") for wall in walls):
+        table.fault("the case has walls that are 'worn': the study says how far they are")
+    if study.kind == "coupled":
+        table.fault("surfaces recede on rigid walls alone: the case has a [solid]")
