@@ -75,6 +75,8 @@ struct Boundary {
   Declared<Field> eta{"viscosity", "Pa.s", FieldKind::derived, Presence::on_demand};
   Declared<TensorField> eta_grad_v{"viscosity_times_velocity_gradient", "Pa", FieldKind::derived,
                                    Presence::on_demand};
+  /// Where the medium is viscoelastic.
+  Declared<Symmetric<Field>> polymer_stress{"polymer_stress", "Pa", FieldKind::derived, Presence::on_demand};
   /// What the fluid does to the particle, where asked for.
   Declared<VecField> force{"force", "N/m", FieldKind::derived};
   // where there is friction, of a work piece alone
@@ -135,11 +137,12 @@ void Boundary::move_to(Of&& kinematics) {
 template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
   auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
-         p, p_rho2, v_viscous, eta, eta_grad_v, force, friction_length, friction_force, force_on_fluid,
-         impulse, work, counted, list_for_wall, list_for_fluid, strips] = boundary;
+         p, p_rho2, v_viscous, eta, eta_grad_v, polymer_stress, force, friction_length, friction_force,
+         force_on_fluid, impulse, work, counted, list_for_wall, list_for_fluid, strips] = boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
   archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, p, p_rho2,
-          v_viscous, eta, eta_grad_v, force, friction_length, friction_force, impulse, work, counted);
+          v_viscous, eta, eta_grad_v, polymer_stress, force, friction_length, friction_force, impulse, work,
+          counted);
 }
 
 inline Sources sources(const Boundary& b) {
@@ -152,7 +155,8 @@ inline Sources sources(const Boundary& b) {
           .rho = b.rho.data(),
           .p_rho2 = b.p_rho2.data(),
           .eta = b.eta.data(),
-          .eta_grad_v = pointers(b.eta_grad_v)};
+          .eta_grad_v = pointers(b.eta_grad_v),
+          .polymer_stress = pointers(b.polymer_stress)};
 }
 
 }  // namespace toryu::fluid

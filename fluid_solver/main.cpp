@@ -136,6 +136,7 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   file.throw_if_faulty();
+  for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);
   for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
     file.fault(key, message);
   file.throw_if_faulty();
@@ -164,6 +165,7 @@ ExitCode solve(const Options& options) {
                            .gravity = scene.gravity};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
   for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
+  if (const auto beyond = fluid::beyond_measured(parameters)) log::warn("{}", *beyond);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
   for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
   for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));

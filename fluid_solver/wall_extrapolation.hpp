@@ -26,6 +26,10 @@ FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, d
 /// Extrapolates pressure (29) and velocity (27) from the fluid to the particles of `boundary` near it.
 void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const Vec& gravity);
 
+/// Extrapolates the stress of a viscoelastic medium's polymer: as a mean, or as a line where the velocity is
+/// fitted.
+void extrapolate_polymer_stress(Boundary& boundary, const Particles& fluid, const Kernel& kernel);
+
 /// Extrapolates viscosity and eta grad v of a medium that is not Newtonian likewise.
 void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel);
 
