@@ -43,7 +43,8 @@ double viscosity_at_rest(const CaseFile& file) {
   const bool thickens = file.value<double>("fluid.power_law.exponent").value_or(0.0) > 1;
   for (const char* key :
        {"fluid.laminar_viscosity.dynamic_viscosity", "fluid.carreau.zero_shear_viscosity",
-        thickens ? "fluid.power_law.smallest_viscosity" : "fluid.power_law.largest_viscosity"})
+        thickens ? "fluid.power_law.smallest_viscosity" : "fluid.power_law.largest_viscosity",
+        "fluid.herschel_bulkley.largest_viscosity"})
     if (const auto viscosity = file.value<double>(key)) return *viscosity;
   return 0;
 }

@@ -78,6 +78,8 @@ struct Boundary {
   /// u_s and tau_w, where the medium slides as terms/wall_slip.hpp has it.
   Declared<VecField> slip_velocity{"slip_velocity", "m/s", FieldKind::derived, Presence::on_demand};
   Declared<Field> shear_stress{"shear_stress", "Pa", FieldKind::derived, Presence::on_demand};
+  /// Where the medium is viscoelastic.
+  Declared<Symmetric<Field>> polymer_stress{"polymer_stress", "Pa", FieldKind::derived, Presence::on_demand};
   /// What the fluid does to the particle, where asked for.
   Declared<VecField> force{"force", "N/m", FieldKind::derived};
   // where there is friction, of a work piece alone
@@ -141,13 +143,13 @@ void Boundary::move_to(Of&& kinematics) {
 template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
   auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
-         p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, force, friction_length,
-         friction_force, fitted, force_on_fluid, impulse, work, counted, list_for_wall, list_for_fluid,
-         strips] = boundary;
+         p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress, force,
+         friction_length, friction_force, fitted, force_on_fluid, impulse, work, counted, list_for_wall,
+         list_for_fluid, strips] = boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
   archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, p, p_rho2,
-          v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, force, friction_length, friction_force,
-          impulse, work, counted);
+          v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress, force, friction_length,
+          friction_force, impulse, work, counted);
 }
 
 inline Sources sources(const Boundary& b) {
@@ -160,7 +162,8 @@ inline Sources sources(const Boundary& b) {
           .rho = b.rho.data(),
           .p_rho2 = b.p_rho2.data(),
           .eta = b.eta.data(),
-          .eta_grad_v = pointers(b.eta_grad_v)};
+          .eta_grad_v = pointers(b.eta_grad_v),
+          .polymer_stress = pointers(b.polymer_stress)};
 }
 
 }  // namespace toryu::fluid

@@ -144,7 +144,8 @@ void FluidModel::fill_walls() {
     boundary.place(made.places, made.volumes, parameters_.density, parameters_.strip_width());
     const bool fit = parameters_.wall_model.extrapolation == WallExtrapolation::fit;
     if (fit || parameters_.wall_slip)
-      boundary.know_faces(made.kept(lattice_face_depths(made.lattice, parameters_.spacing, 2 * reach())), fit);
+      boundary.know_faces(made.kept(lattice_face_depths(made.lattice, parameters_.spacing, 2 * reach())),
+                          fit);
     if (wall && wall->work_piece)
       boundary.make_work_piece(made.kept(lattice_faces(made.lattice, parameters_.spacing, period_.shifts())));
   };

@@ -29,6 +29,7 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
       period_(scene, parameters.spacing, (1 + parameters.neighbour_skin) * 2 * parameters.h()),
       state_{.neighbours = Neighbours(2 * parameters.h(), parameters.neighbour_skin * 2 * parameters.h(),
                                       parameters.strip_width(), period_.shifts())} {
+  state_.beyond_measured = beyond_measured(parameters).has_value();  // it is told by who reads the case
   state_.run_watch.emplace(parameters.limits, parameters.sound_speed);
   if (!parameters.particle_shifting) state_.suction_watch.emplace(parameters.spacing, equation_of_state_);
   fill_regions();
@@ -158,6 +159,7 @@ void FluidModel::watch_stops(double time) {
 void FluidModel::watch(double time) {
   watch_stops(time);
   if (state_.suction_watch) watch_suction(time);
+  watch_shear(time);
   if (state_.steps_since_look == 0) state_.run_watch->look(run_figures(time));
 }
 
@@ -169,6 +171,14 @@ bool FluidModel::is_enclosed() {
   update_neighbours(0);
   free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
   return is_closed(state_.fluid);
+}
+
+void FluidModel::watch_shear(double time) {
+  if (!parameters_.medium || state_.beyond_measured) return;
+  const auto beyond = beyond_measured(record_of(*parameters_.medium), state_.fluid, time);
+  if (!beyond) return;
+  log::warn("{}", *beyond);
+  state_.beyond_measured = true;
 }
 
 /// Who has a free surface in reach is not known in every run, and asked where it matters alone.

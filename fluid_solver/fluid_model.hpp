@@ -26,11 +26,13 @@ struct Extremes {
   double speed = 0, acceleration = 0;  ///< [m/s], [m/s2]
   double viscosity = 0;                ///< of the medium [Pa s]
   double friction_rate = 0;            ///< of the fastest drag by friction, 0 without [1/s]
+  double elastic_speed = 0;            ///< of shear waves in a viscoelastic medium, 0 without [m/s]
+  double relaxation_rate = 0;          ///< the fastest of such a medium, 0 without [1/s]
 };
 template <class Archive>
 void serialize(Archive& archive, Extremes& extremes) {
-  auto& [speed, acceleration, viscosity, friction_rate] = extremes;
-  archive(speed, acceleration, viscosity, friction_rate);
+  auto& [speed, acceleration, viscosity, friction_rate, elastic_speed, relaxation_rate] = extremes;
+  archive(speed, acceleration, viscosity, friction_rate, elastic_speed, relaxation_rate);
 }
 
 class FluidModel : public Solver {
@@ -107,6 +109,7 @@ class FluidModel : public Solver {
     bool density_rate_known = false;  ///< of the symplectic step, from the last one
     bool contact_changed = false;     ///< since then: the velocity at the interface
     bool impedance_wanted = false;    ///< with the load of the present window
+    bool beyond_measured = false;     ///< whether it was told that the medium is sheared too fast
     std::optional<SurfaceRecord> surface_record = {};
     std::optional<SuctionWatch> suction_watch = {};
     std::optional<RunWatch> run_watch = {};
@@ -114,10 +117,11 @@ class FluidModel : public Solver {
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
     auto& [time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, penetration,
-           steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, surface_record,
-           suction_watch, run_watch] = state;
+           steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, beyond_measured,
+           surface_record, suction_watch, run_watch] = state;
     archive(time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, penetration,
-            steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, *run_watch);
+            steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, beyond_measured,
+            *run_watch);
     if (surface_record) archive(*surface_record);
     bool watched = suction_watch.has_value();  // until it has warned
     archive(watched);
@@ -150,6 +154,7 @@ class FluidModel : public Solver {
   void move_back_into_domain();
   void watch_suction(double time);
   void watch_stops(double time);
+  void watch_shear(double time);
   MovingInterface& interface();
   /// Energy over mass at `x` [m2/s2].
   double potential(const Vec& x) const;

@@ -159,6 +159,7 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   file.throw_if_faulty();
+  for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);
   for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
     file.fault(key, message);
   for (const auto& [key, message] : fluid::implicit_faults(parameters, scene, file.has("solid")))
@@ -197,6 +198,7 @@ ExitCode solve(const Options& options) {
   for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
   if (!file.value<double>("fluid.removal.grain_length"))
     if (const auto unknown = fluid::removal_by_grain_length(parameters)) log::warn("{}", *unknown);
+  if (const auto beyond = fluid::beyond_measured(parameters)) log::warn("{}", *beyond);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
   for (const auto& thin : fluid::thin_remains(scene.walls, model.reach())) log::warn("{}", thin);
   for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);

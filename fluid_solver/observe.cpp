@@ -87,6 +87,12 @@ Frame FluidModel::frame() const {
                             1,
                             {state_.fluid.gdot.begin(), state_.fluid.gdot.begin() + n}});
   }
+  if (const auto& stress = state_.fluid.polymer_stress; !stress.xx.empty()) {
+    FrameField field{"polymer_stress", "Pa", "of the last evaluation", dim * dim, {}};
+    for (std::size_t i = 0; i < n; ++i)
+      field.values.insert(field.values.end(), {stress.xx[i], stress.xy[i], stress.xy[i], stress.yy[i]});
+    frame.fields.push_back(std::move(field));
+  }
   return frame;
 }
 

@@ -18,8 +18,15 @@ bool flow_is_there(const Parameters& p) {
   return true;
 }
 
-bool one_viscosity(const Parameters& p) {
-  return p.laminar_viscosity.has_value() + p.power_law.has_value() + p.carreau.has_value() <= 1;
+/// The keys by which the case gives its medium a viscosity, the Newtonian one last.
+std::vector<std::string> keys_of_viscosity(const Parameters& p) {
+  std::vector<std::string> keys;
+  if (p.power_law) keys.emplace_back(PowerLaw::section);
+  if (p.herschel_bulkley) keys.emplace_back(HerschelBulkley::section);
+  if (p.carreau) keys.emplace_back(Carreau::section);
+  if (p.medium) keys.emplace_back("medium");
+  if (p.laminar_viscosity) keys.emplace_back(LaminarViscosity::section);
+  return keys;
 }
 
 }  // namespace
@@ -138,6 +145,8 @@ void describe_medium(ParameterTable& table, Parameters& p) {
   table.number(
       "density", p.density,
       {.unit = "kg/m3", .minimum = 0, .above_minimum = true, .required = true, .help = "rest density rho_0"});
+  table.optional("medium", p.medium, "a medium of which the viscosity was published, by its name");
+  table.optional("temperature", p.temperature, "of the medium, where it is not that of its constants");
   table.optional("similarity", p.similarity,
                  "creeping flow of a very viscous medium at a density that makes its steps long");
   table.number("sound_speed", p.sound_speed,
@@ -208,6 +217,18 @@ bool is_square(const Parameters& p) {
   return std::abs(side[0] - side[1]) < 0.5 * p.spacing;
 }
 
+/// What the elastic stress of a medium needs.
+void require_of_viscoelasticity(ParameterTable& table, const Parameters& p) {
+  if (!p.viscoelasticity) return;
+  table.require(!keys_of_viscosity(p).empty(), "viscoelasticity",
+                "a polymer needs a solvent, which damps what its stress does not see: give a "
+                "[fluid.laminar_viscosity]");
+  table.require(
+      p.wall_model.slip == WallSlip::no_slip, "viscoelasticity",
+      "walls take the polymer's stress along with the fluid's before them: it needs [fluid.wall_model] "
+      "slip = \"no_slip\"");
+}
+
 void require_consistency(ParameterTable& table, const Parameters& p) {
   table.require(
       !p.initial_flow || p.initial_flow->profile != FlowProfile::rotation || p.regions.empty() ||
@@ -218,8 +239,14 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
   table.require(!p.regions.empty(), "region", "a fluid needs at least one [[fluid.region]]");
   table.require(!p.consistent_gradients || p.particle_shifting, "consistent_gradients",
                 "consistent gradients do not drive particles apart: they need [fluid.particle_shifting]");
-  table.require(one_viscosity(p), p.power_law ? "power_law" : "carreau",
-                "only one of 'laminar_viscosity', 'power_law' and 'carreau' may be given");
+  const auto viscosities = keys_of_viscosity(p);
+  table.require(
+      viscosities.size() <= 1, viscosities.empty() ? "" : viscosities.front(),
+      "only one of 'laminar_viscosity', 'power_law', 'herschel_bulkley', 'carreau' and 'medium' may "
+      "be given");
+  table.require(!p.temperature || !viscosities.empty(), "temperature",
+                "a temperature changes a viscosity, and none is given");
+  require_of_viscoelasticity(table, p);
   table.require(flow_is_there(p), "observer",
                 "a flow_amplitude needs [fluid.initial_flow]; a flow_error one of Taylor-Green with a "
                 "[fluid.laminar_viscosity]");
@@ -237,6 +264,9 @@ void require_slip_to_act(ParameterTable& table, const Parameters& p) {
       !p.wall_slip || !p.artificial_viscosity, "wall_slip",
       "artificial viscosity brakes the medium at walls whatever [fluid.wall_slip] says: leave one of "
       "the two out");
+  table.require(!p.wall_slip || !p.viscoelasticity, "wall_slip",
+                "[fluid.wall_slip] knows the shear stress of the viscosity alone: it does not go with "
+                "[fluid.viscoelasticity]");
   table.require(
       !p.wall_slip || !p.friction || p.friction->form == FrictionForm::normalised, "wall_slip",
       "beside [fluid.wall_slip] the friction of a work piece is mu_A p: [fluid.friction] takes form = "
@@ -264,6 +294,13 @@ void describe(ParameterTable& table, Parameters& p) {
   table.list("observer", p.observers, "numbers reported over time in fluid.csv");
   require_consistency(table, p);
   require_slip_to_act(table, p);
+}
+
+std::vector<std::string> complete_medium(Parameters& p) {
+  std::vector<std::string> said;
+  if (p.medium) said.push_back(take_named_medium(p));
+  if (p.temperature) said.push_back(take_temperature(p));
+  return said;
 }
 
 }  // namespace toryu::fluid

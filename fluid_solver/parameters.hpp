@@ -8,7 +8,9 @@
 #include "common/case/parameter_table.hpp"
 #include "common/scene/scene.hpp"
 #include "fluid_solver/implicit/solver_parameters.hpp"
+#include "fluid_solver/named_medium.hpp"
 #include "fluid_solver/similarity.hpp"
+#include "fluid_solver/temperature.hpp"
 #include "fluid_solver/terms.hpp"
 
 namespace toryu::fluid {
@@ -87,6 +89,8 @@ struct Parameters : OptionalTerms {
   Model model = Model::weakly_compressible;
   std::optional<ImplicitSolver> implicit;  ///< its defaults where the implicit model has none
   double density = 1000.0;                 ///< rho_0 [kg/m3]
+  std::optional<NamedMedium> medium;
+  std::optional<Temperature> temperature;
   std::optional<Similarity> similarity;
   double sound_speed = 0;        ///< c_0 [m/s]
   int stiffness_exponent = 7;    ///< gamma of (3)
@@ -114,5 +118,9 @@ struct Parameters : OptionalTerms {
   double strip_width() const;  ///< of the order in which particles are stored [m]
 };
 void describe(ParameterTable& table, Parameters& parameters);
+
+/// Puts the medium that is named, and what its temperature does to it, into the laws of `parameters`. Returns
+/// what the log says.
+std::vector<std::string> complete_medium(Parameters& parameters);
 
 }  // namespace toryu::fluid

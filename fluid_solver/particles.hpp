@@ -9,6 +9,11 @@
 
 namespace toryu::fluid {
 
+/// So many modes may the stress of a viscoelastic medium have.
+inline constexpr std::size_t most_polymer_modes = 4;
+/// One symmetric tensor a mode.
+using ModeFields = std::array<Symmetric<Field>, most_polymer_modes>;
+
 struct Particles {
   std::size_t count = 0;
   std::vector<std::uint32_t> id;  ///< number at the start, which sorting keeps
@@ -31,6 +36,12 @@ struct Particles {
   Declared<Field> eta{"viscosity", "Pa.s", FieldKind::derived, Presence::on_demand};
   Declared<TensorField> eta_grad_v{"viscosity_times_velocity_gradient", "Pa", FieldKind::derived,
                                    Presence::on_demand};  ///< [a][b]: eta dv_b/dx_a
+  // where the medium is viscoelastic, of each mode that it has
+  Declared<ModeFields> log_conformation{"log_conformation", "1", FieldKind::state, Presence::on_demand};
+  /// The symplectic step begins with that of the end of the last one.
+  Declared<ModeFields> log_conformation_rate{"log_conformation_rate", "1/s", FieldKind::state,
+                                             Presence::on_demand};
+  Declared<Symmetric<Field>> polymer_stress{"polymer_stress", "Pa", FieldKind::derived, Presence::on_demand};
   Declared<VecField> a{"acceleration", "m/s2", FieldKind::derived};
   /// The symplectic step begins with that of the end of the last one.
   Declared<Field> drho{"density_rate", "kg/(m3.s)", FieldKind::state};
@@ -41,9 +52,9 @@ struct Particles {
 template <class Archive>
 void serialize(Archive& archive, Particles& particles) {
   auto& [count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
-         eta_grad_v, a, drho] = particles;
+         eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, drho] = particles;
   archive(count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
-          eta_grad_v, a, drho);
+          eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, drho);
 }
 
 /// What a pair loop reads of its sources, fluid or boundary alike.
@@ -51,7 +62,12 @@ struct Sources {
   Positions x, v, v_viscous, grad_rho;
   const double *m, *V, *rho, *p_rho2, *eta;
   std::array<Positions, dim> eta_grad_v;
+  std::array<const double*, 3> polymer_stress;  ///< xx, yy, xy
 };
+
+inline std::array<const double*, 3> pointers(const Symmetric<Field>& field) {
+  return {field.xx.data(), field.yy.data(), field.xy.data()};
+}
 
 inline Sources sources(const Particles& f) {
   const auto v = pointers(f.v);
@@ -64,7 +80,8 @@ inline Sources sources(const Particles& f) {
           .rho = f.rho.data(),
           .p_rho2 = f.p_rho2.data(),
           .eta = f.eta.data(),
-          .eta_grad_v = pointers(f.eta_grad_v)};
+          .eta_grad_v = pointers(f.eta_grad_v),
+          .polymer_stress = pointers(f.polymer_stress)};
 }
 
 }  // namespace toryu::fluid

@@ -123,6 +123,7 @@ double longest_side(const std::vector<Region>& regions) {
 const char* key_of_inertia(const Parameters& p) {
   if (p.initial_flow) return "fluid.initial_flow";
   if (p.surface_tension) return "fluid.surface_tension";
+  if (p.viscoelasticity) return "fluid.viscoelasticity";
   if (p.central_force) return "fluid.central_force";
   for (const Region& region : p.regions)
     if (!region.velocity.isZero(0)) return "fluid.region";
@@ -195,8 +196,8 @@ std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_so
              "wrong"}};
   if (!is_viscous(p))
     return {{"fluid.similarity",
-             "a creeping flow needs a viscosity: [fluid.laminar_viscosity], [fluid.power_law] or "
-             "[fluid.carreau]"}};
+             "a creeping flow needs a viscosity: [fluid.laminar_viscosity], [fluid.power_law], "
+             "[fluid.herschel_bulkley] or [fluid.carreau]"}};
   if (p.artificial_viscosity)
     return {{"fluid.artificial_viscosity",
              "artificial viscosity grows with the density that [fluid.similarity] chooses and would thicken "

@@ -19,6 +19,7 @@
 #include "fluid_solver/terms/rheology.hpp"
 #include "fluid_solver/terms/surface_tension.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
+#include "fluid_solver/terms/viscoelasticity.hpp"
 #include "fluid_solver/terms/wall_repulsion.hpp"
 #include "fluid_solver/terms/wall_slip.hpp"
 
@@ -36,7 +37,9 @@ struct OptionalTerms {
   std::optional<ArtificialViscosity> artificial_viscosity;
   std::optional<LaminarViscosity> laminar_viscosity;
   std::optional<PowerLaw> power_law;
+  std::optional<HerschelBulkley> herschel_bulkley;
   std::optional<Carreau> carreau;
+  std::optional<Viscoelasticity> viscoelasticity;
   std::optional<SlipLaw> wall_slip;
   std::optional<Friction> friction;
   std::optional<WallRepulsion> wall_repulsion;
@@ -46,11 +49,13 @@ struct OptionalTerms {
 
 /// Whether the case gives its medium a viscosity of its own.
 inline bool is_viscous(const OptionalTerms& terms) {
-  return terms.laminar_viscosity || terms.power_law || terms.carreau;
+  return terms.laminar_viscosity || terms.power_law || terms.herschel_bulkley || terms.carreau;
 }
-/// Viscosity of the medium at a shear rate [1/s], artificial viscosity apart; 0 without one [Pa s].
+/// Viscosity of the medium at a shear rate [1/s], artificial viscosity and polymer apart; 0 without one
+/// [Pa s].
 inline double viscosity_of(const OptionalTerms& terms, double shear_rate) {
   if (terms.power_law) return viscosity(*terms.power_law, shear_rate);
+  if (terms.herschel_bulkley) return viscosity(*terms.herschel_bulkley, shear_rate);
   if (terms.carreau) return viscosity(*terms.carreau, shear_rate);
   return terms.laminar_viscosity ? terms.laminar_viscosity->dynamic_viscosity : 0.0;
 }
@@ -68,12 +73,14 @@ template <class Terms, class Visit>
 void for_each_term(Terms& terms, Visit&& visit) {
   using Base = std::conditional_t<std::is_const_v<Terms>, const OptionalTerms, OptionalTerms>;
   auto& [central_force, background_pressure, enclosed_medium, density_diffusion, particle_shifting,
-         tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity, power_law, carreau,
-         wall_slip, friction, wall_repulsion, surface_tension, removal] = static_cast<Base&>(terms);
+         tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity, power_law,
+         herschel_bulkley, carreau, viscoelasticity, wall_slip, friction, wall_repulsion, surface_tension,
+         removal] = static_cast<Base&>(terms);
   const auto visit_each = [&](auto&... term) { (visit(term), ...); };
   visit_each(central_force, background_pressure, enclosed_medium, density_diffusion, particle_shifting,
              tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity, power_law,
-             carreau, wall_slip, friction, wall_repulsion, surface_tension, removal);
+             herschel_bulkley, carreau, viscoelasticity, wall_slip, friction, wall_repulsion, surface_tension,
+             removal);
 }
 
 }  // namespace toryu::fluid

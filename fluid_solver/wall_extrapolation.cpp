@@ -283,6 +283,30 @@ void fit_viscosity_to_cluster(Boundary& boundary, const Particles& fluid, const 
             boundary.eta_grad_v[a][b], first);
 }
 
+/// Means of the polymer's stress, and in their place lines where there is a face.
+template <class W>
+void extrapolate_polymer_stress_to_cluster(Boundary& boundary, const Particles& fluid, const W& kernel,
+                                           std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  const Face face = boundary.fitted ? face_towards(boundary, fluid, kernel, cluster) : Face{};
+  const std::array<const double*, 3> stress = pointers(fluid.polymer_stress);
+  Lanes sum_W = 0.0;
+  std::array<Lanes, 3> mean{0.0, 0.0, 0.0};
+  LineFits<3> fits;
+  over_neighbours(kernel, boundary.list_for_wall.near(cluster), load(boundary.x, first), pointers(fluid.x),
+                  [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                    const Lanes W_wi = kernel.value(n.r), d = face.distance(n.x_ij);
+                    const std::array<double, 3> values{stress[0][i], stress[1][i], stress[2][i]};
+                    sum_W += W_wi;
+                    for (std::size_t k = 0; k < 3; ++k) mean[k] += W_wi * values[k];
+                    fits.add(select(d > 0.0, W_wi, 0.0), d, values);
+                  });
+  const Lanes share = inverse(max(sum_W, smallest_share * kernel.value(0.0)));
+  const auto lines = fits.behind(face.depth, least_spread * load(boundary.V, first));
+  for (std::size_t k = 0; k < 3; ++k) mean[k] = select(face.found(), lines[k], share * mean[k]);
+  store(Symmetric<Lanes>{mean[0], mean[1], mean[2]}, boundary.polymer_stress, first);
+}
+
 }  // namespace
 
 FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, double far) {
@@ -336,6 +360,15 @@ void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Ker
       extrapolate_viscosity_to_cluster(boundary, fluid, W, active[k]);
       if (boundary.fitted) fit_viscosity_to_cluster(boundary, fluid, W, active[k]);
     }
+  });
+}
+
+void extrapolate_polymer_stress(Boundary& boundary, const Particles& fluid, const Kernel& kernel) {
+  const auto& active = boundary.list_for_wall.active();
+  kernel.visit([&](const auto& W) {
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < active.size(); ++k)
+      extrapolate_polymer_stress_to_cluster(boundary, fluid, W, active[k]);
   });
 }
 

@@ -37,6 +37,10 @@ void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kerne
 void let_slide(Boundary& boundary, const Particles& fluid, const Kernel& kernel, const OptionalTerms& terms,
                double p_offset);
 
+/// Extrapolates the stress of a viscoelastic medium's polymer: as a mean, or as a line where the velocity is
+/// fitted.
+void extrapolate_polymer_stress(Boundary& boundary, const Particles& fluid, const Kernel& kernel);
+
 /// Extrapolates viscosity and eta grad v of a medium that is not Newtonian likewise.
 void extrapolate_viscosity(Boundary& boundary, const Particles& fluid, const Kernel& kernel);
 

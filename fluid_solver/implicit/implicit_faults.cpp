@@ -16,7 +16,7 @@ constexpr bool is_one_of = (std::is_same_v<Term, Known> || ...);
 /// Terms that are in the matrix, or act between steps.
 template <class Term>
 constexpr bool is_implicit = is_one_of<Term, BackgroundPressure, EnclosedMedium, ParticleShifting,
-                                       LaminarViscosity, PowerLaw, Carreau>;
+                                       LaminarViscosity, PowerLaw, HerschelBulkley, Carreau>;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene,
   if (with_solid) refuse(key_of_model, "an elastic solid is not coupled to");
   if (!is_viscous(p))
     refuse(key_of_model,
-           "a viscosity ([fluid.laminar_viscosity], [fluid.power_law] or [fluid.carreau]) is needed by");
+           "a viscosity ([fluid.laminar_viscosity], a law of shear) is needed by");
   if (p.similarity)
     refuse("fluid.similarity", "its steps do not depend on the density, so nothing is chosen for");
   if (!p.wall_model.suction)

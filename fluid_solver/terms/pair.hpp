@@ -11,6 +11,7 @@ struct Targets {
   VecLanes x, v, v_viscous, grad_rho;
   Lanes rho, p_rho2, eta;
   TensorLanes eta_grad_v;
+  Symmetric<Lanes> polymer_stress;
 };
 
 /// The pairs of the particles i with one particle j.

@@ -2,10 +2,10 @@
 
 #include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/terms/density_gradient.hpp"
-#include "fluid_solver/terms/velocity_gradient.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 #include "fluid_solver/weakly_compressible/further_forces.hpp"
+#include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
 
@@ -36,6 +36,7 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kerne
                                          1 / (r->range * d_0)};
   }
   if (parameters.power_law) rheology_ = *parameters.power_law;
+  if (parameters.herschel_bulkley) rheology_ = *parameters.herschel_bulkley;
   if (parameters.carreau) rheology_ = *parameters.carreau;
   if (viscosity_varies()) terms_.viscous = VariableViscosityTerm{};
   if (const auto& f = parameters.friction; f && !parameters.wall_slip)  // else the walls have it
@@ -45,6 +46,7 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kerne
 void Dynamics::allocate(Particles& fluid) const {
   const std::size_t size = padded(fluid.count);
   if (renormalised_diffusion()) resize(fluid.grad_rho, size);
+  if (parameters_.viscoelasticity) allocate_polymer(*parameters_.viscoelasticity, fluid);
   if (!viscosity_varies()) return;
   fluid.gdot.assign(size, 0.0);
   fluid.eta.assign(size, viscosity_at_rest());
@@ -82,15 +84,21 @@ void Dynamics::density_gradients(Particles& fluid, const ClusterList& neighbours
   });
 }
 
+TensorLanes Dynamics::velocity_gradient(const auto& W, const Particles& fluid, const ClusterList& neighbours,
+                                        const std::vector<Boundary>& boundaries, std::size_t cluster) const {
+  const std::size_t first = cluster * lane_count;
+  VelocityGradient gradient(load(fluid.x, first), load(fluid.v, first));
+  gradient.add(sources(fluid), neighbours.near(cluster), W);
+  if (viscous_walls())
+    for (const auto& wall : boundaries) gradient.add(sources(wall), wall.list_for_fluid.near(cluster), W);
+  return gradient.value();
+}
+
 void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
                            std::vector<Boundary>& boundaries) const {
   const auto of_cluster = [&](const auto& law, const auto& W, std::size_t c) {
     const std::size_t first = c * lane_count;
-    VelocityGradient gradient(load(fluid.x, first), load(fluid.v, first));
-    gradient.add(sources(fluid), neighbours.near(c), W);
-    if (viscous_walls())
-      for (const auto& wall : boundaries) gradient.add(sources(wall), wall.list_for_fluid.near(c), W);
-    TensorLanes grad_v = gradient.value();
+    TensorLanes grad_v = velocity_gradient(W, fluid, neighbours, boundaries, c);
     const Lanes gdot = shear_rate(grad_v), eta = viscosity(law, gdot);
     for (auto& row : grad_v)
       for (auto& component : row) component *= eta;
@@ -110,6 +118,23 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
     for (auto& wall : boundaries) extrapolate_viscosity(wall, fluid, medium_.kernel);
 }
 
+void Dynamics::polymer_stresses(Particles& fluid, std::vector<Boundary>& boundaries) const {
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < fluid.clusters(); ++c)
+    find_polymer_stress(*parameters_.viscoelasticity, fluid, c);
+  for (auto& wall : boundaries) extrapolate_polymer_stress(wall, fluid, medium_.kernel);
+}
+
+void Dynamics::log_conformation_rates(Particles& fluid, const ClusterList& neighbours,
+                                      const std::vector<Boundary>& boundaries) const {
+  medium_.kernel.visit([&](const auto& W) {
+#pragma omp for schedule(dynamic, 8)
+    for (std::size_t c = 0; c < fluid.clusters(); ++c)
+      find_log_conformation_rate(*parameters_.viscoelasticity,
+                                 velocity_gradient(W, fluid, neighbours, boundaries, c), fluid, c);
+  });
+}
+
 void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
                         std::vector<Boundary>& boundaries, Timers& timers) const {
   const bool density = wanted != RatesOf::velocity, velocity = wanted != RatesOf::density;
@@ -124,13 +149,16 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
       resize(boundary.slip_velocity, boundary.V.size());
       boundary.shear_stress.resize(boundary.V.size());
     }
+  const bool polymer = parameters_.viscoelasticity.has_value();
+  if (polymer)
+    for (auto& boundary : boundaries) resize(boundary.polymer_stress, boundary.V.size());
   {
     const auto timer = timers.measure("pressure, walls and density gradient");
-    const double p_offset = parameters_.wall_slip ? pressure_offset(fluid) : 0.0;
+    const double p_offset = parameters_.wall_slip ? pressure_offset(fluid, boundaries) : 0.0;
 #pragma omp parallel
     {
       pressures(fluid);
-      if (velocity)
+      if (velocity || polymer)  // whose rate is found with the density's
         for (auto& boundary : boundaries) {
           extrapolate(boundary, fluid, medium_.kernel, body_force_.gravity);
           if (parameters_.wall_slip) let_slide(boundary, fluid, medium_.kernel, parameters_, p_offset);
@@ -143,6 +171,14 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
     const auto timer = timers.measure("shear rate and viscosity");
 #pragma omp parallel
     viscosities(fluid, neighbours, boundaries);
+  }
+  if (polymer) {
+    const auto timer = timers.measure("polymer");
+#pragma omp parallel
+    {
+      if (velocity) polymer_stresses(fluid, boundaries);
+      if (density) log_conformation_rates(fluid, neighbours, boundaries);
+    }
   }
   const auto timer = timers.measure("rates");
   medium_.kernel.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries); });

@@ -63,7 +63,12 @@ class Dynamics {
   void pressures(Particles& fluid) const;
   void wall_densities(Boundary& boundary) const;
   void density_gradients(Particles& fluid, const ClusterList& neighbours) const;
+  TensorLanes velocity_gradient(const auto& W, const Particles& fluid, const ClusterList& neighbours,
+                                const std::vector<Boundary>& boundaries, std::size_t cluster) const;
   void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
+  void polymer_stresses(Particles& fluid, std::vector<Boundary>& boundaries) const;
+  void log_conformation_rates(Particles& fluid, const ClusterList& neighbours,
+                              const std::vector<Boundary>& boundaries) const;
   void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const;
   bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
   bool renormalised_diffusion() const {
@@ -83,7 +88,7 @@ class Dynamics {
   Medium medium_;
   EquationOfState state_;
   ChosenTerms terms_;
-  std::variant<Absent, PowerLaw, Carreau> rheology_;
+  std::variant<Absent, PowerLaw, HerschelBulkley, Carreau> rheology_;
   std::optional<WorkPieceFriction> friction_;
 };
 

@@ -17,6 +17,9 @@ inline VecLanes load_if_there(const VecField& field, std::size_t first) {
 inline TensorLanes load_if_there(const TensorField& field, std::size_t first) {
   return field[0][0].empty() ? zero_tensor() : load(field, first);
 }
+inline Symmetric<Lanes> load_if_there(const Symmetric<Field>& field, std::size_t first) {
+  return field.xx.empty() ? Symmetric<Lanes>{0.0, 0.0, 0.0} : load(field, first);
+}
 
 inline Targets load_targets(const Particles& f, std::size_t first) {
   const VecLanes v = load(f.v, first);
@@ -27,7 +30,8 @@ inline Targets load_targets(const Particles& f, std::size_t first) {
           load(f.rho, first),
           load(f.p_rho2, first),
           load_if_there(f.eta, first),
-          load_if_there(f.eta_grad_v, first)};
+          load_if_there(f.eta_grad_v, first),
+          load_if_there(f.polymer_stress, first)};
 }
 
 inline Targets load_targets(const Boundary& b, std::size_t first) {
@@ -38,7 +42,8 @@ inline Targets load_targets(const Boundary& b, std::size_t first) {
           load(b.rho, first),
           load(b.p_rho2, first),
           load_if_there(b.eta, first),
-          load_if_there(b.eta_grad_v, first)};
+          load_if_there(b.eta_grad_v, first),
+          load_if_there(b.polymer_stress, first)};
 }
 
 inline Vec lane_sums(const Lanes& m, const VecLanes& v) {

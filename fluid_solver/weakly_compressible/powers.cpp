@@ -7,6 +7,7 @@
 #include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/weakly_compressible/dynamics.hpp"
 #include "fluid_solver/weakly_compressible/further_forces.hpp"
+#include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
 
@@ -171,13 +172,20 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
       terms_.repulsion);
   for_each_term(parameters_, [&]<class Term>(const std::optional<Term>& term) {
     if constexpr (requires { pair_force(*term, medium_); })
-      if (term)
+      if (term) {
+        double dissipated = 0;
+        if constexpr (requires { dissipated_power(*term, fluid); }) {
+          dissipated = dissipated_power(*term, fluid);
+          note(Term::section, Taken::dissipated, [&](const auto&) { return dissipated; });
+        }
         note(Term::section, Taken::stored, [&](const auto& W) {
           auto force = pair_force(*term, medium_);
           if constexpr (requires { force.prepare(W, fluid, neighbours, boundaries); })
             force.prepare(W, fluid, neighbours, boundaries);
-          return power_of_pairs(W, bodies, [&](std::size_t c) { return seen_from(force, c * lane_count); });
+          return power_of_pairs(W, bodies, [&](std::size_t c) { return seen_from(force, c * lane_count); }) -
+                 dissipated;
         });
+      }
   });
   return found;
 }

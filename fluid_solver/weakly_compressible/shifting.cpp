@@ -4,6 +4,7 @@
 
 #include "common/sph/neighbour_loop.hpp"
 #include "common/sph/renormalisation.hpp"
+#include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
 
@@ -69,6 +70,7 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
       if (std::any_of(boundaries.begin(), boundaries.end(),
                       [&](const auto& wall) { return wall.acts_on(c); }))
         moved_[c].rho = density_beside_walls(fluid, neighbours, boundaries, W, c);
+    if (!fluid.log_conformation[0].xx.empty()) carry_log_conformation(fluid, neighbours, W);
   });
   for (std::size_t c = 0; c < fluid.clusters(); ++c) {
     const std::size_t first = c * lane_count;
@@ -76,6 +78,33 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
     store(moved_[c].v, fluid.v, first);
     store(moved_[c].rho, fluid.rho, first);
   }
+}
+
+template <class W>
+void Shifting::carry_log_conformation(Particles& fluid, const ClusterList& neighbours, const W& kernel) {
+  std::vector<Field*> fields;
+  for_each_log_conformation(fluid, [&](Field& psi, const Field&, std::size_t) { fields.push_back(&psi); });
+  carried_.resize(fields.size());
+  for (Field& carried : carried_) carried.resize(padded(fluid.count));
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::size_t c = 0; c < fluid.clusters(); ++c) {
+    const std::size_t first = c * lane_count;
+    Moment moment;
+    std::array<VecLanes, 3 * most_polymer_modes> sums;
+    sums.fill(zero_vector());
+    over_neighbours(kernel, neighbours.near(c), load(fluid.x, first), pointers(fluid.x),
+                    [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                      const VecLanes V_grad = n.gradient(fluid.V[j]);
+                      moment.add(n.x_ij, V_grad);
+                      for (std::size_t k = 0; k < fields.size(); ++k)
+                        add_product(sums[k], (*fields[k])[j] - load(*fields[k], first), V_grad);
+                    });
+    moment.invert();
+    const VecLanes dx = load(dx_, first);
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      store(load(*fields[k], first) + dot(dx, moment.renormalised(sums[k])), carried_[k], first);
+  }
+  for (std::size_t k = 0; k < fields.size(); ++k) fields[k]->swap(carried_[k]);
 }
 
 template <class W>

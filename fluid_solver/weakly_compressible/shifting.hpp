@@ -5,7 +5,8 @@
 ///
 /// over fluid and walls, so that streamlines do not comb them into rows with gaps between. What is carried
 /// stays in its place to first order: v_i += dx_i . grad v, rho_i += dx_i . grad rho with renormalised
-/// gradients. Near a free surface the sum would push particles out: they are left alone there.
+/// gradients, and so is the log-conformation of a viscoelastic medium. Near a free surface the sum would push
+/// particles out: they are left alone there.
 ///
 /// Where a wall is in reach the density follows the particles instead, as in any other motion,
 ///
@@ -43,11 +44,16 @@ class Shifting {
                              const std::vector<Boundary>& boundaries, const W& kernel,
                              std::size_t cluster) const;
 
+  /// Moves the log-conformation along, before the places change.
+  template <class W>
+  void carry_log_conformation(Particles& fluid, const ClusterList& neighbours, const W& kernel);
+
   double strength_, spacing_;
   Kernel kernel_;
   // kept from step to step for their memory
   std::vector<Moved> moved_;
   VecField dx_;
+  std::vector<Field> carried_;
 };
 
 }  // namespace toryu::fluid

@@ -4,13 +4,16 @@
 #include <cmath>
 
 #include "common/sph/skin.hpp"
+#include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
 
 namespace {
 
-// Shares of the limits, Monaghan 1992 and thesis section 5. A drag is stable up to 2 over its rate.
-constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.25, friction_share = 0.5;
+// Shares of the limits, Monaghan 1992 and thesis section 5. A drag is stable up to 2 over its rate, and so is
+// a relaxation.
+constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.25, friction_share = 0.5,
+                 relaxation_share = 0.25;
 /// Shares of the viscous limit beyond which no step goes, whatever `time_step_share`. A step of the velocity
 /// is stable up to 2 over the largest rate of the Laplacian, by sums over a lattice 0.35 h^2/nu with the
 /// cubic spline and 0.29 to 0.33 with Wendland C2 (h/d_0 from 2 to 1.2): 2.4 to 2.8 times the limit.
@@ -51,7 +54,7 @@ StepLimit smallest_limit(const Parameters& p, const Medium& medium, const Extrem
   if (p.artificial_viscosity)
     nu += effective_kinematic_viscosity(p.artificial_viscosity->alpha, h, p.sound_speed);
   const double share = p.time_step_share;
-  const double acoustic = acoustic_share * h / (p.sound_speed + largest.speed);
+  const double acoustic = acoustic_share * h / (p.sound_speed + largest.speed + largest.elastic_speed);
   StepLimit smallest{share * acoustic, "acoustic"};
   const auto limit = [&](double value, std::string_view rule, double taken) {
     if (taken * value < smallest.value) smallest = {taken * value, rule};
@@ -65,6 +68,7 @@ StepLimit smallest_limit(const Parameters& p, const Medium& medium, const Extrem
   }
   if (largest.acceleration > 0) limit(force_share * std::sqrt(h / largest.acceleration), "force", share);
   if (largest.friction_rate > 0) limit(friction_share / largest.friction_rate, "friction", share);
+  if (largest.relaxation_rate > 0) limit(relaxation_share / largest.relaxation_rate, "relaxation", share);
   for_each_term(p, [&]<class Term>(const std::optional<Term>& term) {
     if constexpr (requires { time_step_limit(*term, medium); })
       if (term) limit(time_step_limit(*term, medium), Term::section, share);
@@ -83,6 +87,10 @@ void add(Field& field, double dt, const Field& rate, std::size_t clusters) {
 #pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < clusters; ++c)
     store(load(field, c * lane_count) + dt * load(rate, c * lane_count), field, c * lane_count);
+}
+void add_to_log_conformation(Particles& fluid, double dt) {
+  for_each_log_conformation(
+      fluid, [&](Field& psi, const Field& rate, std::size_t) { add(psi, dt, rate, fluid.clusters()); });
 }
 
 }  // namespace
@@ -115,6 +123,9 @@ void WeaklyCompressible::advance_from(const Start& start, double dt) {
       store(load(start.v[a], first) + dt * load(state_.fluid.a[a], first), state_.fluid.v[a], first);
     }
     store(load(start.rho, first) + dt * load(state_.fluid.drho, first), state_.fluid.rho, first);
+    for_each_log_conformation(state_.fluid, [&](Field& psi, const Field& rate, std::size_t n) {
+      store(load(start.log_conformation[n], first) + dt * load(rate, first), psi, first);
+    });
   }
 }
 
@@ -139,6 +150,10 @@ void WeaklyCompressible::evaluate(RatesOf wanted) {
 
 void WeaklyCompressible::step_midpoint(double dt) {
   start_.x = state_.fluid.x, start_.v = state_.fluid.v, start_.rho = state_.fluid.rho;
+  start_.log_conformation.clear();
+  for_each_log_conformation(state_.fluid, [&](const Field& psi, const Field&, std::size_t) {
+    start_.log_conformation.push_back(psi);
+  });
   evaluate(RatesOf::both);
   advance_from(start_, 0.5 * dt);
   move_boundaries(state_.time + 0.5 * dt);
@@ -160,6 +175,7 @@ void WeaklyCompressible::step_symplectic(double dt) {
   state_.contact_changed = false;
   add(state_.fluid.x, 0.5 * dt, state_.fluid.v, clusters);
   add(state_.fluid.rho, 0.5 * dt, state_.fluid.drho, clusters);
+  add_to_log_conformation(state_.fluid, 0.5 * dt);
   move_boundaries(state_.time + 0.5 * dt);
   evaluate(RatesOf::velocity);
   accumulate_reaction(dt);
@@ -169,6 +185,7 @@ void WeaklyCompressible::step_symplectic(double dt) {
   move_boundaries(state_.time);
   evaluate(RatesOf::density);
   add(state_.fluid.rho, 0.5 * dt, state_.fluid.drho, clusters);
+  add_to_log_conformation(state_.fluid, 0.5 * dt);
 }
 
 /// Notes what the forces of the evaluation by which the velocity advances do to others over `dt`.
@@ -205,6 +222,11 @@ void WeaklyCompressible::note_extremes() {
   largest.acceleration = largest_norm(fluid.a, fluid.count);
   if (dynamics_.viscosity_varies())
     largest.viscosity = *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
+  if (const auto& medium = parameters_.viscoelasticity) {
+    const PolymerExtremes extremes = polymer_extremes(*medium, fluid);
+    largest.elastic_speed = extremes.elastic_speed;
+    largest.relaxation_rate = extremes.relaxation_rate;
+  }
   if (const auto& friction = dynamics_.friction()) {
     const double densest = *std::max_element(fluid.rho.begin(), fluid.rho.end());
     largest.friction_rate =

@@ -39,6 +39,7 @@ class WeaklyCompressible final : public FluidModel {
   struct Start {
     VecField x, v;
     Field rho;
+    std::vector<Field> log_conformation;
   };
   void step_midpoint(double dt);
   void step_symplectic(double dt);

@@ -163,12 +163,45 @@ INSTANTIATE_TEST_SUITE_P(
             "exponent=0.5, "
             "smallest_viscosity=1, largest_viscosity=9}",
             "--set fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=1, largest_viscosity=9}: "
-            "error: only one of 'laminar_viscosity', 'power_law' and 'carreau' may be given"},
+            "error: only one of 'laminar_viscosity', 'power_law', 'herschel_bulkley', 'carreau' and 'medium' "
+            "may be "
+            "given"},
         Fault{
             "BoundsOfTheViscosity",
             "fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=9, largest_viscosity=1}",
             "--set fluid.power_law={consistency=2, exponent=0.5, smallest_viscosity=9, largest_viscosity=1}: "
             "error: 'largest_viscosity' must be at least 'smallest_viscosity'"},
+        Fault{"NoModeOfTheStress", "fluid.viscoelasticity={}",
+              "--set fluid.viscoelasticity={}: error: a viscoelastic medium has one to 4 "
+              "[[fluid.viscoelasticity.mode]]"},
+        Fault{
+            "PolymerWithoutSolvent",
+            "fluid.viscoelasticity={mode=[{relaxation_time=1, polymer_viscosity=2}]}",
+            "--set fluid.viscoelasticity={mode=[{relaxation_time=1, polymer_viscosity=2}]}: error: a polymer "
+            "needs a solvent, which damps what its stress does not see: give a [fluid.laminar_viscosity]"},
+        Fault{"PolymerAtSlipperyWalls",
+              "fluid.viscoelasticity={mode=[{relaxation_time=1, polymer_viscosity=2}]}' --set "
+              "'fluid.carreau={zero_shear_viscosity=2, infinite_shear_viscosity=1, relaxation_time=1, "
+              "exponent=0.5}' --set 'fluid.wall_model.slip=free_slip",
+              "--set fluid.viscoelasticity={mode=[{relaxation_time=1, polymer_viscosity=2}]}: error: walls "
+              "take "
+              "the polymer's stress along with the fluid's before them: it needs [fluid.wall_model] slip = "
+              "\"no_slip\""},
+        Fault{"MediumOfNoName", "fluid.medium.name=honey",
+              "--set fluid.medium.name=honey: error: 'name' in [fluid.medium] must be one of 'trengove_c11', "
+              "'newtonian_1000', 'thinning_1000', found 'honey'"},
+        Fault{
+            "TemperatureOutsideItsTable", "fluid.temperature={value=330, shift_factors=[[290,2],[310,1]]}",
+            "--set fluid.temperature={value=330, shift_factors=[[290,2],[310,1]]}: error: 'value' 330 K lies "
+            "outside 'shift_factors', which go from 290 to 310 K: what the medium does there is not known"},
+        Fault{"TemperatureThatFalls", "fluid.temperature={value=300, shift_factors=[[310,1],[290,2]]}",
+              "--set fluid.temperature={value=300, shift_factors=[[310,1],[290,2]]}: error: 'shift_factors' "
+              "needs "
+              "a row, and temperatures that rise from row to row"},
+        Fault{"TemperatureOfNoViscosity", "fluid.temperature={value=300, shift_factors=[[290,2],[310,1]]}",
+              "--set fluid.temperature={value=300, shift_factors=[[290,2],[310,1]]}: error: a temperature "
+              "changes "
+              "a viscosity, and none is given"},
         Fault{"PlateausOfCarreau",
               "fluid.carreau={zero_shear_viscosity=1, infinite_shear_viscosity=2, relaxation_time=1, "
               "exponent=0.5}",

@@ -25,6 +25,7 @@ struct FluidCase {
     file.ignore_sections({"solid", "coupling"});
     file.read("fluid", parameters, "");
     file.throw_if_faulty();
+    complete_medium(parameters);
     if (parameters.similarity) make_similar(parameters, scene);
   }
 };

@@ -16,6 +16,7 @@ struct Point {
   Vec grad_rho = Vec::Zero();
   double eta = 1;
   Eigen::Matrix2d eta_grad_v = Eigen::Matrix2d::Zero();  ///< (a, b): eta dv_b/dx_a
+  Symmetric<double> polymer_stress = {0, 0, 0};
 };
 
 /// What a pair loop reads of `points`.
@@ -35,6 +36,9 @@ struct FewSources {
       p_rho2.push_back(point.p / (point.rho * point.rho));
       eta.push_back(point.eta);
       for (int a = 0; a < dim; ++a) set(eta_grad_v[a], j, point.eta_grad_v.row(a));
+      polymer_stress.xx.push_back(point.polymer_stress.xx);
+      polymer_stress.yy.push_back(point.polymer_stress.yy);
+      polymer_stress.xy.push_back(point.polymer_stress.xy);
     }
   }
   Sources view() const {
@@ -47,10 +51,12 @@ struct FewSources {
             .rho = rho.data(),
             .p_rho2 = p_rho2.data(),
             .eta = eta.data(),
-            .eta_grad_v = pointers(eta_grad_v)};
+            .eta_grad_v = pointers(eta_grad_v),
+            .polymer_stress = pointers(polymer_stress)};
   }
   VecField x, v, grad_rho;
   TensorField eta_grad_v;
+  Symmetric<Field> polymer_stress;
   Field m, V, rho, p_rho2, eta;
 };
 
@@ -65,7 +71,8 @@ inline Targets targets(const Point& i) {
           Lanes(i.rho),
           Lanes(i.p / (i.rho * i.rho)),
           Lanes(i.eta),
-          {lanes(i.eta_grad_v.row(0)), lanes(i.eta_grad_v.row(1))}};
+          {lanes(i.eta_grad_v.row(0)), lanes(i.eta_grad_v.row(1))},
+          {Lanes(i.polymer_stress.xx), Lanes(i.polymer_stress.yy), Lanes(i.polymer_stress.xy)}};
 }
 
 /// What `add(targets, sources, j, pair, rates)` adds up for particle `i` over `others`.

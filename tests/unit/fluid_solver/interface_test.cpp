@@ -14,6 +14,7 @@ struct Contact {
   std::optional<Friction> friction;
   std::optional<PowerLaw> power_law = {};
   Integrator integrator = Integrator::midpoint;
+  std::optional<Viscoelasticity> viscoelasticity = {};
 };
 class Exchange : public testing::TestWithParam<Contact> {};
 
@@ -23,6 +24,7 @@ TEST_P(Exchange, GivesThePlateWhatItTakesFromTheFluid) {
   setting.parameters.wall_model.slip = GetParam().slip;
   setting.parameters.friction = GetParam().friction;
   setting.parameters.integrator = GetParam().integrator;
+  setting.parameters.viscoelasticity = GetParam().viscoelasticity;
   if (GetParam().power_law) {
     setting.parameters.laminar_viscosity.reset();
     setting.parameters.power_law = GetParam().power_law;
@@ -66,7 +68,13 @@ INSTANTIATE_TEST_SUITE_P(
         Contact{"Friction", WallSlip::free_slip, Friction{.coefficient = 0.3}},
         Contact{"FrictionAsPrinted", WallSlip::no_slip,
                 Friction{.coefficient = 0.3, .form = FrictionForm::as_printed}},
-        Contact{"Symplectic", WallSlip::no_slip, Friction{.coefficient = 0.3}, {}, Integrator::symplectic}),
+        Contact{"Symplectic", WallSlip::no_slip, Friction{.coefficient = 0.3}, {}, Integrator::symplectic},
+        Contact{"Viscoelastic",
+                WallSlip::no_slip,
+                {},
+                {},
+                Integrator::symplectic,
+                Viscoelasticity{{{0.01, 30, 0.1}}}}),
     [](const auto& one) { return one.param.name; });
 
 class ImpedancePlate : public testing::TestWithParam<Integrator> {};

@@ -32,6 +32,26 @@ TEST(PowerLaw, KeepsWithinItsBounds) {
   EXPECT_EQ(viscosity(thickening, 1e6), 100);
 }
 
+TEST(HerschelBulkley, IsAPowerLawAboveAYieldStress) {
+  const HerschelBulkley law{{2.0, 0.5, 0.01, 1e4}, 6.0, 50.0};
+  EXPECT_DOUBLE_EQ(viscosity(law, 4.0), 6.0 / 4 + 2 * 0.5);  // t_r gdot = 200: nothing is left of exp
+  EXPECT_NEAR(viscosity(law, 0.02), 6 * (1 - std::exp(-1.0)) / 0.02 + 2 / std::sqrt(0.02), 1e-9);
+  const HerschelBulkley bingham{{2.0, 1.0, 0.01, 1e4}, 6.0, 50.0};
+  EXPECT_DOUBLE_EQ(viscosity(bingham, 0.0), 6 * 50 + 2);  // creeps at t_r tau_y
+  EXPECT_NEAR(viscosity(bingham, 1e-12), 6 * 50 + 2, 1e-6);
+  EXPECT_NEAR(viscosity(bingham, 1e9), 2, 1e-8);
+  const HerschelBulkley without{{2.0, 0.5, 0.01, 100}, 0.0, 50.0};
+  for (const double gdot : {0.0, 1e-3, 1.0, 1e6})
+    EXPECT_DOUBLE_EQ(viscosity(without, gdot), viscosity(PowerLaw{2.0, 0.5, 0.01, 100}, gdot));
+}
+
+TEST(HerschelBulkley, KeepsWithinItsBounds) {
+  const HerschelBulkley law{{2.0, 0.5, 0.01, 100}, 6.0, 50.0};
+  EXPECT_EQ(viscosity(law, 0.0), 100);
+  EXPECT_EQ(viscosity(law, 1e-3), 100);
+  EXPECT_EQ(viscosity(law, 1e7), 0.01);
+}
+
 TEST(Carreau, GoesFromOnePlateauToTheOther) {
   const Carreau law{10, 1, 2, 0.5};
   EXPECT_DOUBLE_EQ(viscosity(law, 0.0), 10);
@@ -139,6 +159,44 @@ TEST(WallViscosity, IsTheKernelMeanOfTheFluids) {
   EXPECT_NEAR(wall.eta[k], (8 * 0.25 + 2 * 0.71875) / 0.96875, 1e-12);
   EXPECT_NEAR(wall.eta_grad_v[0][1][k], 5 * 0.25 / 0.96875, 1e-12);
   EXPECT_EQ(wall.eta_grad_v[1][0][k], 0);
+}
+
+TEST(WallPolymerStress, IsTheKernelMeanOrTheLineThroughTheFace) {
+  Boundary wall;
+  const Vec place(0, -0.5 * d_0);
+  wall.place({place, Vec(5, 5)}, {d_0 * d_0, d_0 * d_0}, 1000, 0.3);
+  Particles f;
+  f.count = 2;
+  resize(f.x, padded(2), 1e3);
+  set(f.x, 0, Vec(0, 0.5 * d_0));
+  set(f.x, 1, Vec(0, 1.5 * d_0));
+  resize(f.polymer_stress, padded(2));
+  f.polymer_stress.xx[0] = 8, f.polymer_stress.xx[1] = 2;
+  f.polymer_stress.xy[0] = -4, f.polymer_stress.xy[1] = -3;
+  StripOrder strips(0.3);
+  strips.index(f.x[0], f.count);
+  const auto found = [&] {
+    resize(wall.polymer_stress, padded(wall.count));
+    wall.list_for_wall.build(wall.x, wall.count, f.x, strips, 1.1 * kernel.support());
+#pragma omp parallel
+    extrapolate_polymer_stress(wall, f, kernel);
+    const std::size_t k = wall.id[0] == 0 ? 0 : 1;
+    return Symmetric<double>{wall.polymer_stress.xx[k], wall.polymer_stress.yy[k], wall.polymer_stress.xy[k]};
+  };
+  // W at 1/1.3 and 2/1.3 of h by (11)
+  const double s = 1 / 1.3, near = 1 - 1.5 * s * s + 0.75 * s * s * s, far = 0.25 * std::pow(2 - 2 * s, 3);
+  EXPECT_NEAR(found().xx, (8 * near + 2 * far) / (near + far), 1e-10);
+  EXPECT_NEAR(found().xy, -(4 * near + 3 * far) / (near + far), 1e-10);
+  EXPECT_EQ(found().yy, 0);
+  wall.know_faces({{Vec(1, 0.5 * d_0), Vec(1, 1)}, {Vec(1, 1), Vec(1, 1)}});
+  // the line through distances 0.5 and 1.5 d_0, at -0.5 d_0, with 0.005 d_0^2 beside their variance
+  const double share = far / (near + far), variance = share * (1 - share), middle = 0.5 + share;
+  const auto line = [&](double first, double second) {
+    const double slope = (second - first) * variance / (variance + 0.005);
+    return first + share * (second - first) - slope * (0.5 + middle);
+  };
+  EXPECT_NEAR(found().xx, line(8, 2), 1e-10);
+  EXPECT_NEAR(found().xy, line(-4, -3), 1e-10);
 }
 
 // --- the solver ---

@@ -6,6 +6,7 @@
 
 #include "fluid_solver/free_surface.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
+#include "fluid_solver/weakly_compressible/polymer.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
@@ -64,6 +65,11 @@ TEST(Shifting, IsTheSumOfItsFormulaAndLeavesLinearFieldsInPlace) {
     set(s.fluid.v, i, v(at(s.fluid.x, i)));
     s.fluid.rho[i] = rho(at(s.fluid.x, i));
   }
+  allocate_polymer(Viscoelasticity{{{1, 1, 0}, {2, 1, 0}}}, s.fluid);
+  const auto psi = [](const Vec& x, std::size_t n) { return static_cast<double>(n) - 2 * x[0] + 3 * x[1]; };
+  for_each_log_conformation(s.fluid, [&](Field& field, const Field&, std::size_t n) {
+    for (std::size_t i = 0; i < s.fluid.count; ++i) field[i] = psi(at(s.fluid.x, i), n);
+  });
   s.fluid.off_surface.assign(padded(s.fluid.count), 1.0);
   s.fluid.off_surface[7] = 0;
   const Particles before = s.fluid;
@@ -91,6 +97,8 @@ TEST(Shifting, IsTheSumOfItsFormulaAndLeavesLinearFieldsInPlace) {
     EXPECT_LT((x - x_i - dx).norm(), 1e-14);
     EXPECT_LT((at(s.fluid.v, i) - v(x)).norm(), 1e-13);
     EXPECT_NEAR(s.fluid.rho[i], rho(x), 1e-10);
+    EXPECT_NEAR(s.fluid.log_conformation[0].xx[i], psi(x, 0), 1e-13);
+    EXPECT_NEAR(s.fluid.log_conformation[1].xy[i], psi(x, 5), 1e-13);
   }
   EXPECT_GT(limited, 0);
   EXPECT_LT(limited, static_cast<int>(s.fluid.count) / 2);

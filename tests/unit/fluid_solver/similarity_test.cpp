@@ -46,8 +46,14 @@ TEST(SlitFlow, IsThatOfTheExactSolutions) {
   EXPECT_NEAR(thinning.wall_stress, 25780 * std::pow(225, 0.4), 10);
   p.power_law.reset();
   p.carreau = Carreau{1000, 10, 0.05, 0.4};
-  const auto eta = [&](double gdot) { return viscosity(*p.carreau, gdot); };
+  const auto eta = [&](double gdot) { return viscosity_of(p, gdot); };
   EXPECT_NEAR(slit_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-4);
+  p.carreau.reset();
+  p.herschel_bulkley = HerschelBulkley{{1000, 1, 1, 1e6}, 50e3, 1};
+  EXPECT_NEAR(slit_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-3);
+  // Bingham: U = w tau_w/(6 eta) (1 - 3/2 phi + phi^3/2), phi = tau_y/tau_w
+  const double tau_w = slit_flow(p, U, w).wall_stress, phi = 50e3 / tau_w;
+  EXPECT_NEAR(w * tau_w / 6000 * (1 - 1.5 * phi + 0.5 * phi * phi * phi), U, 0.01 * U);
 }
 
 TEST(SlitFlow, SlidesByTheLaw) {

@@ -138,6 +138,21 @@ const Variant variants[] = {
        s.scene.walls[1].press =
            Press{.pressure = {{0, 0}, {0.05, 1e5}}, .force = {}, .travel = Vec(-0.1, 0.1)};
      }},
+    {"HerschelBulkley",
+     [](Setting& s) {
+       s.parameters.herschel_bulkley = HerschelBulkley{{5, 0.5, 0.1, 20}, 10, 0.5};
+     }},
+    {"ViscoelasticShifting",
+     [](Setting& s) {
+       s.parameters.laminar_viscosity = LaminarViscosity{2};
+       s.parameters.viscoelasticity = Viscoelasticity{{{0.05, 5, 0.1}}};
+       s.parameters.particle_shifting = ParticleShifting{};
+     }},
+    {"Viscoelastic",
+     [](Setting& s) {
+       s.parameters.laminar_viscosity = LaminarViscosity{2};
+       s.parameters.viscoelasticity = Viscoelasticity{{{0.05, 5, 0.1}, {0.5, 20, 0}}};
+     }},
     {"Wendland", [](Setting& s) { s.parameters.kernel = KernelForm::wendland_c2; }},
     {"WallDensity", [](Setting& s) { s.parameters.wall_model.density = WallDensity::from_pressure; }},
     {"FittedWalls",
