@@ -126,7 +126,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
     }
   {
     const auto timer = timers.measure("pressure, walls and density gradient");
-    const double p_offset = parameters_.wall_slip ? pressure_offset(fluid) : 0.0;
+    const double p_offset = parameters_.wall_slip ? pressure_offset(fluid, boundaries) : 0.0;
 #pragma omp parallel
     {
       pressures(fluid);
