@@ -70,5 +70,5 @@ class OneWayAtFullSize(OneWay):
 
 if __name__ == "__main__":
     PATHS["cases"], PATHS["bin"] = map(pathlib.Path, sys.argv[1:3])
-    chosen = ["OneWayAtFullSize"] if "--long" in sys.argv else ["TwoWay", "OneWay"]
+    chosen = ["OneWay", "OneWayAtFullSize"] if "--long" in sys.argv else ["TwoWay"]
     unittest.main(argv=[sys.argv[0], *chosen])
