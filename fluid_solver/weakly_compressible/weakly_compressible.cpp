@@ -18,6 +18,8 @@ constexpr double acoustic_share = 0.25, viscous_share = 0.125, force_share = 0.2
 /// is stable up to 2 over the largest rate of the Laplacian, by sums over a lattice 0.35 h^2/nu with the
 /// cubic spline and 0.29 to 0.33 with Wendland C2 (h/d_0 from 2 to 1.2): 2.4 to 2.8 times the limit.
 constexpr double largest_viscous_share = 2;
+/// The same of friction, a drag: 1.5 over its rate.
+constexpr double largest_friction_share = 3;
 /// Both together: sound that a viscosity damps, found half a step late, is a leapfrog that is stable up to
 /// (omega dt)^2/4 + lambda dt/2 = 1, omega its frequency and lambda the rate of the damping. By the shares of
 /// the limits at which either alone is unstable; a tenth is left.
@@ -67,7 +69,8 @@ StepLimit smallest_limit(const Parameters& p, const Medium& medium, const Extrem
             1);
   }
   if (largest.acceleration > 0) limit(force_share * std::sqrt(h / largest.acceleration), "force", share);
-  if (largest.friction_rate > 0) limit(friction_share / largest.friction_rate, "friction", share);
+  if (largest.friction_rate > 0)
+    limit(friction_share / largest.friction_rate, "friction", std::min(share, largest_friction_share));
   if (largest.relaxation_rate > 0) limit(relaxation_share / largest.relaxation_rate, "relaxation", share);
   for_each_term(p, [&]<class Term>(const std::optional<Term>& term) {
     if constexpr (requires { time_step_limit(*term, medium); })
