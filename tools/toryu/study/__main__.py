@@ -12,14 +12,15 @@ import time
 
 from toryu import PROGRAMS, program
 from toryu.processes import BAD_INPUT, BUG, DONE
-from toryu.study import (bisection, charts, checks, map_file, page, removal, runner, study_file, table, terms, timing,
-                         verdicts)
+from toryu.study import (bisection, calibration, calibration_search, charts, checks, map_file, page, removal, runner,
+                         study_file, table, terms, timing, verdicts)
 from toryu.study.document import BadStudy
 from toryu.study.progress import Progress, duration
 from toryu.study.settings import Maker, settings
 
-VIEWS = [study_file.View("removal", removal.read), study_file.View("map", map_file.read, map_file.add_axes),
-         study_file.View("terms", terms.read, terms.add_axes)]
+VIEWS = [study_file.View("removal", removal.read, removal.add_axes), study_file.View("map", map_file.read, map_file.add_axes),
+         study_file.View("terms", terms.read, terms.add_axes),
+         study_file.View("calibration", calibration.read, calibration.add_axes)]
 
 
 def parse(arguments):
@@ -75,8 +76,8 @@ def run(options):
     known, done = known_runs(study, make, runs)
     if options.list:
         list_runs(known, done)
-        if study.bisects:
-            print(f"at most {bisection.most_runs(study, make)} runs: where the next ones lie depends on these")
+        if study.searched:
+            print(f"{number_of_runs(study, make, known)} runs: where the next ones lie depends on these")
         program.must_be_printed()
         return DONE
     checks.settings(study, runs, [s for s in known if s.key not in done], options.set)
@@ -85,16 +86,22 @@ def run(options):
         return DONE
     begin = time.monotonic()
     with runner.hold(study, out):
-        records = search(study, make, runs) if study.bisects else all_runs(study, known, runs)
+        records = search(study, make, runs) if study.searched else all_runs(study, known, runs)
         finish(study, records, out, len(done), time.monotonic() - begin, checks.versions(programs))
+    if study.calibration and study.calibration.failure:
+        raise runner.Ended(study.calibration.failed_code, f"{study.path}: error: {study.calibration.failure}")
     return BUG if any(record.exit_code == runner.HUNG for record in records) else DONE
 
 
 def number_of_runs(study, make, known):
-    return f"at most {bisection.most_runs(study, make)}" if study.bisects else len(known)
+    if study.calibration:
+        return f"{len(known)} and more" if study.calibration.fit is None else len(known)
+    return f"at most {bisection.most_runs(study, make)}" if study.searched else len(known)
 
 
 def search(study, make, run):
+    if study.calibration:
+        return calibration_search.search(study, make, run)
     return bisection.search(study, make, lambda record: verdicts.judge_alone(study, record), run)
 
 
@@ -110,7 +117,7 @@ def all_runs(study, every, run):
 
 def known_runs(study, make, runs):
     """The settings that are known before anything runs, and the records of those that are done."""
-    if not study.bisects:
+    if not study.searched:
         every = settings(study, make)
         done = runs.done(every)
         chosen = timing.repeated(study.timing, every, done) if study.timing else every
@@ -130,8 +137,8 @@ def known_runs(study, make, runs):
 def finish(study, records, out, kept, elapsed, versions):
     """Table, charts, page and the last words."""
     views = [view for kind in VIEWS if (view := getattr(study, kind.key))]
-    if study.bisects:
-        study.map.y.take_all_values(records)
+    if study.searched:
+        study.searched.take_all_values(records)
     made = table.build(study, records, views)
     table.write(made, out / "table.csv")
     folder = out / "charts"

@@ -59,7 +59,7 @@ def tiles(study, table, records):
 
 def combinations(study):
     """How the number of runs comes about."""
-    if study.bisects:
+    if study.searched:
         return "as many as the search took"
     rounds = f"{study.timing.repeat} times " if study.timing else ""
     but = ", some left out" if study.leave_out else ""
@@ -129,8 +129,8 @@ def axes(study):
 
 
 def setting_text(study, row):
-    return ", ".join(f"{axis.name.replace('_', ' ')} {text(row[axis.name])} {axis.unit}".strip()
-                     for axis in study.axes)
+    axes = [axis for axis in study.axes if row[axis.name] != axis.default] or study.axes
+    return ", ".join(f"{axis.name.replace('_', ' ')} {text(row[axis.name])} {axis.unit}".strip() for axis in axes)
 
 
 def text(value):

@@ -31,6 +31,7 @@ class Axis:
     values: list[Value]
     line: int | None  # of the file, for faults that the programs find
     value_of: Callable | None = None  # number -> Value, of an axis of numbers
+    default: str | None = None  # the value of charts that leave the axis open, and of settings that are not said to have another
 
 
 @dataclass
@@ -56,7 +57,8 @@ class Study:
     small: bool = False  # the small version that [small] describes
     removal: object = None  # the tables of special views: removal.py,
     map: object = None  # map_file.py,
-    terms: object = None  # terms.py
+    terms: object = None  # terms.py,
+    calibration: object = None  # calibration.py
 
     @property
     def name(self):
@@ -73,9 +75,9 @@ class Study:
         return OF_RUN | (timing.UNITS if self.timing else {})
 
     @property
-    def bisects(self):
-        """Whether its runs depend on how others ended."""
-        return self.map is not None and self.map.y is not None
+    def searched(self):
+        """What looks for the next runs where these depend on how others ended, else None."""
+        return self.calibration or (self.map and self.map.y)
 
     def units(self):
         return {thing.name: thing.unit for thing in [*self.axes, *self.metrics]} | self.of_run()
