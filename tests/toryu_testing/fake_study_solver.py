@@ -12,6 +12,8 @@ Every start of a run is written into `starts.txt` beside it. What an overridden 
     fluid.error          of the displacement's period, which is 1 s without; it loses a tenth of its amplitude a second
     fluid.checkpoints    writes one before it waits if above 0, a whole one if 1; restarted it does not wait
     fluid.refuses        does not restart if above 0
+    fluid.removal.preston_coefficient
+                         that times fluid.x comes off as well
     fluid.removes        a surface.h5 from which that depth [m] comes off in each cycle of 1 s, twice that at the corners
 """
 
@@ -21,7 +23,8 @@ import signal
 import sys
 import time
 
-KEYS = {"fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
+KEYS = {"fluid.removal.preston_coefficient": 0.0,
+        "fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
         "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.checkpoints": 0,
         "fluid.refuses": 0, "fluid.cost": 0.25, "fluid.error": 0.0}
 HERE = pathlib.Path(__file__).resolve().parent
@@ -89,9 +92,9 @@ largest_speed = {values['fluid.x'] * 3}
 cpu = "a made-up processor"
 compiler = "GNU 12.2.0"
 """)
-if values["fluid.removes"]:
+if removes := values["fluid.removes"] + values["fluid.removal.preston_coefficient"] * values["fluid.x"]:
     from toryu_testing import made_up_surface  # imports h5py, which takes its time
-    made_up_surface.write(out / "surface.h5", times, values["fluid.removes"])
+    made_up_surface.write(out / "surface.h5", times, removes)
 if code:
     print("fluid_solver: error: particle 7 left the domain", file=sys.stderr)
 sys.exit(code)
