@@ -170,7 +170,7 @@ class Ends(Calibration):
         self.write(DROP + PARAMETERS + DEPTH)
         words = self.ended(2).stderr
         self.assertIn("'slip' and 'preston' cannot be told apart", words)
-        self.assertIn("Measure in addition", words)
+        self.assertIn("Measure in addition a pressure drop or a speed in passages of two widths.", words)
         self.assertFalse((self.out / "calibration.toml").exists(), "what was fitted to other data is not left")
 
     def test_a_parameter_that_nothing_depends_on_is_named(self):
@@ -220,7 +220,7 @@ class Faults(Calibration):
     def test_what_is_missing(self):
         self.assertIn("window.toml:14: error: [calibration] needs [[calibration.measured]] or [[calibration.depth]]: something "
                       "that was measured", self.faults(DROP + PARAMETERS))
-        self.assertIn("2 parameters cannot be found from 1 measured values", self.faults(DROP + PARAMETERS + MEASURED)[0])
+        self.assertIn("2 parameters cannot be found from 1 measured value", self.faults(DROP + PARAMETERS + MEASURED)[0])
         self.assertIn("'fluid.x' is fitted, and 'set' of [study] gives it: it can have one value only",
                       self.faults(DROP + PARAMETERS + MEASURED + DEPTH, HEAD + "set = { fluid.x = 0 }\n")[0])
         self.assertIn("[[measured]] 1 must say at which 'gain' it was measured, at = { gain = ... }",

@@ -152,7 +152,8 @@ def read(table, study):
     if not (table.has("measured") or table.has("depth")):
         table.fault("[calibration] needs [[calibration.measured]] or [[calibration.depth]]: something that was measured")
     elif 0 < len(made.data) < len(made.parameters):
-        table.fault(f"{len(made.parameters)} parameters cannot be found from {len(made.data)} measured values")
+        table.fault(f"{len(made.parameters)} parameters cannot be found from {len(made.data)} measured "
+                    f"value{'s' * (len(made.data) > 1)}")
     if study.timing or study.map:
         table.fault("[calibration] goes with neither [timing] nor [map]")
     if not any(tells_of_removal(study, alone[datum.metric]) for datum in made.data if datum.metric):

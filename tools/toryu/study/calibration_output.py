@@ -83,6 +83,8 @@ def names_of(view, numbers):
 def telling(view, numbers):
     """What to measure in addition."""
     keys = [key for j in numbers for key in view.parameters[j].keys]
+    if any(datum.coupon for datum in view.data):  # depths are there: what they tell together with others is to be parted
+        keys = [key for key in keys if not key.startswith("fluid.removal")] or keys
     found = {next((text for start, text in TELLING.items() if key.startswith(start)), OTHERWISE) for key in keys}
     return "; ".join(sorted(found))
 
