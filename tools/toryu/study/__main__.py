@@ -18,8 +18,8 @@ from toryu.study.document import BadStudy
 from toryu.study.progress import Progress, duration
 from toryu.study.settings import Maker, settings
 
-VIEWS = [study_file.View("removal", removal.read, removal.add_axes), study_file.View("map", map_file.read, map_file.add_axes),
-         study_file.View("terms", terms.read, terms.add_axes),
+VIEWS = [study_file.View("removal", removal.read, removal.add_axes),
+         study_file.View("map", map_file.read, map_file.add_axes), study_file.View("terms", terms.read, terms.add_axes),
          study_file.View("calibration", calibration.read, calibration.add_axes)]
 
 

@@ -54,8 +54,8 @@ class Calibrated:
         return study_file.Axis(AXIS, "", values, line, default=FITTED)
 
     def error(self, value, neighbours, law):
-        """Standard error of a figure or of an array, to first order. `neighbours`: name of the value of the axis -> the figure
-        there; nan where one has none. `law`: the depth that the figure is, None if it is none."""
+        """Standard error of a figure or of an array, to first order; nan without a neighbour. `neighbours`: value of the
+        axis -> the figure there. `law`: the depth that the figure is, None if it is none."""
         moves = [np.asarray(value) * (p.error if p.log else p.error / p.value) * (p.law == law) if p.law else
                  (np.asarray(neighbours.get(p.neighbour(1), math.nan)) -
                   np.asarray(neighbours.get(p.neighbour(-1), math.nan))) / 2 for p in self.parameters]
@@ -86,8 +86,8 @@ def read(table, study):
         return None
     for key, value in made.fitted().items():
         if said.get(key) != value:
-            table.fault(f"'{name}' and the {COVARIANCE} beside it are not of one calibration: '{key}' is {said.get(key)} there "
-                        f"and {value} here", "calibration")
+            table.fault(f"'{name}' and the {COVARIANCE} beside it are not of one calibration: '{key}' is {said.get(key)} "
+                        f"there and {value} here", "calibration")
         if key in study.overrides:
             table.fault(f"'{key}' is given by the calibration and by 'set' of [study]: it can have one value only")
     return made

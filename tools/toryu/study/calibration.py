@@ -13,7 +13,7 @@ from toryu.study.document import found, one_of
 from toryu.study.least_squares import Fit
 from toryu.study.removed_depth import LAWS
 
-LOG_STEP, STEP = 0.1, 0.02  # for derivatives, by default: of the value where it is fitted by its logarithm, else of the range
+LOG_STEP, STEP = 0.1, 0.02  # for derivatives, by default: of the value with `log`, else of the range
 EXACT_STEP = 1e-4  # the same for what needs no run
 
 

@@ -34,7 +34,8 @@ def against(view, numbers, unit):
     measured, scatter, computed = taken(view, numbers)
     factor, shown = readable_size(unit, [*measured, *computed])
     made, (panel,) = drawing.figure()
-    ends = np.array([min((measured - scatter).min(), computed.min()), max((measured + scatter).max(), computed.max())]) * factor
+    every = np.concatenate([measured - scatter, measured + scatter, computed])
+    ends = np.array([every.min(), every.max()]) * factor
     panel.plot(ends, ends, color=drawing.PALETTE["soft"], linewidth=0.9, linestyle="--", label="equal")
     panel.errorbar(computed * factor, measured * factor, scatter * factor, fmt="o", color=drawing.LINES[0], capsize=3,
                    linewidth=1.2, label="measured ± scatter")

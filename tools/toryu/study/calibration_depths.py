@@ -85,7 +85,7 @@ def read_coupon(table, study):
     name = table.get("file", str)
     laws = {law.removesuffix("_depth"): law for law in LAWS}
     law = table.get("law", str, None, allowed=laws)
-    given = {key: _positive(table, key, None) for key in ("cycles", "cycle", "seconds")}
+    given = {key: _positive(table, key) for key in ("cycles", "cycle", "seconds")}
     shares = tuple(table.numbers("shares", 2, [0.5, 1.0]))
     if not 0 <= shares[0] < shares[1] <= 1:
         table.fault(f"'shares' must lie between 0 and 1, found {list(shares)}", "shares")
@@ -98,8 +98,8 @@ def read_coupon(table, study):
     return coupon, _read_depths(table, study, name) if name is not None else []
 
 
-def _positive(table, key, default):
-    value = table.get(key, float, default)
+def _positive(table, key):
+    value = table.get(key, float, None)
     if value is not None and not value > 0:
         table.fault(f"'{key}' must be above 0, found {found(value)}", key)
         return None
@@ -113,8 +113,8 @@ def _read_depths(table, study, name):
         with open(path, newline="", encoding="utf-8") as file:
             lines = [(number, row) for number, row in enumerate(csv.reader(file), 1) if row and not row[0].startswith("#")]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        table.fault(f"'file' must be a CSV file beside the study, found '{name}': {getattr(error, 'strerror', None) or error}",
-                    "file")
+        why = getattr(error, "strerror", None) or error
+        table.fault(f"'file' must be a CSV file beside the study, found '{name}': {why}", "file")
         return []
     if not lines or [text.strip() for text in lines[0][1]] != COLUMNS:
         table.fault(f"{name}{f':{lines[0][0]}' if lines else ''}: the columns must be {','.join(COLUMNS)}, found "

@@ -69,8 +69,8 @@ def verdict(fit):
     text = (f"Chi squared is {fit.chi_squared:.3g} over {fit.freedom} degree{'s' * (fit.freedom > 1)} of freedom, exceeded "
             f"by chance with a probability of {fit.probability:.2g}: ")
     if fit.probability < UNLIKELY:
-        return text + ("the model does not describe the data within their scatter; either it lacks something, or the scatter "
-                       "is larger than stated, and so are the errors of the parameters.")
+        return text + ("the model does not describe the data within their scatter; either it lacks something, or the "
+                       "scatter is larger than stated, and so are the errors of the parameters.")
     if fit.probability > 1 - UNLIKELY:
         return text + "the data lie closer to the model than their scatter; it may be stated too large."
     return text + "the model describes the data within their scatter."
@@ -114,8 +114,9 @@ def parameters(view):
     rows = []
     for parameter, scaled, error in zip(view.parameters, view.fit.point, errors(view)):
         value = parameter.value(scaled)
-        rows.append([parameter.name, ", ".join(parameter.keys), f"{value:.6g}", f"{error * (value if parameter.log else 1):.3g}",
-                     parameter.axis.unit, f"{parameter.start:g}"])
+        deviation = error * value if parameter.log else error
+        rows.append([parameter.name, ", ".join(parameter.keys), f"{value:.6g}", f"{deviation:.3g}", parameter.axis.unit,
+                     f"{parameter.start:g}"])
     of = [[p.name, *(f"{value:.3f}" for value in row)] for p, row in zip(view.parameters, correlation(view))]
     return (tables.table(["parameter", "key of the case", "value", "standard error", "unit", "start"], rows)
             + tables.table(["correlation", *(p.name for p in view.parameters)], of))

@@ -4,7 +4,7 @@ study, so a calibration that was stopped goes the same way again up to there."""
 import numpy as np
 
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
-from toryu.study import least_squares, metrics, page
+from toryu.study import least_squares, metrics
 from toryu.study.calibration_depths import NoDepth
 
 PROPORTIONAL_WITHIN = 1e-6  # the depth of the last run, by the fitted coefficient, is what was foreseen
@@ -67,7 +67,8 @@ class Model:
             try:
                 depths, law = coupon.depths(record.folder, [place for _, place in of])
             except NoDepth as why:
-                raise Failed(f"the run with {record.setting} tells no depth: {why}; see {record.folder}", BAD_INPUT) from None
+                raise Failed(f"the run with {record.setting} tells no depth: {why}; see {record.folder}",
+                             BAD_INPUT) from None
             told |= {k: (depth, law) for (k, _), depth in zip(of, depths)}
         for k, (value, _) in told.items():
             if not np.isfinite(value):
@@ -166,8 +167,8 @@ def _confirm(model, point, run):
     found = model.computed(values, foreseen[count:], values)
     off = np.abs(found - expected) > PROPORTIONAL_WITHIN * np.abs(expected)
     if off.any():
-        datum = model.view.data[int(np.argmax(off))]
-        raise Failed(f"'{datum.name}' is not proportional to the coefficient of removal, as it must be: a run with the fitted "
-                     f"one gives {page.text(float(found[off][0]))} {datum.unit} where {page.text(float(expected[off][0]))} was "
-                     "expected", BUG)
+        k = int(np.argmax(off))
+        datum = model.view.data[k]
+        raise Failed(f"'{datum.name}' is not proportional to the coefficient of removal, as it must be: a run with the "
+                     f"fitted one gives {found[k]:g} {datum.unit} where {expected[k]:g} was expected", BUG)
     return found

@@ -109,8 +109,8 @@ class Removal:
 
         cycles = row.get("cycles_needed")
         self.errors[row["record"].folder.name] = error(lambda _, r: r.after(cycles) if cycles else r.a_cycle())
-        found = {f"{name}_error": float(error(lambda r, _, name=name: r[name], None if name == "piston_pressure" else fitted.law))
-                 for name in ("removed_per_cycle", "removed_area_per_cycle", "piston_pressure")}
+        found = {f"{name}_error": float(error(lambda r, _, name=name: r[name], law)) for name, law in
+                 (("removed_per_cycle", fitted.law), ("removed_area_per_cycle", fitted.law), ("piston_pressure", None))}
         return found | ({"depth_then_error": float(error(lambda _, r: r.mean(r.after(cycles))))} if cycles else {})
 
     def charts(self, study, table, folder):
@@ -155,7 +155,8 @@ def read_run(view, study, folder):
         law = removed_depth.law_of(file)
         if law is None or not contours:
             return None
-        at_ends = removed_depth.at_ends_of_cycles(file["time"][:], file[law][:][:, np.concatenate([c.rows for c in contours])], period)
+        rows = np.concatenate([contour.rows for contour in contours])
+        at_ends = removed_depth.at_ends_of_cycles(file["time"][:], file[law][:][:, rows], period)
     if at_ends is None:
         return None
     return Removed(contours, at_ends, law, period, case.get("fluid", {}).get("removal", {}).get("roughness"))

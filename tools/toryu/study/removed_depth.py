@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-# Depth in surface.h5 -> the key of the case to which it is proportional: it is this coefficient times what contact and sliding
-# make of it (fluid_solver/terms/removal.hpp), and nothing else in a run reads the coefficient or the depth. The first that a
-# run has counts.
+# Depth in surface.h5 -> the key of the case to which it is proportional: it is this coefficient times what contact and
+# sliding make of it (fluid_solver/terms/removal.hpp), and nothing else in a run reads the coefficient or the depth. The
+# first that a run has counts.
 LAWS = {"preston_depth": "fluid.removal.preston_coefficient", "archard_depth": "fluid.removal.archard.wear_coefficient",
         "shear_depth": "fluid.removal.shear_coefficient"}
 

@@ -31,7 +31,7 @@ class Axis:
     values: list[Value]
     line: int | None  # of the file, for faults that the programs find
     value_of: Callable | None = None  # number -> Value, of an axis of numbers
-    default: str | None = None  # the value of charts that leave the axis open, and of settings that are not said to have another
+    default: str | None = None  # the value of charts that leave the axis open; not said of a setting that has it
 
 
 @dataclass
