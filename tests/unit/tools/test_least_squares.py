@@ -59,6 +59,12 @@ class LeastSquares(unittest.TestCase):
         self.assertAlmostEqual(fit.point[0], target, delta=1e-3)
         self.assertLess(asked, 16)
 
+    def test_a_step_that_leads_away_is_not_taken(self):
+        # Gauss and Newton's step leads farther away from beyond 1.39
+        fit, _ = fitted(lambda p: 100 * np.arctan(p - 2), [5], [-28], [32], [1e-4])
+        self.assertAlmostEqual(fit.point[0], 2, delta=1e-3)
+        self.assertTrue(fit.converged)
+
     def test_a_best_value_beyond_a_bound_ends_there(self):
         fit, _ = fitted(lambda p: np.array([p[0] - 5, p[1] - 1, p[0] + p[1] - 6]) / 0.1, [1, 0], [0, 0], [2, 2], [0.1, 0.1])
         self.assertEqual(fit.point[0], 2)

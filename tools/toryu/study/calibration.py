@@ -93,7 +93,6 @@ class Calibration:
 
 def add_axes(table, study):
     """An axis for each parameter."""
-    others = [axis.name for axis in study.axes]
     parameters = [_parameter(inner) for inner in table.tables("parameter")]
     if not parameters:
         table.fault("[calibration] needs at least one [[calibration.parameter]]")
@@ -101,7 +100,7 @@ def add_axes(table, study):
         for key in parameter.keys:
             if key in study.overrides:
                 table.fault(f"'{key}' is fitted, and 'set' of [study] gives it: it can have one value only")
-    study.axes += [parameter.axis for parameter in parameters if parameter.name not in others]
+    study.axes += [parameter.axis for parameter in parameters]
     study.calibration = Calibration(parameters)
 
 
