@@ -12,6 +12,8 @@ Every start of a run is written into `starts.txt` beside it. What an overridden 
     fluid.error          of the displacement's period, which is 1 s without; it loses a tenth of its amplitude a second
     fluid.checkpoints    writes one before it waits if above 0, a whole one if 1; restarted it does not wait
     fluid.refuses        does not restart if above 0
+    fluid.removal.preston_coefficient
+                         that times fluid.x comes off as well
     fluid.opens          a surface.h5 of a passage that opens: see made_up_surface.passage; the worn walls count
     fluid.unsteady       what the rate of that has too much at the start, over it; it is gone after 2 s
     fluid.sticks         it fails where a wall is worn by more than that [m]
@@ -25,7 +27,8 @@ import sys
 import time
 import tomllib
 
-KEYS = {"fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
+KEYS = {"fluid.removal.preston_coefficient": 0.0,
+        "fluid.x": 1.0, "fluid.y": 2.0, "fluid.seconds": 0.0, "fluid.fails": 0, "fluid.removes": 0.0,
         "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.checkpoints": 0,
         "fluid.refuses": 0, "fluid.cost": 0.25, "fluid.error": 0.0, "fluid.opens": 0.0, "fluid.unsteady": 0.0,
         "fluid.sticks": 1e9}
@@ -99,9 +102,9 @@ largest_speed = {values['fluid.x'] * 3}
 cpu = "a made-up processor"
 compiler = "GNU 12.2.0"
 """)
-if values["fluid.removes"]:
+if removes := values["fluid.removes"] + values["fluid.removal.preston_coefficient"] * values["fluid.x"]:
     from toryu_testing import made_up_surface  # imports h5py, which takes its time
-    made_up_surface.write(out / "surface.h5", times, values["fluid.removes"])
+    made_up_surface.write(out / "surface.h5", times, removes)
 if values["fluid.opens"]:
     from toryu_testing import made_up_surface
     made_up_surface.write_passage(out / "surface.h5", times, values["fluid.opens"], worn, values["fluid.unsteady"])

@@ -12,15 +12,16 @@ import time
 
 from toryu import PROGRAMS, program
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
-from toryu.study import (bisection, charts, checks, map_file, page, recession, recession_search, removal, runner,
-                         study_file, table, terms, timing, verdicts)
+from toryu.study import (bisection, calibration, calibration_search, charts, checks, map_file, page, recession,
+                         recession_search, removal, runner, study_file, table, terms, timing, verdicts)
 from toryu.study.document import BadStudy
 from toryu.study.progress import Progress, duration
 from toryu.study.settings import Maker, settings
 
-VIEWS = [study_file.View("removal", removal.read), study_file.View("map", map_file.read, map_file.add_axes),
-         study_file.View("terms", terms.read, terms.add_axes),
-         study_file.View("recession", recession.read, recession.add_axes)]
+VIEWS = [study_file.View("removal", removal.read, removal.add_axes),
+         study_file.View("map", map_file.read, map_file.add_axes), study_file.View("terms", terms.read, terms.add_axes),
+         study_file.View("recession", recession.read, recession.add_axes),
+         study_file.View("calibration", calibration.read, calibration.add_axes)]
 
 
 def parse(arguments):
@@ -91,18 +92,24 @@ def run(options):
     if study.recession and (failed := [chain for chain in study.recession.chains if chain.failure]):
         raise runner.Ended(failed[0].failed_code or PHYSICS_FAILED, "\n".join(
             f"{study.path}: error: {chain.label}{': ' if chain.label else ''}{chain.failure}" for chain in failed))
+    if study.calibration and study.calibration.failure:
+        raise runner.Ended(study.calibration.failed_code, f"{study.path}: error: {study.calibration.failure}")
     return BUG if any(record.exit_code == runner.HUNG for record in records) else DONE
 
 
 def number_of_runs(study, make, known):
     if study.recession:
         return f"{len(known)} and more"
+    if study.calibration:
+        return f"{len(known)} and more" if study.calibration.fit is None else len(known)
     return f"at most {bisection.most_runs(study, make)}" if study.searched else len(known)
 
 
 def search(study, make, run):
     if study.recession:
         return recession_search.search(study, make, run)
+    if study.calibration:
+        return calibration_search.search(study, make, run)
     return bisection.search(study, make, lambda record: verdicts.judge_alone(study, record), run)
 
 

@@ -66,7 +66,9 @@ def _lines(table, study, extra):
                   None if colour else table.get("lines", str, None, allowed=axes),
                   table.get("panels", str, None, allowed=axes), _at(table, axes),
                   table.texts("log", [], allowed=["x", "y", "colour"] if colour else ["x", "y"]))
-    free = [name for name in axes if name not in (x, y, chart.lines, chart.panels, *chart.at)]
+    shown = (x, y, chart.lines, chart.panels)
+    chart.at = {axis.name: axis.default for axis in study.axes if axis.default and axis.name not in shown} | chart.at
+    free = [name for name in axes if name not in (*shown, *chart.at)]
     if x in axes and free:
         table.fault(f"the chart leaves the axis '{free[0]}' open: draw it as 'lines' or 'panels', or choose one value, "
                     f"at = {{ {free[0]} = ... }}")
@@ -101,7 +103,9 @@ def _speed_accuracy(table, study, extra):
             table.fault(f"'wanted' must be errors above 0, found {value}", "wanted")
             chart.wanted = []
             break
-    free = [name for name in axes if name not in (chart.along, *lines, *chart.at)]
+    shown = (chart.along, *lines)
+    chart.at = {axis.name: axis.default for axis in study.axes if axis.default and axis.name not in shown} | chart.at
+    free = [name for name in axes if name not in (*shown, *chart.at)]
     if free and chart.along:
         table.fault(f"the chart leaves the axis '{free[0]}' open: add it to 'lines', or choose one value, at = "
                     f"{{ {free[0]} = ... }}")

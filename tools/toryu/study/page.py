@@ -129,8 +129,8 @@ def axes(study):
 
 
 def setting_text(study, row):
-    return ", ".join(f"{axis.name.replace('_', ' ')} {text(row[axis.name])} {axis.unit}".strip()
-                     for axis in study.axes)
+    axes = [axis for axis in study.axes if row[axis.name] != axis.default] or study.axes
+    return ", ".join(f"{axis.name.replace('_', ' ')} {text(row[axis.name])} {axis.unit}".strip() for axis in axes)
 
 
 def text(value):

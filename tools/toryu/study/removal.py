@@ -1,7 +1,7 @@
 """Abrasive removal of each run: depth along the work pieces a cycle, evenness, the pressure that the pistons need."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -9,13 +9,14 @@ from toryu import results, surface
 from toryu.case import resolve
 from toryu.processes import DONE
 from toryu.report import along
-from toryu.study import removal_charts
+from toryu.study import calibrated, removal_charts, removed_depth
 from toryu.study.answer import Answer
+from toryu.study.calibrated import Calibrated
 from toryu.study.removal_answer import Wanted, answer_of
 
 WINDOWS_A_CYCLE = 20  # over each of them the force of a piston is averaged
-DEPTHS = ("preston_depth", "archard_depth", "shear_depth")  # the first that a run has counts
 UNITS = {"removed_per_cycle": "m", "removed_area_per_cycle": "m2", "evenness": "", "piston_pressure": "Pa"}
+ERROR_UNITS = {"removed_per_cycle_error": "m", "removed_area_per_cycle_error": "m2", "piston_pressure_error": "Pa"}
 ANSWER_UNITS = {"cycles_needed": "", "time_needed": "s", "evenness_then": "", "roughness_then": "m"}
 
 
@@ -25,6 +26,7 @@ class Removed:
 
     contours: list[surface.Contour]
     depth: np.ndarray  # cycles x points [m]
+    law: str  # which depth of surface.h5 that is
     period: float  # [s]
     roughness: dict[str, float] | None  # of the case: initial, final, decay_depth [m]
 
@@ -36,12 +38,12 @@ class Removed:
         return float(np.average(depth, weights=self.area))
 
     def a_cycle(self):
-        """Depth [m] that each point loses in a cycle after the first: with the first the medium starts from rest."""
-        return (self.depth[-1] - self.depth[0]) / (len(self.depth) - 1)
+        """Depth [m] that each point loses in a cycle after the first."""
+        return removed_depth.a_cycle(self.depth)
 
     def after(self, cycles):
         """Depth [m] of each point after that many cycles."""
-        return self.depth[0] + (cycles - 1) * self.a_cycle()
+        return removed_depth.after(self.depth, cycles)
 
     def roughness_at(self, depth):
         """Mean roughness [m] once `depth` is off: each point decays as fluid_solver's removal says; nan without it."""
@@ -59,10 +61,13 @@ class Removal:
     piston_area: float  # [m2 per metre depth]
     cycle: float  # [s] period of the pistons' table of velocities, before their `motion.time`
     wanted: Wanted | None
+    calibrated: Calibrated | None = None
     runs: dict[str, Removed] = field(default_factory=dict)  # run -> what came off, filled by `figures`
+    errors: dict[str, np.ndarray] = field(default_factory=dict)  # run -> of the depth of each point [m], filled by `relate`
 
     def units(self):
-        return UNITS | (ANSWER_UNITS if self.wanted else {})
+        return UNITS | (ERROR_UNITS if self.calibrated else {}) | (ANSWER_UNITS if self.wanted else {}) | (
+            {"depth_then_error": "m"} if self.wanted and self.calibrated else {})
 
     def figures(self, study, row):
         """Name -> value; empty if the run failed or holds fewer than two whole cycles."""
@@ -75,17 +80,56 @@ class Removal:
         figures = {"removed_per_cycle": removed.mean(a_cycle), "evenness": evenness(removed, a_cycle),
                    "removed_area_per_cycle": float(a_cycle @ removed.area),
                    "piston_pressure": piston_pressure(self, record.folder, removed.period)}
-        return figures | (self.wanted.figures(removed) if self.wanted else {})
+        return figures | (self.wanted.figures(removed) if self.wanted and self.is_fitted(row) else {})
+
+    def is_fitted(self, row):
+        """Whether the row is a setting of the study, not one that tells the uncertainty of such."""
+        return self.calibrated is None or row[calibrated.AXIS] == calibrated.FITTED
+
+    def settings(self, table):
+        """The table without the rows that tell the uncertainty of others."""
+        return replace(table, rows=[row for row in table.rows if self.is_fitted(row)])
+
+    def relate(self, study, rows):
+        """Adds how uncertain the figures are by what the calibration leaves open."""
+        for row in rows if self.calibrated else ():
+            if not self.is_fitted(row) or row["record"].folder.name not in self.runs:
+                continue
+            others = [axis.name for axis in study.axes if axis.name != calibrated.AXIS]
+            near = {r[calibrated.AXIS]: r for r in rows if all(r[name] == row[name] for name in others)}
+            row |= self.uncertainty(row, {name: r for name, r in near.items() if r["record"].folder.name in self.runs})
+
+    def uncertainty(self, row, near):
+        """Standard errors of the figures of a row. `near`: value of the calibration's axis -> its neighbour."""
+        removed = {name: self.runs[r["record"].folder.name] for name, r in near.items()}
+        fitted = self.runs[row["record"].folder.name]
+
+        def error(of, law=fitted.law):
+            return self.calibrated.error(of(row, fitted), {name: of(near[name], removed[name]) for name in near}, law)
+
+        cycles = row.get("cycles_needed")
+        self.errors[row["record"].folder.name] = error(lambda _, r: r.after(cycles) if cycles else r.a_cycle())
+        found = {f"{name}_error": float(error(lambda r, _, name=name: r[name], law)) for name, law in
+                 (("removed_per_cycle", fitted.law), ("removed_area_per_cycle", fitted.law), ("piston_pressure", None))}
+        return found | ({"depth_then_error": float(error(lambda _, r: r.mean(r.after(cycles))))} if cycles else {})
 
     def charts(self, study, table, folder):
-        return removal_charts.draw(self, study, table, folder)
+        return removal_charts.draw(self, study, self.settings(table), folder)
 
     def answers(self, study, table, _) -> list[Answer]:
-        return [answer_of(self.wanted, study, table)] if self.wanted else []
+        return [answer_of(self.wanted, study, self.settings(table))] if self.wanted else []
+
+
+def add_axes(table, study):
+    """With a calibration one axis: the fitted values and a standard error to either side."""
+    study.removal = Removal([], math.nan, math.nan, None, calibrated.read(table, study))
+    if study.removal.calibrated:
+        study.axes.append(study.removal.calibrated.axis(table.document.line(table.path, "calibration")))
 
 
 def read(table, study):
     """The table [removal] of the file of `study`."""
+    table.known.append("calibration")  # add_axes has read it
     area, cycle = table.get("piston_area", float), table.get("cycle", float)
     for key, value in (("piston_area", area), ("cycle", cycle)):
         if value is not None and not value > 0:
@@ -96,7 +140,7 @@ def read(table, study):
     answer = table.table("answer")
     wanted = Wanted.read(answer) if answer else None
     table.close()
-    return Removal(pistons, area, cycle, wanted)
+    return Removal(pistons, area, cycle, wanted, study.removal.calibrated)
 
 
 def read_run(view, study, folder):
@@ -107,17 +151,15 @@ def read_run(view, study, folder):
     with file:
         case = resolve(folder / "used_case.toml", study.coupler).content
         period = view.cycle * time_factor(case, view.pistons)
-        time = file["time"][:]
-        ends = period * np.arange(1, math.floor(time[-1] / period + 1e-3) + 1) if len(time) else []
-        if len(ends) < 2:
-            return None
         contours = surface.contours(file)
-        law = next((name for name in DEPTHS if name in file), None)
+        law = removed_depth.law_of(file)
         if law is None or not contours:
             return None
-        depth = file[law][:][:, np.concatenate([c.rows for c in contours])]
-    at_ends = np.column_stack([np.interp(ends, time, column) for column in depth.T])
-    return Removed(contours, at_ends, period, case.get("fluid", {}).get("removal", {}).get("roughness"))
+        rows = np.concatenate([contour.rows for contour in contours])
+        at_ends = removed_depth.at_ends_of_cycles(file["time"][:], file[law][:][:, rows], period)
+    if at_ends is None:
+        return None
+    return Removed(contours, at_ends, law, period, case.get("fluid", {}).get("removal", {}).get("roughness"))
 
 
 def time_factor(case, pistons):

@@ -76,6 +76,9 @@ def figures_text(row):
             f"{row['evenness_then']:.2f} times the mean")
     if math.isfinite(row["piston_pressure"]):
         text += f", {in_words(row['piston_pressure'], 'Pa')} at the piston"
+    if "depth_then_error" in row:
+        text += (f"; by the calibration the depth is then uncertain by {in_words(row['depth_then_error'], 'm')} (one standard "
+                 "error)")
     return text
 
 

@@ -50,6 +50,10 @@ def along(view, study, rows, best):
         place = rank.get(run, NAMED)
         for panel, contour in zip(axes, removed.contours):
             part = depth[start:start + len(contour.rows)]
+            if place < NAMED and (error := view.errors.get(run)) is not None:  # one standard error of the calibration
+                error = error[start:start + len(contour.rows)]
+                panel.fill_between(contour.arc_length * 1e3, (part - error) * factor, (part + error) * factor,
+                                   color=drawing.LINES[place], alpha=0.2, linewidth=0)
             start += len(contour.rows)
             panel.plot(contour.arc_length * 1e3, part * factor, gid=f"run-{run}",
                        **({"color": drawing.LINES[place], "label": label(study, row), "zorder": 3} if place < NAMED else

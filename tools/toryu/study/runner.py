@@ -21,7 +21,8 @@ RECORD = "run.json"  # in the folder of a run that is done: without it the run g
 # of a Record, in its file
 KEPT = {"exit_code": int, "cause": str, "elapsed": (int, float), "threads": int, "jobs": int, "loops": list, "files": dict}
 LOCK = "study.lock"
-WRITTEN = ("table.csv", "study.html", "edges.csv", "terms.csv", "recession.csv", "table.md", "charts", "runs")  # by studies
+WRITTEN = ("table.csv", "study.html", "edges.csv", "terms.csv", "recession.csv", "table.md", "calibration.toml",
+           "calibration.csv", "charts", "runs")  # by studies
 OUTPUT = "output.txt"  # what the run printed
 POLL = 0.05  # [s]
 HUNG = 124  # in the place of an exit code: the run was ended because it took longer than it may

@@ -31,6 +31,7 @@ class Axis:
     values: list[Value]
     line: int | None  # of the file, for faults that the programs find
     value_of: Callable | None = None  # number -> Value, of an axis of numbers
+    default: str | None = None  # the value of charts that leave the axis open; not said of a setting that has it
 
 
 @dataclass
@@ -58,6 +59,7 @@ class Study:
     map: object = None  # map_file.py,
     terms: object = None  # terms.py,
     recession: object = None  # recession.py
+    calibration: object = None  # calibration.py
 
     @property
     def name(self):
@@ -76,7 +78,7 @@ class Study:
     @property
     def searched(self):
         """What looks for the next runs where these depend on how others ended, else None."""
-        return self.recession or (self.map and self.map.y)
+        return self.recession or self.calibration or (self.map and self.map.y)
 
     def units(self):
         return {thing.name: thing.unit for thing in [*self.axes, *self.metrics]} | self.of_run()

@@ -32,6 +32,9 @@ def build(study, records, views):
     for row in rows:
         for view in views:
             row |= view.figures(study, row)
+    for view in views:
+        if hasattr(view, "relate"):
+            view.relate(study, rows)
     return Table(units, rows)
 
 
