@@ -11,7 +11,7 @@ import pathlib
 import random
 
 MU, B, K = 1000.0, 3e-7, 2.5e-12  # Pa s, m/(Pa s), 1/Pa
-U, W, P, WAY, CYCLES = 0.05, 2e-3, 3.0e6, 4.5e-3, 2000  # m/s, m, Pa, m a cycle
+U, W, P, WAY, CYCLES = 0.05, 2e-3, 3.0e6, 4.2e-3, 2000  # m/s, m, Pa, m a cycle
 BETWEEN = 6e-3  # m, of the observers
 PRESSURE_SCATTER, DEPTH_SCATTER = 0.02, 0.05  # shares of the exact values
 SEED = 13
