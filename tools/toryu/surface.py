@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+SIDES = {"left": (0, -1.0), "right": (0, 1.0), "lower": (1, -1.0), "upper": (1, 1.0)}  # axis and sense of the normal
 REACH = 2.5  # spacings within which a contour goes on: past a corner whose particle has no face, across no gap
 TURN = 0.8  # how much farther a neighbour seems that lies off the way the contour goes: the next face at a corner
 

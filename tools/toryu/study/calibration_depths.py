@@ -12,8 +12,8 @@ from toryu.report import along
 from toryu.study import removed_depth
 from toryu.study.document import found
 from toryu.study.removed_depth import LAWS
+from toryu.surface import SIDES
 
-SIDES = {"left": (0, -1.0), "right": (0, 1.0), "lower": (1, -1.0), "upper": (1, 1.0)}  # axis and sense of the normal
 LEAST_NORMAL = 0.5  # a point with more of its normal along a side belongs to it
 COLUMNS = ["place[m]", "depth[m]", "scatter[m]"]
 

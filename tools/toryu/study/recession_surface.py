@@ -7,11 +7,11 @@ import numpy as np
 
 from toryu import surface
 from toryu.report import along
+from toryu.study.removed_depth import law_of
+from toryu.surface import SIDES
 
-SIDES = {"left": (0, -1.0), "right": (0, 1.0), "lower": (1, -1.0), "upper": (1, 1.0)}  # axis and sense of the normal
 LEAST_NORMAL = 0.5  # a point with more of its normal along a side belongs to it: one of an edge to both
-DEPTHS = ("preston_depth", "archard_depth", "shear_depth")  # the first that a run has counts
-OF_PRESSURE = DEPTHS[:2]
+OF_PRESSURE = ("preston_depth", "archard_depth")
 MIRROR_TOLERANCE = 0.1  # spacings by which mirror images may miss each other
 
 
@@ -164,9 +164,9 @@ def rates(first, file, window, pressure=None):
     """Mean rate of removal [m/s] of each point within `window`, two shares of the run's time, and the relative change of
     the mean between its halves. `pressure`: a Pressure, where the contact pressure of the run is not the medium's."""
     rows = same_points(first, file)
-    law = next((name for name in DEPTHS if name in file), None)
+    law = law_of(file)
     if law is None:
-        raise NoRate("[fluid.removal] has no law: give a preston_coefficient or [fluid.removal.archard]")
+        raise NoRate("[fluid.removal] has no law: give a preston_coefficient, a shear_coefficient or [fluid.removal.archard]")
     time, depth = file["time"][:], file[law][:][:, rows]
     if len(time) < 3:
         raise NoRate("its surface.h5 has fewer than three rows: give a smaller 'series_interval'")
