@@ -16,6 +16,7 @@
 #include "common/run/standard_streams.hpp"
 #include "common/scene/bodies.hpp"
 #include "common/sph/skin.hpp"
+#include "fluid_solver/axisymmetry.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
@@ -135,8 +136,9 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   check_folder(file, options.out);
+  for (const auto& [key, message] : fluid::axis_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
-  for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
+  for (const auto& [key, message] : fluid::similarity_faults(parameters, scene.geometry, file.has("solid")))
     file.fault(key, message);
   file.throw_if_faulty();
   if (parameters.similarity) {

@@ -23,6 +23,8 @@ double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kerne
 /// share of it that lies in the box, so that nothing jumps when one passes the box's ends. 0 if the box is
 /// empty.
 double flow_rate(const Particles& fluid, const Box& box, Axis axis);
+/// The same through a ring of that cross-section about the axis, along it [m3/s].
+double flow_rate_along_axis(const Particles& fluid, const Box& box);
 
 /// sum m v . v_0(x)/sum m v_0(x)^2: the velocity's share of the flow v_0 that it started with.
 double flow_amplitude(const Particles& fluid, const InitialFlow& flow);
@@ -46,6 +48,7 @@ struct Observed {
   const Period& period;
   double time;      ///< [s]
   double p_offset;  ///< what is added to the pressure of the equation of state [Pa]
+  Geometry geometry = Geometry::plane;
 };
 Observation observe(const Observer& observer, const Observed& now);
 

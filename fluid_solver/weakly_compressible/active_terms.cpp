@@ -32,6 +32,9 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
     if constexpr (requires { text(*term, medium_); })
       if (term) texts.push_back(text(*term, medium_));
   });
+  if (axisymmetric())
+    texts.push_back({"axisymmetry", "rings about y = 0, hoop parts pair by pair",
+                     "Brookshaw 2003; Garcia-Senz, Relano, Cabezon & Bravo 2009", ""});
   texts.push_back(
       {"walls", "pressure and velocity extrapolated from the fluid",
        "Adami, Hu & Adams 2012; thesis eq. 27-29",

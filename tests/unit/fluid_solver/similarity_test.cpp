@@ -36,18 +36,28 @@ Scene pushed(double ramp) {
   return scene;
 }
 
-TEST(SlitFlow, IsThatOfTheExactSolutions) {
+TEST(PassageFlow, IsThatOfTheExactSolutions) {
   Parameters p = putty();
-  EXPECT_NEAR(slit_flow(p, U, w).wall_shear_rate, 6 * U / w, 1e-4);
+  EXPECT_NEAR(passage_flow(p, U, w).wall_shear_rate, 6 * U / w, 1e-4);
   p.laminar_viscosity.reset();
   p.power_law = PowerLaw{25780, 0.4, 1e-3, 1e9};
-  const SlitFlow thinning = slit_flow(p, U, w);  // (2n+1)/n 2U/w = 225 1/s
+  const PassageFlow thinning = passage_flow(p, U, w);  // (2n+1)/n 2U/w = 225 1/s
   EXPECT_NEAR(thinning.wall_shear_rate, 225, 0.01);
   EXPECT_NEAR(thinning.wall_stress, 25780 * std::pow(225, 0.4), 10);
   p.power_law.reset();
   p.carreau = Carreau{1000, 10, 0.05, 0.4};
   const auto eta = [&](double gdot) { return viscosity(*p.carreau, gdot); };
-  EXPECT_NEAR(slit_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-4);
+  EXPECT_NEAR(passage_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-4);
+}
+
+TEST(PassageFlow, IsThatOfATubeAboutAnAxis) {
+  Parameters p = putty();
+  EXPECT_NEAR(passage_flow(p, U, w, Geometry::axisymmetric).wall_shear_rate, 8 * U / w, 1e-4);
+  const SimilarMedium similar = similar_medium(p, Geometry::axisymmetric);
+  EXPECT_NEAR(similar.pressure_drop, 32 * 1000 * U / (w * w) * 0.016, 20);
+  p.laminar_viscosity.reset();
+  p.power_law = PowerLaw{29080, 0.4, 1e-3, 1e9};  // (3n+1)/(4n) 8U/w = 275 1/s
+  EXPECT_NEAR(passage_flow(p, U, w, Geometry::axisymmetric).wall_shear_rate, 275, 0.01);
 }
 
 TEST(Similarity, ChoosesDensityAndSoundSpeedByHand) {
@@ -98,7 +108,7 @@ TEST(Similarity, TakesADiscretisationOfItsOwnUnlessTheCaseSaysAnother) {
 }
 
 std::string fault_of(const Parameters& p, bool with_solid = false) {
-  const auto faults = similarity_faults(p, with_solid);
+  const auto faults = similarity_faults(p, Geometry::plane, with_solid);
   return faults.empty() ? "" : faults.front().key + ": " + faults.front().message;
 }
 
