@@ -2,6 +2,9 @@
 
 #include <numeric>
 
+#include "fluid_solver/axis_images.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
+
 namespace toryu::fluid {
 
 Vec ForceOnFluid::force() const {
@@ -17,15 +20,16 @@ Vec ForceOnFluid::friction() const {
 }
 
 void Boundary::place(const std::vector<Vec>& positions, const std::vector<double>& volumes,
-                     double rest_density, double strip_width) {
+                     double rest_density, double strip_width, Geometry geometry) {
   count = positions.size();
   id.resize(count);
   std::iota(id.begin(), id.end(), 0u);
-  resize_fields(*this, padded(count));
+  resize_fields(*this, room_of(count, geometry));
   for (std::size_t k = 0; k < count; ++k) {
     set(x, k, positions[k]);
     V[k] = volumes[k];
     m[k] = rest_density * volumes[k];
+    if (geometry == Geometry::axisymmetric) m[k] *= circumference(positions[k][1]);
     rho[k] = rest_density;
   }
   strips = StripOrder(strip_width);

@@ -100,7 +100,7 @@ struct Boundary {
 
   /// Sets `count` particles at `positions`, each of its volume [m2], at rest.
   void place(const std::vector<Vec>& positions, const std::vector<double>& volumes, double rest_density,
-             double strip_width);
+             double strip_width, Geometry geometry = Geometry::plane);
   /// Makes it a work piece with these open faces, by id.
   void make_work_piece(const std::vector<Faces>& faces);
   bool is_work_piece() const { return !lower_face[0].empty(); }

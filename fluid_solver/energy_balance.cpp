@@ -19,14 +19,14 @@ double EnergyBalance::taken(Taken kind, double time) const {
   return sum;
 }
 
-std::vector<Observation> EnergyBalance::observe(double gained, double time) const {
+std::vector<Observation> EnergyBalance::observe(double gained, double time, const std::string& unit) const {
   const double stored = taken(Taken::stored, time), dissipated = taken(Taken::dissipated, time);
-  std::vector<Observation> row{{"dissipated_energy", "J/m", -gained - stored}};
+  std::vector<Observation> row{{"dissipated_energy", unit, -gained - stored}};
   for (std::size_t n = 0; n < terms_.size(); ++n) {
     const std::string verb = terms_[n].taken == Taken::stored ? "stored_by_" : "dissipated_by_";
-    row.push_back({verb + terms_[n].term, "J/m", taken_by(n, time)});
+    row.push_back({verb + terms_[n].term, unit, taken_by(n, time)});
   }
-  row.push_back({"energy_remainder", "J/m", gained + stored + dissipated});
+  row.push_back({"energy_remainder", unit, gained + stored + dissipated});
   return row;
 }
 

@@ -48,7 +48,8 @@ class EnergyBalance {
   double taken(Taken kind, double time) const;
   /// Columns: what is dissipated altogether and by each term, what is stored, and the remainder; `gained` is
   /// by how much the energy of the fluid has changed beyond the work done on it [J per metre depth].
-  std::vector<Observation> observe(double gained, double time) const;
+  /// Energies are in `unit`: by metre of depth, or of the whole circumference.
+  std::vector<Observation> observe(double gained, double time, const std::string& unit = "J/m") const;
 
  private:
   struct State {

@@ -4,9 +4,11 @@
 #include <numeric>
 #include <random>
 
+#include "fluid_solver/axis_images.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/initial_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/wall_rows.hpp"
 #include "fluid_solver/work_piece.hpp"
@@ -82,7 +84,7 @@ void FluidModel::fill_regions() {
   f.count = points.size();
   f.id.resize(f.count);
   std::iota(f.id.begin(), f.id.end(), 0u);
-  resize_fields(f, padded(f.count));
+  resize_fields(f, room_of(f.count, scene_.geometry));
 
   const double g = scene_.gravity.norm();
   std::vector<char> filled(boxes.size(), 0);
@@ -101,6 +103,7 @@ void FluidModel::fill_regions() {
     start_flow(i);
     f.V[i] = filling.cells[i].prod();
     f.m[i] = f.rho[i] * f.V[i];
+    if (scene_.geometry == Geometry::axisymmetric) f.m[i] *= circumference(points[i][1]);
   }
   for (std::size_t r = 0; r < boxes.size(); ++r)
     if (!filled[r])
@@ -120,7 +123,8 @@ void FluidModel::start_flow(std::size_t i) {
 }
 
 PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& points) const {
-  const double area = pressing_area(wall), fluid = parameters_.density * area * parameters_.h();
+  const double area = pressing_area(wall, scene_.geometry),
+               fluid = parameters_.density * area * parameters_.h();
   if (wall.press->mass > 0 && wall.press->mass < fluid)
     throw BadInput(
         {{fmt::format("[[wall]] '{}'", wall.name), 0, 0,
@@ -141,7 +145,8 @@ void FluidModel::fill_walls() {
     if (wall && wall->motion)
       boundary.motion = PrescribedMotion{*wall->motion, made.places, reach() / parameters_.sound_speed};
     if (wall && wall->press) boundary.motion = pressed(*wall, made.places);
-    boundary.place(made.places, made.volumes, parameters_.density, parameters_.strip_width());
+    boundary.place(made.places, made.volumes, parameters_.density, parameters_.strip_width(),
+                   scene_.geometry);
     const bool fit = parameters_.wall_model.extrapolation == WallExtrapolation::fit;
     if (fit || parameters_.wall_slip)
       boundary.know_faces(made.kept(lattice_face_depths(made.lattice, parameters_.spacing, 2 * reach())),

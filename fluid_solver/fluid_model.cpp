@@ -5,6 +5,7 @@
 
 #include "common/run/log.hpp"
 #include "common/state/serialize.hpp"
+#include "fluid_solver/axis_images.hpp"
 #include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/interface_contact.hpp"
 #include "fluid_solver/work_piece.hpp"
@@ -28,8 +29,9 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
                          parameters.background_pressure ? parameters.background_pressure->pressure : 0.0},
       period_(scene, parameters.spacing, (1 + parameters.neighbour_skin) * 2 * parameters.h()),
       state_{.neighbours = Neighbours(2 * parameters.h(), parameters.neighbour_skin * 2 * parameters.h(),
-                                      parameters.strip_width(), period_.shifts())} {
-  state_.beyond_measured = beyond_measured(parameters).has_value();  // it is told by who reads the case
+                                      parameters.strip_width(), period_.shifts(), scene.geometry)} {
+  state_.beyond_measured =
+      beyond_measured(parameters, scene.geometry).has_value();  // it is told by who reads the case
   state_.run_watch.emplace(parameters.limits, parameters.sound_speed);
   if (!parameters.particle_shifting) state_.suction_watch.emplace(parameters.spacing, equation_of_state_);
   fill_regions();
@@ -121,7 +123,10 @@ void FluidModel::update_neighbours(double dt) {
   const auto timer = timers_.measure("neighbours");
   if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt)) return;
   move_back_into_domain();
+  const bool about_axis = scene_.geometry == Geometry::axisymmetric;
+  if (about_axis) keep_off_axis(state_.fluid);
   state_.neighbours.build(state_.fluid, state_.boundaries, dt);
+  if (about_axis) mirror_bodies(state_.fluid, state_.boundaries);
 }
 
 void FluidModel::record_surface(const std::filesystem::path& out) {
@@ -198,7 +203,10 @@ void FluidModel::count_forces(double dt) {
     if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion))
       pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
-  state_.gravity_impulse += dt * std::reduce(state_.fluid.m.begin(), state_.fluid.m.end()) * scene_.gravity;
+  const Field& m = state_.fluid.m;
+  state_.gravity_impulse +=
+      dt * std::reduce(m.begin(), m.begin() + static_cast<std::ptrdiff_t>(padded(state_.fluid.count))) *
+      scene_.gravity;
 }
 
 }  // namespace toryu::fluid

@@ -2,6 +2,7 @@
 
 #include "common/sph/neighbour_loop.hpp"
 #include "common/sph/renormalisation.hpp"
+#include "fluid_solver/axis_images.hpp"
 
 namespace toryu::fluid {
 
@@ -30,7 +31,7 @@ Lanes none_near(const VecLanes& x_i, const Sources& sources, std::span<const Shi
 
 void FreeSurface::find_off_surface(Particles& fluid, const ClusterList& neighbours,
                                    const std::vector<Boundary>& boundaries, const Kernel& kernel) {
-  at_surface_.resize(padded(fluid.count));
+  at_surface_.resize(fluid.rho.size());  // images, where there are some, too
   fluid.off_surface.resize(padded(fluid.count));
   kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
@@ -43,6 +44,7 @@ void FreeSurface::find_off_surface(Particles& fluid, const ClusterList& neighbou
       store(select(moment.smaller_eigenvalue() < surface_moment, 1.0, 0.0), at_surface_, c * lane_count);
     }
   });
+  if (fluid.rho.size() > padded(fluid.count)) mirror(at_surface_);
   const bool no_surface =
       std::all_of(at_surface_.begin(), at_surface_.begin() + static_cast<std::ptrdiff_t>(fluid.count),
                   [](double is) { return is == 0; });

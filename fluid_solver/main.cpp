@@ -16,6 +16,7 @@
 #include "common/run/standard_streams.hpp"
 #include "common/scene/bodies.hpp"
 #include "common/sph/skin.hpp"
+#include "fluid_solver/axisymmetry.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/implicit/implicit_faults.hpp"
 #include "fluid_solver/implicit/implicit_twin.hpp"
@@ -158,9 +159,10 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   check_folder(file, options.out);
+  for (const auto& [key, message] : fluid::axis_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
   for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);
-  for (const auto& [key, message] : fluid::similarity_faults(parameters, file.has("solid")))
+  for (const auto& [key, message] : fluid::similarity_faults(parameters, scene.geometry, file.has("solid")))
     file.fault(key, message);
   for (const auto& [key, message] : fluid::implicit_faults(parameters, scene, file.has("solid")))
     file.fault(key, message);
@@ -198,7 +200,7 @@ ExitCode solve(const Options& options) {
   for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
   if (!file.value<double>("fluid.removal.grain_length"))
     if (const auto unknown = fluid::removal_by_grain_length(parameters)) log::warn("{}", *unknown);
-  if (const auto beyond = fluid::beyond_measured(parameters)) log::warn("{}", *beyond);
+  if (const auto beyond = fluid::beyond_measured(parameters, scene.geometry)) log::warn("{}", *beyond);
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
   for (const auto& thin : fluid::thin_remains(scene.walls, model.reach())) log::warn("{}", thin);
   for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);

@@ -50,10 +50,11 @@ std::string take_named_medium(Parameters& p) {
   return fmt::format("medium {}: {}", record.name, record.source);
 }
 
-std::optional<std::string> beyond_measured(const Parameters& p) {
+std::optional<std::string> beyond_measured(const Parameters& p, Geometry geometry) {
   if (!p.medium || !p.similarity) return {};
   const MediumRecord& record = record_of(*p.medium);
-  const double rate = slit_flow(p, p.similarity->mean_speed, p.similarity->passage_width).wall_shear_rate;
+  const double rate =
+      passage_flow(p, p.similarity->mean_speed, p.similarity->passage_width, geometry).wall_shear_rate;
   if (rate <= record.largest_shear_rate) return {};
   return fmt::format(
       "the walls of the passage shear the medium at {:.3g} 1/s, and '{}' was measured up to {:g} 1/s: beyond "

@@ -35,7 +35,7 @@ const MediumRecord& record_of(const NamedMedium& medium);
 std::string take_named_medium(Parameters& parameters);
 
 /// A sentence where the passage of [fluid.similarity] shears the medium faster than was measured.
-std::optional<std::string> beyond_measured(const Parameters& parameters);
+std::optional<std::string> beyond_measured(const Parameters& parameters, Geometry geometry = Geometry::plane);
 
 /// A sentence where a hundredth of the fluid is sheared faster than was measured of the medium.
 std::optional<std::string> beyond_measured(const MediumRecord& medium, const Particles& fluid, double time);

@@ -72,13 +72,20 @@ void Neighbours::build_lists(std::size_t fluid_count, std::vector<Boundary>& bou
   const VecField& x = state_.fluid;
   const double reach = support_ + state_.skin;
   strips_.index(x[0], fluid_count);
-  of_fluid_.build(x, fluid_count, x, strips_, reach, shifts_);
+  const auto build = [&](ClusterList& list, const VecField& targets, std::size_t target_count,
+                         const VecField& sources, std::size_t source_count, const StripOrder& strips) {
+    if (geometry_ == Geometry::plane)
+      list.build(targets, target_count, sources, strips, reach, shifts_);
+    else
+      list.build_with_images(targets, target_count, sources, strips, reach, padded(source_count));
+  };
+  build(of_fluid_, x, fluid_count, x, fluid_count, strips_);
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     Boundary& boundary = boundaries[b];
     const VecField& x_b = boundary.moves() ? state_.boundaries[b] : boundary.x;
     boundary.strips.index(x_b[0], boundary.count);
-    boundary.list_for_fluid.build(x, fluid_count, x_b, boundary.strips, reach, shifts_);
-    boundary.list_for_wall.build(x_b, boundary.count, x, strips_, reach, shifts_);
+    build(boundary.list_for_fluid, x, fluid_count, x_b, boundary.count, boundary.strips);
+    build(boundary.list_for_wall, x_b, boundary.count, x, fluid_count, strips_);
   }
 }
 

@@ -17,9 +17,14 @@ namespace toryu::fluid {
 class Neighbours {
  public:
   /// `support` and `largest_skin` [m]; `strip_width` [m] of the storage order; `shifts` [m], zero first, by
-  /// which space repeats itself.
-  Neighbours(double support, double largest_skin, double strip_width, std::vector<Vec> shifts)
-      : support_(support), largest_skin_(largest_skin), shifts_(std::move(shifts)), strips_(strip_width) {}
+  /// which space repeats itself; about an axis the lists lead to images too (axis_images.hpp).
+  Neighbours(double support, double largest_skin, double strip_width, std::vector<Vec> shifts,
+             Geometry geometry = Geometry::plane)
+      : support_(support),
+        largest_skin_(largest_skin),
+        shifts_(std::move(shifts)),
+        geometry_(geometry),
+        strips_(strip_width) {}
 
   /// Whether the next `dt` [s] at the present speeds may exhaust the skin.
   bool exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const;
@@ -51,6 +56,7 @@ class Neighbours {
 
   double support_, largest_skin_;
   std::vector<Vec> shifts_;
+  Geometry geometry_;
   StripOrder strips_;
   State state_;
   ClusterList of_fluid_;

@@ -190,11 +190,14 @@ Vec FluidModel::numerical_impulse() const {
 
 std::vector<Observation> FluidModel::observe() const {
   const Vec p = momentum();
-  std::vector<Observation> row{{"kinetic_energy", "J/m", kinetic_energy()},
-                               {"potential_energy", "J/m", potential_energy()},
-                               {"elastic_energy", "J/m", elastic_energy()},
-                               {"momentum_x", "N.s/m", p[0]},
-                               {"momentum_y", "N.s/m", p[1]},
+  const auto unit_of = [&](const char* of_all) -> std::string {
+    return scene_.geometry == Geometry::plane ? fmt::format("{}/m", of_all) : of_all;
+  };
+  std::vector<Observation> row{{"kinetic_energy", unit_of("J"), kinetic_energy()},
+                               {"potential_energy", unit_of("J"), potential_energy()},
+                               {"elastic_energy", unit_of("J"), elastic_energy()},
+                               {"momentum_x", unit_of("N.s"), p[0]},
+                               {"momentum_y", unit_of("N.s"), p[1]},
                                {"largest_speed", "m/s", state_.largest.speed},
                                {"mean_density", "kg/m3", mean_density()},
                                {"particles_in_walls", "1", static_cast<double>(state_.penetration.count)}};
@@ -204,24 +207,26 @@ std::vector<Observation> FluidModel::observe() const {
   };
   for (const Boundary& boundary : state_.boundaries) {
     const ForceOnFluid& given = boundary.force_on_fluid;
-    push("force_from_" + boundary.name, "N/m", boundary.counted ? given.force() : Vec(Vec::Zero()));
-    push("impulse_from_" + boundary.name, "N.s/m", boundary.impulse.total);
-    if (boundary.moves()) row.push_back({"work_from_" + boundary.name, "J/m", boundary.work});
+    push("force_from_" + boundary.name, unit_of("N"), boundary.counted ? given.force() : Vec(Vec::Zero()));
+    push("impulse_from_" + boundary.name, unit_of("N.s"), boundary.impulse.total);
+    if (boundary.moves()) row.push_back({"work_from_" + boundary.name, unit_of("J"), boundary.work});
     if (const auto* pressed = std::get_if<PressedMotion>(&boundary.motion)) {
       row.push_back({"way_of_" + boundary.name, "m", pressed->way_at(state_.time)});
       row.push_back({"speed_of_" + boundary.name, "m/s", pressed->speed_at(state_.time)});
     }
     if (!parameters_.friction || parameters_.wall_slip || !boundary.is_work_piece()) continue;
-    push("friction_from_" + boundary.name, "N/m", boundary.counted ? given.friction() : Vec(Vec::Zero()));
-    push("friction_impulse_from_" + boundary.name, "N.s/m", boundary.impulse.friction);
+    push("friction_from_" + boundary.name, unit_of("N"),
+         boundary.counted ? given.friction() : Vec(Vec::Zero()));
+    push("friction_impulse_from_" + boundary.name, unit_of("N.s"), boundary.impulse.friction);
   }
-  if (scene_.gravity.norm() > 0) push("impulse_of_gravity", "N.s/m", state_.gravity_impulse);
-  if (parameters_.seeks_free_surface()) push("impulse_of_corrections", "N.s/m", numerical_impulse());
-  for (const auto& energy : state_.balance.observe(energy_gained(), state_.time)) row.push_back(energy);
+  if (scene_.gravity.norm() > 0) push("impulse_of_gravity", unit_of("N.s"), state_.gravity_impulse);
+  if (parameters_.seeks_free_surface()) push("impulse_of_corrections", unit_of("N.s"), numerical_impulse());
+  for (const auto& energy : state_.balance.observe(energy_gained(), state_.time, unit_of("J")))
+    row.push_back(energy);
   for (const auto& observer : parameters_.observers)
-    row.push_back(
-        toryu::fluid::observe(observer, {state_.fluid, state_.boundaries, parameters_, kernel_,
-                                         equation_of_state_, period_, state_.time, pressure_offset()}));
+    row.push_back(toryu::fluid::observe(
+        observer, {state_.fluid, state_.boundaries, parameters_, kernel_, equation_of_state_, period_,
+                   state_.time, pressure_offset(), scene_.geometry}));
   if (state_.surface_record)
     for (const auto& observation : state_.surface_record->observe()) row.push_back(observation);
   return row;

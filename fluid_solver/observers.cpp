@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fluid_solver/initial_flow.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
 
 namespace toryu::fluid {
 
@@ -98,6 +100,20 @@ double volume_flux(const Particles& fluid, const Box& box, Axis axis) {
   return inside(fluid, box, along).V_v / (box.max[along] - box.min[along]);
 }
 
+double flow_rate_along_axis(const Particles& fluid, const Box& box) {
+  double sum_V = 0, sum_V_v = 0;
+  for (std::size_t i = 0; i < fluid.count; ++i) {
+    const Vec x = at(fluid.x, i);
+    const double V = fluid.m[i] / fluid.rho[i], side = std::sqrt(V / circumference(x[1]));
+    const double V_inside = V * share_in(box, x, side);
+    sum_V += V_inside;
+    sum_V_v += V_inside * fluid.v[0][i];
+  }
+  const double low = std::max(box.min[1], 0.0), high = box.max[1];
+  const double cross_section = std::numbers::pi * (high * high - low * low);
+  return sum_V > 0 ? cross_section * sum_V_v / sum_V : 0.0;
+}
+
 double flow_amplitude(const Particles& fluid, const InitialFlow& flow) {
   double product = 0, square = 0;
   for (std::size_t i = 0; i < fluid.count; ++i) {
@@ -139,6 +155,8 @@ Observation observe(const Observer& observer, const Observed& now) {
       return {observer.name, "Pa",
               pressure_at(observer.point, now.fluid, now.kernel, now.state, now.period) + now.p_offset};
     case Quantity::flow_rate:
+      if (now.geometry == Geometry::axisymmetric)
+        return {observer.name, "m3/s", flow_rate_along_axis(now.fluid, *observer.box)};
       return {observer.name, "m2/s", flow_rate(now.fluid, *observer.box, observer.axis)};
     case Quantity::flow_amplitude:
       return {observer.name, "1", flow_amplitude(now.fluid, *p.initial_flow)};

@@ -23,6 +23,8 @@ double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kerne
 /// share of it that lies in the box, so that nothing jumps when one passes the box's ends. 0 if the box is
 /// empty.
 double flow_rate(const Particles& fluid, const Box& box, Axis axis);
+/// The same through a ring of that cross-section about the axis, along it [m3/s].
+double flow_rate_along_axis(const Particles& fluid, const Box& box);
 
 /// The same of a passage whose walls stand somewhere in `box`: the sum of volume times velocity in it, over
 /// its length along `axis` [m2/s]. What a passage has in the mean over that length.
@@ -50,6 +52,7 @@ struct Observed {
   const Period& period;
   double time;      ///< [s]
   double p_offset;  ///< what is added to the pressure of the equation of state [Pa]
+  Geometry geometry = Geometry::plane;
 };
 Observation observe(const Observer& observer, const Observed& now);
 

@@ -166,7 +166,7 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
       {.unit = "m", .minimum = 0, .above_minimum = true, .required = true, .help = "particle spacing d_0"});
   table.choice("kernel", p.kernel, {"cubic_spline", "wendland_c2"},
                {.help = "cubic spline (Monaghan & Lattanzio 1985) or Wendland C2 (1995), support 2h"});
-  table.number("smoothing_ratio", p.smoothing_ratio, {.minimum = 1.0, .maximum = 2.0, .help = "h/d_0"});
+  table.number("smoothing_ratio", p.smoothing_ratio, {.minimum = 1.0, .maximum = 4.0, .help = "h/d_0"});
   table.choice("integrator", p.integrator, {"midpoint", "symplectic"},
                {.help = "a leapfrog that finds each rate once a step, or the midpoint rule"});
   table.number("time_step_share", p.time_step_share,

@@ -23,22 +23,25 @@ constexpr double gentle_crossings = 4;
 constexpr double bearable_pressure = 30;
 /// Reynolds number below which inertia changes a flow by less than a thousandth.
 constexpr double creeping_reynolds_number = 0.01;
-/// Of the slowest part of a starting flow between plates, pi^2 nu/w^2 (the series of cases/poiseuille).
-constexpr double profile_rate = 9.87;
+/// Of the slowest part of a starting flow between plates, pi^2 nu/w^2 (the series of cases/poiseuille), and
+/// in a tube, (2 j_0)^2 nu/w^2 with the first zero 2.405 of the Bessel function J_0 (Szymanski 1932).
+constexpr double profile_rate(Geometry geometry) {
+  return geometry == Geometry::plane ? 9.87 : 23.13;
+}
 constexpr double largest_mach_number = 0.1;
 /// Difference of the pistons' pressures over the drop by which sound and background pressure are chosen.
 constexpr double largest_share_of_drop = 1.5;
 
 /// U over w of the flow with that shear rate at the wall [1/s].
-double speed_over_width(const Parameters& p, double gdot_w) {
+double speed_over_width(const Parameters& p, double gdot_w, Geometry geometry) {
   constexpr int intervals = 2000;
   const double tau_w = viscosity_of(p, gdot_w) * gdot_w;
   double sum = 0;  // by the midpoint rule
   for (int k = 0; k < intervals; ++k) {
     const double gdot = (k + 0.5) / intervals * gdot_w, share = viscosity_of(p, gdot) * gdot / tau_w;
-    sum += share * share;
+    sum += geometry == Geometry::plane ? share * share : share * share * share;
   }
-  return 0.25 * gdot_w * (1 - sum / intervals);
+  return (geometry == Geometry::plane ? 1 / 4.0 : 1 / 6.0) * gdot_w * (1 - sum / intervals);
 }
 
 double largest_speed(const Motion& motion) {
@@ -72,7 +75,7 @@ double difference_of_presses(const Scene& scene, double time) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const Wall& wall : scene.walls)
     if (wall.press) {
-      const double p = wall.press->pressure_at(time, pressing_area(wall));
+      const double p = wall.press->pressure_at(time, pressing_area(wall, scene.geometry));
       least = std::min(least, p), most = std::max(most, p);
     }
   return std::max(most - least, 0.0);
@@ -119,6 +122,12 @@ double longest_side(const std::vector<Region>& regions) {
   return sides(regions).maxCoeff();
 }
 
+/// The shorter side; about an axis the fluid reaches as far beyond it.
+double passage_width(const std::vector<Region>& regions, Geometry geometry) {
+  const Vec box = sides(regions);
+  return geometry == Geometry::plane ? box.minCoeff() : std::min(box[0], 2 * box[1]);
+}
+
 /// What the case asks for that is a matter of inertia.
 const char* key_of_inertia(const Parameters& p) {
   if (p.initial_flow) return "fluid.initial_flow";
@@ -139,7 +148,7 @@ void describe(ParameterTable& table, Similarity& similarity) {
                  {.unit = unit, .minimum = 0, .above_minimum = true, .required = true, .help = help});
   };
   size("mean_speed", similarity.mean_speed, "m/s", "of the medium in the narrowest passage");
-  size("passage_width", similarity.passage_width, "m", "of that passage");
+  size("passage_width", similarity.passage_width, "m", "of that passage; about an axis the diameter");
   size("passage_length", similarity.passage_length, "m",
        "of that passage, what else the medium passes counted in: with the wall's shear stress it gives the "
        "pressure drop");
@@ -156,12 +165,12 @@ void describe(ParameterTable& table, Similarity& similarity) {
                 .help = "change of the density over the pressure drop, which sets the sound speed"});
 }
 
-SlitFlow slit_flow(const Parameters& p, double mean_speed, double width) {
+PassageFlow passage_flow(const Parameters& p, double mean_speed, double width, Geometry geometry) {
   double low = 1e-100, high = 1e100;
   while (high / low > 1 + 1e-12) {
     const double gdot_w = std::sqrt(low) * std::sqrt(high), tau_w = viscosity_of(p, gdot_w) * gdot_w;
     const double u_s = p.wall_slip ? slip_speed(*p.wall_slip, tau_w) : 0.0;
-    (u_s + speed_over_width(p, gdot_w) * width < mean_speed ? low : high) = gdot_w;
+    (u_s + speed_over_width(p, gdot_w, geometry) * width < mean_speed ? low : high) = gdot_w;
   }
   const double eta_w = viscosity_of(p, low), tau_w = eta_w * low;
   return {.wall_shear_rate = low,
@@ -170,12 +179,13 @@ SlitFlow slit_flow(const Parameters& p, double mean_speed, double width) {
           .slip_speed = p.wall_slip ? slip_speed(*p.wall_slip, tau_w) : 0.0};
 }
 
-SimilarMedium similar_medium(const Parameters& p) {
+SimilarMedium similar_medium(const Parameters& p, Geometry geometry) {
   const Similarity& s = *p.similarity;
-  SimilarMedium similar{.passage = slit_flow(p, s.mean_speed, s.passage_width)};
+  SimilarMedium similar{.passage = passage_flow(p, s.mean_speed, s.passage_width, geometry)};
   const double sheared = 1 - similar.passage.slip_speed / s.mean_speed;
   const double inertia = s.mean_speed * s.passage_width / (sheared * similar.passage.wall_viscosity);
-  similar.pressure_drop = 2 * similar.passage.wall_stress * s.passage_length / s.passage_width;
+  similar.pressure_drop = (geometry == Geometry::plane ? 2 : 4) * similar.passage.wall_stress *
+                          s.passage_length / s.passage_width;
   similar.density = s.reynolds_number / inertia;
   similar.sound_speed = p.sound_speed > 0
                             ? p.sound_speed
@@ -188,7 +198,7 @@ BackgroundPressure similar_background(const SimilarMedium& similar) {
   return {.pressure = background_share * similar.pressure_drop};
 }
 
-std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_solid) {
+std::vector<SimilarityFault> similarity_faults(const Parameters& p, Geometry geometry, bool with_solid) {
   if (!p.similarity) return {};
   if (with_solid)
     return {{"fluid.similarity",
@@ -204,7 +214,7 @@ std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_so
              "the medium: leave it out"}};
   if (const char* key = key_of_inertia(p))
     return {{key, "it depends on the inertia that [fluid.similarity] changes: leave one of the two out"}};
-  const SimilarMedium similar = similar_medium(p);
+  const SimilarMedium similar = similar_medium(p, geometry);
   const double real = similar.real_reynolds_number;
   for (const double value : {similar.pressure_drop, similar.density, similar.sound_speed})
     if (!(value > 0 && std::isfinite(value)))
@@ -221,7 +231,7 @@ std::vector<SimilarityFault> similarity_faults(const Parameters& p, bool with_so
 }
 
 std::string make_similar(Parameters& p, Scene& scene) {
-  const SimilarMedium similar = similar_medium(p);
+  const SimilarMedium similar = similar_medium(p, scene.geometry);
   const double factor = similar.density / p.density;
   scene.gravity /= factor;
   p.density = similar.density;
@@ -239,7 +249,8 @@ std::string make_similar(Parameters& p, Scene& scene) {
       similar.sound_speed, p.similarity->mean_speed / similar.sound_speed,
       similar.pressure_drop / (similar.density * similar.sound_speed * similar.sound_speed) *
           longest_side(p.regions) / p.similarity->mean_speed,
-      p.similarity->reynolds_number * p.similarity->passage_width / (profile_rate * p.similarity->mean_speed),
+      p.similarity->reynolds_number * p.similarity->passage_width /
+          (profile_rate(scene.geometry) * p.similarity->mean_speed),
       gentle_crossings * longest_side(p.regions) / similar.sound_speed);
 }
 
@@ -248,9 +259,9 @@ std::optional<std::string> creeping(const Parameters& p, const Scene& scene) {
   if (p.similarity || p.model == Model::implicit || U == 0 || !scene.gravity.isZero(0) || !is_viscous(p) ||
       p.artificial_viscosity || key_of_inertia(p))
     return {};
-  const double width = sides(p.regions).minCoeff();
-  const double nu = slit_flow(p, U, width).wall_viscosity / p.density, Re = U * width / nu;
-  const double settling = width * width / (profile_rate * nu);  // of the profile [s]
+  const double width = passage_width(p.regions, scene.geometry);
+  const double nu = passage_flow(p, U, width, scene.geometry).wall_viscosity / p.density, Re = U * width / nu;
+  const double settling = width * width / (profile_rate(scene.geometry) * nu);  // of the profile [s]
   if (!(Re < creeping_reynolds_number && settling < 0.1 * shortest_ramp(scene))) return {};
   return fmt::format(
       "the flow creeps, Re {:.2g} at the walls' {:g} m/s over the fluid's {:g} m: its inertia does nothing "
@@ -278,7 +289,7 @@ std::vector<std::string> similarity_warnings(const Parameters& p, const Scene& s
         fmt::format("walls move at {:.4g} m/s, faster than the 'mean_speed' {:.4g} m/s in the narrowest "
                     "passage: the pressure drop, and with it the sound speed, may be far too low",
                     pushed, p.similarity->mean_speed));
-  const SimilarMedium similar = similar_medium(p);
+  const SimilarMedium similar = similar_medium(p, scene.geometry);
   const double difference = largest_difference_of_presses(scene);
   if (difference > largest_share_of_drop * similar.pressure_drop)
     said.push_back(

@@ -20,6 +20,10 @@
 ///
 /// u_s the slip of [fluid.wall_slip] under tau_w, else 0. What slides is not sheared: with slip Re is over
 /// the share 1 - u_s/U of the viscosity, so that inertia stays as small beside the pressure drop.
+///
+/// About an axis the passage is a tube of the diameter w, where likewise
+///
+///     U = u_s + w/6 [gdot_w - integral_0^gdot_w (tau(gdot)/tau_w)^3 dgdot],   dp = 4 tau_w L/w.
 #pragma once
 
 #include <optional>
@@ -36,32 +40,34 @@ struct Parameters;
 
 struct Similarity {
   double mean_speed = 0;         ///< U in the narrowest passage [m/s]
-  double passage_width = 0;      ///< w [m]
+  double passage_width = 0;      ///< w, of a tube the diameter [m]
   double passage_length = 0;     ///< L, what else the medium passes counted in [m]
   double reynolds_number = 1.0;  ///< that is computed
   double compression = 0.01;     ///< change of the density over the pressure drop
 };
 void describe(ParameterTable& table, Similarity& similarity);
 
-/// Developed flow between two plates.
-struct SlitFlow {
+/// Developed flow between two plates, or in a tube.
+struct PassageFlow {
   double wall_shear_rate = 0;  ///< [1/s]
   double wall_viscosity = 0;   ///< [Pa s]
   double wall_stress = 0;      ///< [Pa]
   double slip_speed = 0;       ///< u_s [m/s]
 };
-/// Of the medium of `parameters` at the mean speed U [m/s] between plates `width` [m] apart.
-SlitFlow slit_flow(const Parameters& parameters, double mean_speed, double width);
+/// Of the medium of `parameters` at the mean speed U [m/s] between plates `width` [m] apart, or about an axis
+/// in a tube of that diameter.
+PassageFlow passage_flow(const Parameters& parameters, double mean_speed, double width,
+                         Geometry geometry = Geometry::plane);
 
 /// What similarity makes of a case.
 struct SimilarMedium {
-  SlitFlow passage;
+  PassageFlow passage;
   double pressure_drop = 0;         ///< of the passage [Pa]
   double density = 0;               ///< that is computed [kg/m3]
   double sound_speed = 0;           ///< [m/s]
   double real_reynolds_number = 0;  ///< of the medium's own density
 };
-SimilarMedium similar_medium(const Parameters& parameters);
+SimilarMedium similar_medium(const Parameters& parameters, Geometry geometry = Geometry::plane);
 
 /// The background pressure that such a medium has unless the case says another.
 BackgroundPressure similar_background(const SimilarMedium& similar);
@@ -70,7 +76,8 @@ BackgroundPressure similar_background(const SimilarMedium& similar);
 struct SimilarityFault {
   std::string key, message;
 };
-std::vector<SimilarityFault> similarity_faults(const Parameters& parameters, bool with_solid);
+std::vector<SimilarityFault> similarity_faults(const Parameters& parameters, Geometry geometry,
+                                               bool with_solid);
 
 /// Puts the density that is computed, sound speed, background pressure and the friction's regularisation into
 /// `parameters`, where the case does not say them, and keeps the weight rho g. Returns what the log says.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "common/scene/scene.hpp"
 
@@ -35,8 +36,10 @@ double Press::pressure_at(double time, double area) const {
   return force.empty() ? value_at(pressure, time) : value_at(force, time) / area;
 }
 
-double pressing_area(const Wall& wall) {
-  return (wall.box.max - wall.box.min)[1 - axis_of(wall.press->direction)];
+double pressing_area(const Wall& wall, Geometry geometry) {
+  const int along = 1 - axis_of(wall.press->direction);
+  const double low = wall.box.min[along], high = wall.box.max[along];
+  return geometry == Geometry::plane ? high - low : std::numbers::pi * (high * high - low * low);
 }
 
 Box swept_box(const Wall& wall) {

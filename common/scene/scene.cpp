@@ -38,6 +38,34 @@ void check_walls(CaseFile& file, const Scene& scene) {
   }
 }
 
+/// Whether a wall moves across the axis.
+bool moves_across(const Wall& wall) {
+  const auto across = [](const auto& row) { return row[2] != 0; };
+  return (wall.motion && std::any_of(wall.motion->velocity.begin(), wall.motion->velocity.end(), across)) ||
+         (wall.press && wall.press->axis()[1] != 0);
+}
+
+void check_axis(CaseFile& file, const Scene& scene) {
+  if (scene.geometry != Geometry::axisymmetric) return;
+  if (file.has("solid"))
+    file.fault("case.geometry", "a scene with a solid cannot be axisymmetric: solids know no axis");
+  if (scene.periodic != Periodic::none)
+    file.fault("case.periodic", "a scene about an axis does not repeat itself: leave 'periodic' out");
+  if (scene.gravity[1] != 0)
+    file.fault("case.gravity", "gravity across the axis is not axisymmetric: give it along x alone");
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    const std::string key = fmt::format("wall.{}", i);
+    if (wall.box.min[1] < 0)
+      file.fault(key + ".box", fmt::format("the wall '{}' crosses the axis: y is the distance from it, at "
+                                           "least 0",
+                                           wall.name));
+    if (moves_across(wall))
+      file.fault(key + (wall.press ? ".press" : ".motion"),
+                 fmt::format("the wall '{}' moves across the axis: it can move along x alone", wall.name));
+  }
+}
+
 void check_references(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.references.size(); ++i) {
     const Reference& reference = scene.references[i];
@@ -103,6 +131,8 @@ void describe(ParameterTable& table, Scene& scene) {
   table.require(!scene.domain.round, "domain.round", "the domain is a box: it cannot be round");
   table.choice("periodic", scene.periodic, {"none", "x", "y", "xy"},
                {.help = "directions in which the domain repeats itself; of a fluid without a solid"});
+  table.choice("geometry", scene.geometry, {"plane", "axisymmetric"},
+               {.help = "plane, or x along an axis and y the distance from it; of a fluid without a solid"});
 }
 
 void describe(ParameterTable& table, Box& box) {
@@ -192,6 +222,7 @@ Scene read_scene(CaseFile& file) {
   check_walls(file, scene);
   check_bodies(file, scene);
   check_references(file, scene);
+  check_axis(file, scene);
   if (scene.periodic != Periodic::none && file.has("solid"))
     file.fault("case.periodic", "a scene with a solid cannot be periodic: solids know no periods");
   for (std::size_t i = 0; i < scene.walls.size() && file.has("solid"); ++i)

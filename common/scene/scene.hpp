@@ -71,8 +71,12 @@ struct Wall {
   std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box
 };
 void describe(ParameterTable& table, Wall& wall);
-/// Of the face with which a pressed wall presses [m per metre depth].
-double pressing_area(const Wall& wall);
+/// What the plane of a case stands for: a slice of something long, by metre of depth, or the half plane of x
+/// along the axis and y the distance from it, by the whole circumference.
+enum class Geometry { plane, axisymmetric };
+
+/// Of the face with which a pressed wall presses [m per metre depth], or of its whole ring [m2].
+double pressing_area(const Wall& wall, Geometry geometry = Geometry::plane);
 /// All places that the wall takes: as it stands, or between the stops of its press.
 Box swept_box(const Wall& wall);
 
@@ -91,6 +95,7 @@ struct Scene {
   double checkpoint_every = 600;   ///< of wall time; 0: none [s]
   Box domain;                      ///< a particle outside it is a failure
   Periodic periodic = Periodic::none;
+  Geometry geometry = Geometry::plane;
   std::vector<Wall> walls;
   std::vector<Reference> references;
 };

@@ -23,11 +23,15 @@ void collect(const VecLanes& x_i, const VecField& sources, const StripOrder& str
                 });
 }
 
+VecLanes beyond_axis(const VecLanes& x) {
+  return {x[0], -x[1]};
+}
+
 }  // namespace
 
 void ClusterList::build_block(Block& block, std::size_t begin, std::size_t end, const VecField& targets,
                               const VecField& sources, const StripOrder& strips, double reach,
-                              std::span<const Vec> shifts) {
+                              std::span<const Vec> shifts, std::size_t first_image) {
   block.found.clear();
   block.ends.clear();
   block.near.clear();
@@ -39,6 +43,14 @@ void ClusterList::build_block(Block& block, std::size_t begin, std::size_t end, 
       collect(shifted(x_i, shifts[k]), sources, strips, reach, block.found);
       if (k > 0 && block.found.size() == before) continue;
       block.near.push_back({shifts[k], {}});
+      block.ends.push_back(block.found.size());
+    }
+    const std::size_t before = block.found.size();
+    if (first_image > 0) collect(beyond_axis(x_i), sources, strips, reach, block.found);
+    if (block.found.size() > before) {
+      for (std::size_t k = before; k < block.found.size(); ++k)
+        block.found[k] += static_cast<std::uint32_t>(first_image);
+      block.near.push_back({});
       block.ends.push_back(block.found.size());
     }
     first[c - begin + 1] = block.near.size();
@@ -59,6 +71,19 @@ void ClusterList::build(const VecField& targets, std::size_t target_count, const
 
 void ClusterList::build(const VecField& targets, std::size_t target_count, const VecField& sources,
                         const StripOrder& source_strips, double reach, std::span<const Vec> shifts) {
+  build_blocks(targets, target_count, sources, source_strips, reach, shifts, 0);
+}
+
+void ClusterList::build_with_images(const VecField& targets, std::size_t target_count,
+                                    const VecField& sources, const StripOrder& source_strips, double reach,
+                                    std::size_t first_image) {
+  const Vec unshifted = Vec::Zero();
+  build_blocks(targets, target_count, sources, source_strips, reach, std::span(&unshifted, 1), first_image);
+}
+
+void ClusterList::build_blocks(const VecField& targets, std::size_t target_count, const VecField& sources,
+                               const StripOrder& strips, double reach, std::span<const Vec> shifts,
+                               std::size_t first_image) {
   const std::size_t clusters = padded(target_count) / lane_count;
   lists_.assign(clusters, {});
   if (!blocks_ || blocks_.use_count() > 1) blocks_ = std::make_shared<std::vector<Block>>();
@@ -66,7 +91,7 @@ void ClusterList::build(const VecField& targets, std::size_t target_count, const
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t b = 0; b < blocks_->size(); ++b)
     build_block((*blocks_)[b], b * clusters_per_block, std::min((b + 1) * clusters_per_block, clusters),
-                targets, sources, source_strips, reach, shifts);
+                targets, sources, strips, reach, shifts, first_image);
 
   active_.clear();
   for (std::size_t c = 0; c < clusters; ++c)

@@ -30,9 +30,12 @@ class ClusterList {
   /// so moved.
   void build(const VecField& targets, std::size_t target_count, const VecField& sources,
              const StripOrder& source_strips, double reach, std::span<const Vec> shifts);
+  /// The same where images of the sources stand beyond y = 0, that of source j as number `first_image` + j.
+  void build_with_images(const VecField& targets, std::size_t target_count, const VecField& sources,
+                         const StripOrder& source_strips, double reach, std::size_t first_image);
 
   std::size_t clusters() const { return lists_.size(); }
-  /// The first is without a shift; of the others those that are not empty.
+  /// The first is without a shift; of the others, and of images, those that are not empty.
   std::span<const ShiftedNeighbours> near(std::size_t cluster) const { return lists_[cluster]; }
   /// Those without a shift.
   std::span<const std::uint32_t> sources(std::size_t cluster) const { return lists_[cluster][0].sources; }
@@ -48,7 +51,10 @@ class ClusterList {
   };
   void build_block(Block& block, std::size_t begin, std::size_t end, const VecField& targets,
                    const VecField& sources, const StripOrder& strips, double reach,
-                   std::span<const Vec> shifts);
+                   std::span<const Vec> shifts, std::size_t first_image);
+  void build_blocks(const VecField& targets, std::size_t target_count, const VecField& sources,
+                    const StripOrder& strips, double reach, std::span<const Vec> shifts,
+                    std::size_t first_image);
 
   std::vector<std::span<const ShiftedNeighbours>> lists_;
   std::shared_ptr<std::vector<Block>> blocks_;

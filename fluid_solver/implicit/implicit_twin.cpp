@@ -16,7 +16,7 @@ constexpr double peak_share = 1.5;
 }  // namespace
 
 std::optional<Parameters> implicit_twin(const Parameters& as_read, const Scene& scene) {
-  if (!as_read.similarity) return {};
+  if (!as_read.similarity || scene.geometry != Geometry::plane) return {};
   const SimilarMedium similar = similar_medium(as_read);
   Parameters twin = as_read;
   twin.model = Model::implicit;

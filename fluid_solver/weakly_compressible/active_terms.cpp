@@ -37,6 +37,9 @@ std::vector<ActiveTerm> Dynamics::active_terms() const {
     texts.push_back({"friction", "tau_w <= mu_A p", "Kato's thesis, eq. 33",
                      fmt::format("mu_A {}, on work pieces the smaller of it and the slip law",
                                  parameters_.friction->coefficient)});
+  if (axisymmetric())
+    texts.push_back({"axisymmetry", "rings about y = 0, hoop parts pair by pair",
+                     "Brookshaw 2003; Garcia-Senz, Relano, Cabezon & Bravo 2009", ""});
   texts.push_back(
       {"walls", "pressure and velocity extrapolated from the fluid",
        "Adami, Hu & Adams 2012; thesis eq. 27-29",

@@ -1,6 +1,8 @@
 #include "fluid_solver/weakly_compressible/dynamics.hpp"
 
+#include "fluid_solver/axis_images.hpp"
 #include "fluid_solver/held_pressure.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
 #include "fluid_solver/terms/density_gradient.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
@@ -9,12 +11,24 @@
 
 namespace toryu::fluid {
 
+namespace {
+
+/// By one thread of a team, while the others wait.
+template <class Work>
+void once(Work&& work) {
+#pragma omp single
+  work();
+}
+
+}  // namespace
+
 Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kernel& kernel,
-                   const EquationOfState& state)
+                   const EquationOfState& state, Geometry geometry)
     : parameters_(parameters),
       body_force_{.gravity = gravity},
       medium_{parameters.density, parameters.sound_speed, parameters.spacing, kernel},
-      state_(state) {
+      state_(state),
+      geometry_(geometry) {
   if (const auto& force = parameters.central_force) {
     body_force_.centre = force->centre;
     body_force_.central_rate_squared = force->rate * force->rate;
@@ -44,7 +58,7 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kerne
 }
 
 void Dynamics::allocate(Particles& fluid) const {
-  const std::size_t size = padded(fluid.count);
+  const std::size_t size = fluid.rho.size();
   if (renormalised_diffusion()) resize(fluid.grad_rho, size);
   if (parameters_.viscoelasticity) allocate_polymer(*parameters_.viscoelasticity, fluid);
   if (!viscosity_varies()) return;
@@ -61,7 +75,9 @@ void Dynamics::pressures(Particles& fluid) const {
     const Lanes p = state_.pressure(rho);
     store(p, fluid.p, first);
     store(p * inverse_rho * inverse_rho, fluid.p_rho2, first);
-    store(load(fluid.m, first) * inverse_rho, fluid.V, first);
+    Lanes V = load(fluid.m, first) * inverse_rho;
+    if (axisymmetric()) V *= inverse(circumference(load(fluid.x[1], first)));
+    store(V, fluid.V, first);
   }
 }
 
@@ -99,7 +115,12 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
   const auto of_cluster = [&](const auto& law, const auto& W, std::size_t c) {
     const std::size_t first = c * lane_count;
     TensorLanes grad_v = velocity_gradient(W, fluid, neighbours, boundaries, c);
-    const Lanes gdot = shear_rate(grad_v), eta = viscosity(law, gdot);
+    Lanes gdot = shear_rate(grad_v);
+    if (axisymmetric()) {  // D has v_r/r too
+      const Lanes D_hoop = load(fluid.v[1], first) * inverse(load(fluid.x[1], first));
+      gdot = square_root(gdot * gdot + 2.0 * D_hoop * D_hoop);
+    }
+    const Lanes eta = viscosity(law, gdot);
     for (auto& row : grad_v)
       for (auto& component : row) component *= eta;
     store(gdot, fluid.gdot, first);
@@ -114,8 +135,12 @@ void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
       });
   };
   std::visit(of_all, rheology_);
+  if (axisymmetric()) once([&] { mirror_viscosity(fluid); });
   if (viscous_walls())
-    for (auto& wall : boundaries) extrapolate_viscosity(wall, fluid, medium_.kernel);
+    for (auto& wall : boundaries) {
+      extrapolate_viscosity(wall, fluid, medium_.kernel);
+      if (axisymmetric()) once([&] { mirror_viscosity(wall); });
+    }
 }
 
 void Dynamics::polymer_stresses(Particles& fluid, std::vector<Boundary>& boundaries) const {
@@ -158,13 +183,18 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
 #pragma omp parallel
     {
       pressures(fluid);
+      if (axisymmetric()) once([&] { mirror_bodies(fluid, boundaries); });
       if (velocity || polymer)  // whose rate is found with the density's
         for (auto& boundary : boundaries) {
           extrapolate(boundary, fluid, medium_.kernel, body_force_.gravity);
           if (parameters_.wall_slip) let_slide(boundary, fluid, medium_.kernel, parameters_, p_offset);
           if (parameters_.wall_model.density == WallDensity::from_pressure) wall_densities(boundary);
+          if (axisymmetric()) once([&] { mirror_extrapolated(boundary); });
         }
-      if (density && renormalised_diffusion()) density_gradients(fluid, neighbours);
+      if (density && renormalised_diffusion()) {
+        density_gradients(fluid, neighbours);
+        if (axisymmetric()) once([&] { mirror(fluid.grad_rho); });
+      }
     }
   }
   if (velocity && viscosity_varies()) {

@@ -20,7 +20,7 @@ namespace toryu::fluid {
 class Dynamics {
  public:
   Dynamics(const Parameters& parameters, const Vec& gravity, const Kernel& kernel,
-           const EquationOfState& state);
+           const EquationOfState& state, Geometry geometry = Geometry::plane);
 
   /// Gives the fields that only this case's terms need their place.
   void allocate(Particles& fluid) const;
@@ -70,6 +70,7 @@ class Dynamics {
   void log_conformation_rates(Particles& fluid, const ClusterList& neighbours,
                               const std::vector<Boundary>& boundaries) const;
   void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const;
+  bool axisymmetric() const { return geometry_ == Geometry::axisymmetric; }
   bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
   bool renormalised_diffusion() const {
     return std::holds_alternative<DensityDiffusionTerm<true>>(terms_.diffusion);
@@ -80,13 +81,15 @@ class Dynamics {
             .viscous_walls = viscous_walls(),
             .wall_suction = parameters_.wall_model.suction,
             .rest_density = parameters_.density,
-            .tensile_control = parameters_.tensile_control.has_value()};
+            .tensile_control = parameters_.tensile_control.has_value(),
+            .axisymmetric = axisymmetric()};
   }
 
   Parameters parameters_;
   BodyForce body_force_;
   Medium medium_;
   EquationOfState state_;
+  Geometry geometry_;
   ChosenTerms terms_;
   std::variant<Absent, PowerLaw, HerschelBulkley, Carreau> rheology_;
   std::optional<WorkPieceFriction> friction_;

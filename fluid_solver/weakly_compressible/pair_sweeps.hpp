@@ -42,6 +42,7 @@ struct PairSweeps {
   bool wall_suction;
   double rest_density;   ///< [kg/m3]
   bool tensile_control;  ///< needs `off_surface_and_walls` of the fluid
+  bool axisymmetric;     ///< terms as they are about an axis (terms/axisymmetry.hpp)
 
   /// Fills the rates a, drho of `fluid`, and what each boundary did to it where the velocity is among them.
   /// Opens a parallel region. With `beside`, only for the clusters near that boundary. Defined for
@@ -53,6 +54,11 @@ struct PairSweeps {
   /// Fills `boundary.force`: the forces on the fluid's side gathered pair by pair on the boundary's.
   template <class W>
   void reaction(const W& kernel, const Particles& fluid, Boundary& boundary) const;
+
+ private:
+  template <class W>
+  void rates_about_axis(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
+                        std::vector<Boundary>& boundaries) const;
 };
 
 }  // namespace toryu::fluid

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "fluid_solver/terms/axisymmetry.hpp"
 #include "fluid_solver/terms/continuity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
@@ -135,6 +136,7 @@ void rates_of_all(const PairSweeps& sweeps, const W& kernel, Particles& fluid, c
 template <class W>
 void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
                        std::vector<Boundary>& boundaries, const Boundary* beside) const {
+  if (axisymmetric) return rates_about_axis(kernel, wanted, fluid, neighbours, boundaries);
   // Terms that a sweep does not ask for are not told apart: each combination is compiled once.
   if (wanted == RatesOf::both)
     std::visit(
@@ -158,6 +160,26 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
                                          Continuity{rest_density, wall_suction}, diffusion);
         },
         terms.diffusion);
+}
+
+template <class W>
+void PairSweeps::rates_about_axis(const W& kernel, RatesOf wanted, Particles& fluid,
+                                  const ClusterList& neighbours, std::vector<Boundary>& boundaries) const {
+  const auto sweep = [&]<RatesOf these>(const auto&... term) {
+    rates_of_all<these>(*this, kernel, fluid, neighbours, boundaries, nullptr, term...);
+  };
+  if (wanted != RatesOf::velocity)
+    std::visit(
+        [&](const auto& diffusion) {
+          sweep.template operator()<RatesOf::density>(RingContinuity{}, in_rings(diffusion));
+        },
+        terms.diffusion);
+  if (wanted != RatesOf::density)
+    std::visit(
+        [&](const auto& viscous) {
+          sweep.template operator()<RatesOf::velocity>(RingPressure{}, in_rings(viscous));
+        },
+        terms.viscous);
 }
 
 template <class W>

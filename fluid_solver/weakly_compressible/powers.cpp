@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "fluid_solver/terms/axisymmetry.hpp"
 #include "fluid_solver/terms/continuity.hpp"
 #include "fluid_solver/terms/pressure.hpp"
 #include "fluid_solver/weakly_compressible/dynamics.hpp"
@@ -17,6 +18,7 @@ struct Bodies {
   const Particles& fluid;
   const ClusterList& neighbours;
   const std::vector<Boundary>& boundaries;
+  bool axisymmetric;
 };
 
 /// Sums what `of_cluster(c)` gives, in the same order whatever the threads.
@@ -28,12 +30,14 @@ double sum_over_clusters(const Particles& fluid, OfCluster&& of_cluster) {
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-/// - sum F_ij . v_ij over the pairs of the fluid and those with its boundaries. `between(c)` gives the force
+/// - sum F_ij . v_ij over the pairs of the fluid and those with its boundaries. About an axis the two of a
+/// pair are not equal and opposite across it, and - sum F_ij . v_i is the same. `between(c)` gives the force
 /// as cluster c feels it, with functions as those of further_forces.hpp.
 template <class W, class Between>
 double power_of_pairs(const W& kernel, const Bodies& bodies, Between&& between) {
   const Particles& fluid = bodies.fluid;  // a name that lambdas may capture
   const Sources own = sources(fluid);
+  const bool axisymmetric = bodies.axisymmetric;
   return sum_over_clusters(fluid, [&](std::size_t c) {
     const auto force = between(c);
     const Targets i = load_targets(fluid, c * lane_count);
@@ -44,7 +48,7 @@ double power_of_pairs(const W& kernel, const Bodies& bodies, Between&& between) 
                                    Rates rates;
                                    force.momentum(i, own, j, pair, rates);
                                    rates.close(pair, own.m[j]);
-                                   of_fluid += dot(rates.a, pair.v_ij);
+                                   of_fluid += dot(rates.a, axisymmetric ? product(2.0, i.v) : pair.v_ij);
                                  });
     if constexpr (requires(const Pair& pair, Rates& rates) { force.at_wall(i, own, 0, pair, rates); })
       for (const Boundary& boundary : bodies.boundaries) {
@@ -98,9 +102,9 @@ double power_of_diffusion(const W& kernel, const Bodies& bodies, const EquationO
 }
 
 /// What is lost where the fluid meets walls: sum_w F_iw . v_iw by pressure, less what density gains there.
-template <class W>
-double power_of_walls(const W& kernel, const Bodies& bodies, const Pressure& pressure,
-                      const Continuity& continuity) {
+template <class W, class PressureTerm, class ContinuityTerm>
+double power_of_walls(const W& kernel, const Bodies& bodies, const PressureTerm& pressure,
+                      const ContinuityTerm& continuity) {
   const Particles& fluid = bodies.fluid;
   return sum_over_clusters(fluid, [&](std::size_t c) {
     const Targets i = load_targets(fluid, c * lane_count);
@@ -128,7 +132,7 @@ constexpr bool is_there = !std::is_same_v<Term, Absent>;
 
 std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& neighbours,
                                     const std::vector<Boundary>& boundaries) const {
-  const Bodies bodies{fluid, neighbours, boundaries};
+  const Bodies bodies{fluid, neighbours, boundaries, axisymmetric()};
   const bool known = neighbours.clusters() > 0;  // before the first step nobody knows who is near
   std::vector<Power> found;
   const auto note = [&](const char* term, Taken taken, auto&& power) {
@@ -140,7 +144,10 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
         [&]<class Term>(const Term& term) {
           if constexpr (is_there<Term>)
             note(name, Taken::dissipated, [&](const auto& W) {
-              return power_of_pairs(W, bodies, [&](auto) { return Viscous<Term>{term, viscous_walls()}; });
+              const auto power = [&]<class Here>(const Here& here) {
+                return power_of_pairs(W, bodies, [&](auto) { return Viscous<Here>{here, viscous_walls()}; });
+              };
+              return axisymmetric() ? power(in_rings(term)) : power(term);
             });
         },
         chosen);
@@ -148,13 +155,16 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
   if (!boundaries.empty())
     note("walls", Taken::dissipated, [&](const auto& W) {
       const bool suction = parameters_.wall_model.suction;
+      if (axisymmetric()) return power_of_walls(W, bodies, RingPressure{}, RingContinuity{});
       return power_of_walls(W, bodies, Pressure(suction), Continuity(parameters_.density, suction));
     });
   std::visit(
       [&]<class Term>(const Term& term) {
         if constexpr (is_there<Term>)
-          note(DensityDiffusion::section, Taken::dissipated,
-               [&](const auto& W) { return power_of_diffusion(W, bodies, state_, term); });
+          note(DensityDiffusion::section, Taken::dissipated, [&](const auto& W) {
+            return axisymmetric() ? power_of_diffusion(W, bodies, state_, in_rings(term))
+                                  : power_of_diffusion(W, bodies, state_, term);
+          });
       },
       terms_.diffusion);
   note_viscous(ArtificialViscosity::section, terms_.artificial);

@@ -29,7 +29,7 @@ TEST(AbrasiveSlit, HasThePressureDropAndProfileOfAPowerLaw) {
 TEST(AbrasiveSlit, HasThePressureDropOfAPublishedMedium) {
   // V10 by hand: gdot_w = (2n+1)/(3n) 6U/w = 153.5 1/s, tau_w = 989 gdot_w^0.935 = 109.4 kPa
   const FluidCase the_case("abrasive_slit/c11.toml");
-  EXPECT_NEAR(slit_flow(the_case.parameters, 0.05, 0.002).wall_stress, 109.43e3, 10);
+  EXPECT_NEAR(passage_flow(the_case.parameters, 0.05, 0.002).wall_stress, 109.43e3, 10);
   expect_slit("c11.toml", 2e-4, 0.05, 0.04);
   expect_slit("c11.toml", 1e-4, 0.02, 0.02);
 }

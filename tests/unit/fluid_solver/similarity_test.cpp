@@ -36,34 +36,44 @@ Scene pushed(double ramp) {
   return scene;
 }
 
-TEST(SlitFlow, IsThatOfTheExactSolutions) {
+TEST(PassageFlow, IsThatOfTheExactSolutions) {
   Parameters p = putty();
-  EXPECT_NEAR(slit_flow(p, U, w).wall_shear_rate, 6 * U / w, 1e-4);
+  EXPECT_NEAR(passage_flow(p, U, w).wall_shear_rate, 6 * U / w, 1e-4);
   p.laminar_viscosity.reset();
   p.power_law = PowerLaw{25780, 0.4, 1e-3, 1e9};
-  const SlitFlow thinning = slit_flow(p, U, w);  // (2n+1)/n 2U/w = 225 1/s
+  const PassageFlow thinning = passage_flow(p, U, w);  // (2n+1)/n 2U/w = 225 1/s
   EXPECT_NEAR(thinning.wall_shear_rate, 225, 0.01);
   EXPECT_NEAR(thinning.wall_stress, 25780 * std::pow(225, 0.4), 10);
   p.power_law.reset();
   p.carreau = Carreau{1000, 10, 0.05, 0.4};
   const auto eta = [&](double gdot) { return viscosity_of(p, gdot); };
-  EXPECT_NEAR(slit_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-4);
+  EXPECT_NEAR(passage_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-4);
   p.carreau.reset();
   p.herschel_bulkley = HerschelBulkley{{1000, 1, 1, 1e6}, 50e3, 1};
-  EXPECT_NEAR(slit_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-3);
+  EXPECT_NEAR(passage_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-3);
   // Bingham: U = w tau_w/(6 eta) (1 - 3/2 phi + phi^3/2), phi = tau_y/tau_w
-  const double tau_w = slit_flow(p, U, w).wall_stress, phi = 50e3 / tau_w;
+  const double tau_w = passage_flow(p, U, w).wall_stress, phi = 50e3 / tau_w;
   EXPECT_NEAR(w * tau_w / 6000 * (1 - 1.5 * phi + 0.5 * phi * phi * phi), U, 0.01 * U);
 }
 
-TEST(SlitFlow, SlidesByTheLaw) {
+TEST(PassageFlow, SlidesByTheLaw) {
   Parameters p = putty();
   p.wall_slip = SlipLaw{3e-7};  // 0.05 = G (b w/2 + w^2/(12 mu)), tau_w = G w/2
-  const SlitFlow flow = slit_flow(p, U, w);
+  const PassageFlow flow = passage_flow(p, U, w);
   const double tau_w = 0.05 / (3e-10 + 4e-6 / 12e3) * 1e-3;
   EXPECT_NEAR(flow.wall_stress / tau_w, 1, 1e-6);
   EXPECT_NEAR(flow.slip_speed / (3e-7 * tau_w), 1, 1e-6);
   EXPECT_NEAR(similar_medium(p).density / (0.5 * 1000 / (U * w) * (1 - 3e-7 * tau_w / U)), 1, 1e-6);
+}
+
+TEST(PassageFlow, IsThatOfATubeAboutAnAxis) {
+  Parameters p = putty();
+  EXPECT_NEAR(passage_flow(p, U, w, Geometry::axisymmetric).wall_shear_rate, 8 * U / w, 1e-4);
+  const SimilarMedium similar = similar_medium(p, Geometry::axisymmetric);
+  EXPECT_NEAR(similar.pressure_drop, 32 * 1000 * U / (w * w) * 0.016, 20);
+  p.laminar_viscosity.reset();
+  p.power_law = PowerLaw{29080, 0.4, 1e-3, 1e9};  // (3n+1)/(4n) 8U/w = 275 1/s
+  EXPECT_NEAR(passage_flow(p, U, w, Geometry::axisymmetric).wall_shear_rate, 275, 0.01);
 }
 
 TEST(Similarity, ChoosesDensityAndSoundSpeedByHand) {
@@ -114,7 +124,7 @@ TEST(Similarity, TakesADiscretisationOfItsOwnUnlessTheCaseSaysAnother) {
 }
 
 std::string fault_of(const Parameters& p, bool with_solid = false) {
-  const auto faults = similarity_faults(p, with_solid);
+  const auto faults = similarity_faults(p, Geometry::plane, with_solid);
   return faults.empty() ? "" : faults.front().key + ": " + faults.front().message;
 }
 

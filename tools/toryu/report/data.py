@@ -81,7 +81,7 @@ def finite(value):
 
 # Units ---------------------------------------------------------------------------------------------------------------
 
-PREFIXED = {"m", "s", "Pa", "J/m", "N/m", "N.s/m", "m/s", "Pa.s", "J", "N", "J/m2", "W/m2", "Pa.m"}
+PREFIXED = {"m", "s", "Pa", "J/m", "N/m", "N.s/m", "m/s", "Pa.s", "J", "N", "N.s", "J/m2", "W/m2", "Pa.m"}
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
@@ -146,7 +146,7 @@ def group_of(column):
         return f"{results.readable(from_boundary[1])}, {from_boundary[3]}"
     if name.startswith("removed_depth"):
         return "removed depth"
-    if results.unit_of(column) == "J/m":
+    if results.unit_of(column) in ("J/m", "J"):
         return "energy and work"
     for word in ("momentum", "impulse", "displacement"):
         if word in name:
