@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/case/parameter_table.hpp"
+#include "common/scene/scene.hpp"
 #include "fluid_solver/particles.hpp"
 #include "fluid_solver/terms/laminar_viscosity.hpp"
 #include "fluid_solver/terms/rheology.hpp"
