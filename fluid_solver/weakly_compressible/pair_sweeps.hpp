@@ -40,9 +40,9 @@ struct PairSweeps {
   const BodyForce& body_force;
   bool viscous_walls;
   bool wall_suction;
-  double rest_density;   ///< [kg/m3]
-  bool tensile_control;  ///< needs `off_surface_and_walls` of the fluid
-  bool axisymmetric;     ///< terms as they are about an axis (terms/axisymmetry.hpp)
+  double rest_density;        ///< [kg/m3]
+  bool tensile_control;       ///< needs `off_surface_and_walls` of the fluid
+  bool axisymmetric = false;  ///< terms as they are about an axis (terms/axisymmetry.hpp)
 
   /// Fills the rates a, drho of `fluid`, and what each boundary did to it where the velocity is among them.
   /// Opens a parallel region. With `beside`, only for the clusters near that boundary. Defined for
