@@ -44,6 +44,9 @@ std::vector<StartFault> axis_faults(const Parameters& p, const Scene& scene) {
               "the box crosses the axis: y is the distance from it, at least 0");
   for (std::size_t k = 0; k < p.observers.size(); ++k) {
     const Observer& observer = p.observers[k];
+    require(observer.point[1] >= 0 && (!observer.box || observer.box->min[1] >= 0),
+            fmt::format("fluid.observer.{}", k),
+            "the observer lies beyond the axis: y is the distance from it, at least 0");
     require(observer.quantity != Quantity::flow_rate || observer.axis == Axis::x,
             fmt::format("fluid.observer.{}", k), "about an axis a flow rate counts along it: axis = \"x\"");
   }

@@ -4,6 +4,7 @@ namespace toryu::fluid {
 
 void EnergyBalance::add(double time, const std::vector<Power>& powers) {
   std::vector<double> now;
+  now.reserve(powers.size());
   for (const Power& power : powers) now.push_back(power.value);
   const std::vector<double>& before = state_.power ? *state_.power : now;
   for (std::size_t n = 0; n < now.size(); ++n)

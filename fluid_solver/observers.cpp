@@ -166,7 +166,8 @@ Observation observe(const Observer& observer, const Observed& now) {
               flow_error(now.fluid, *p.initial_flow, decay(*p.initial_flow, nu, now.time))};
     }
     case Quantity::volume_flux:
-      return {observer.name, "m2/s", volume_flux(now.fluid, *observer.box, observer.axis)};
+      return {observer.name, now.geometry == Geometry::axisymmetric ? "m3/s" : "m2/s",
+              volume_flux(now.fluid, *observer.box, observer.axis)};
     case Quantity::largest_void:
       return {observer.name, "1", largest_void(now.fluid, now.walls, *observer.box, p.spacing, now.period)};
   }

@@ -252,6 +252,9 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
                 "[fluid.laminar_viscosity]");
 }
 
+/// Beyond it the shear stress of a wall is lost in rounding [m/s/Pa^m].
+constexpr double largest_slip_coefficient = 1e6;
+
 void require_slip_to_act(ParameterTable& table, const Parameters& p) {
   table.require(
       !p.wall_slip || p.wall_model.slip == WallSlip::no_slip, "wall_slip",
@@ -259,11 +262,18 @@ void require_slip_to_act(ParameterTable& table, const Parameters& p) {
       "\"free_slip\" there is none: leave one of the two out");
   table.require(!p.wall_slip || is_viscous(p), "wall_slip",
                 "[fluid.wall_slip] needs a medium with a viscosity, of which the walls' shear stress comes: "
-                "[fluid.laminar_viscosity], [fluid.power_law] or [fluid.carreau]");
+                "[fluid.laminar_viscosity], [fluid.power_law], [fluid.herschel_bulkley] or [fluid.carreau]");
+  table.require(!p.wall_slip || p.wall_slip->coefficient <= largest_slip_coefficient, "wall_slip",
+                fmt::format("'coefficient' in [fluid.wall_slip] must be at most {:g}: walls without shear "
+                            "stress are slip = \"free_slip\" of [fluid.wall_model]",
+                            largest_slip_coefficient));
   table.require(
       !p.wall_slip || !p.artificial_viscosity, "wall_slip",
       "artificial viscosity brakes the medium at walls whatever [fluid.wall_slip] says: leave one of "
       "the two out");
+  table.require(!p.removal || !p.viscoelasticity, "removal",
+                "[fluid.removal] knows the shear stress of the viscosity alone: it does not go with "
+                "[fluid.viscoelasticity]");
   table.require(!p.wall_slip || !p.viscoelasticity, "wall_slip",
                 "[fluid.wall_slip] knows the shear stress of the viscosity alone: it does not go with "
                 "[fluid.viscoelasticity]");

@@ -161,7 +161,7 @@ std::vector<std::string> thin_remains(const std::vector<Wall>& walls, double rea
   for (const Wall& wall : walls)
     for (const WornFace& worn : wall.worn) {
       const double left = (wall.box.max - wall.box.min)[worn.axis()] - worn.largest_depth();
-      if (left < reach)
+      if (left < (1 - 1e-9) * reach)
         said.push_back(
             fmt::format("wall '{}' is left {:.4g} m thick where it is worn by {:.4g} m, and the fluid sees "
                         "{:.4g} m deep: make its "

@@ -61,6 +61,7 @@ std::vector<Item> items(const CaseFile& file, const std::string& section, const 
 
 std::vector<Box> boxes_of(const std::vector<Item>& items) {
   std::vector<Box> boxes;
+  boxes.reserve(items.size());
   for (const auto& item : items) boxes.push_back(item.box);
   return boxes;
 }

@@ -73,8 +73,10 @@ void describe(ParameterTable& table, Press& press) {
                 .required = true,
                 .help = "how far it can move against and along that direction: a number at most 0 and one at "
                         "least 0; there are its stops"});
-  table.require(press.travel[0] <= 0 && press.travel[1] >= 0 && press.travel[0] < press.travel[1], "travel",
+  table.require(press.travel[0] <= 0 && press.travel[1] >= 0, "travel",
                 "'travel' begins at most at 0 and ends at least there: [-0.01, 0.02]");
+  table.require(press.travel[0] < press.travel[1] || press.travel[0] > 0, "travel",
+                "by its 'travel' the wall cannot move: give it a way, [-0.01, 0.02], or no 'press'");
   table.number("mass", press.mass,
                {.unit = "kg/m",
                 .minimum = 0,

@@ -56,8 +56,21 @@ INSTANTIATE_TEST_SUITE_P(
               "fluid.artificial_viscosity=false' --set 'fluid.wall_slip={coefficient=1e-7}",
               "--set fluid.wall_slip={coefficient=1e-7}: error: [fluid.wall_slip] needs a medium with a "
               "viscosity, "
-              "of which the walls' shear stress comes: [fluid.laminar_viscosity], [fluid.power_law] or "
-              "[fluid.carreau]"},
+              "of which the walls' shear stress comes: [fluid.laminar_viscosity], [fluid.power_law], "
+              "[fluid.herschel_bulkley] or [fluid.carreau]"},
+        Fault{
+            "SlipWithoutBound",
+            "fluid.artificial_viscosity=false' --set 'fluid.laminar_viscosity.dynamic_viscosity=1' --set "
+            "'fluid.wall_slip={coefficient=1e300}",
+            "--set fluid.wall_slip={coefficient=1e300}: error: 'coefficient' in [fluid.wall_slip] must be at "
+            "most 1e+06: walls without shear stress are slip = \"free_slip\" of [fluid.wall_model]"},
+        Fault{
+            "RemovalByAPolymer",
+            "wall.0.work_piece=true' --set 'fluid.laminar_viscosity.dynamic_viscosity=1' --set "
+            "'fluid.viscoelasticity.mode=[{relaxation_time=1, polymer_viscosity=1}]' --set "
+            "'fluid.removal={shear_coefficient=1}",
+            "--set fluid.removal={shear_coefficient=1}: error: [fluid.removal] knows the shear stress of the "
+            "viscosity alone: it does not go with [fluid.viscoelasticity]"},
         Fault{
             "SlipOfFreeSlip",
             "fluid.artificial_viscosity=false' --set 'fluid.laminar_viscosity.dynamic_viscosity=1' --set "

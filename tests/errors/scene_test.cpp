@@ -121,6 +121,14 @@ TEST(SceneFaults, PressWithoutTravel) {
             "case.toml:8:47: error: 'travel' begins at most at 0 and ends at least there: [-0.01, 0.02]");
 }
 
+TEST(SceneFaults, PressThatCannotMove) {
+  EXPECT_EQ(
+      CaseText(sound_scene + "press = { force = [[0, 1]], direction = '+y', travel = [0, 0] }\n")
+          .scene_faults(),
+      "case.toml:8:47: error: by its 'travel' the wall cannot move: give it a way, [-0.01, 0.02], or no "
+      "'press'");
+}
+
 TEST(SceneFaults, PressBesideAMotion) {
   EXPECT_EQ(
       CaseText(sound_scene + "motion = { velocity = [[0, 0, 0]] }\npress = { force = [[0, 1]], direction = "

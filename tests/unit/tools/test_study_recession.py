@@ -135,6 +135,11 @@ class Faults(Study):
                       "unknown key 'gapp' in [recession]; did you mean 'gap'?"):
             self.assertIn(words, ended.stderr)
 
+    def test_worn_walls_of_the_study_are_refused_too(self):
+        (self.case / "case.toml").write_text(CASE)
+        self.write(RECESSION, HEAD + 'set = { "wall.upper.worn" = [] }\n')
+        self.assertIn("the case has walls that are 'worn'", self.study("--check").stderr)
+
     def test_reverse_goes_with_both_ways(self):
         (self.case / "case.toml").write_text(CASE)
         self.write(RECESSION + 'way = "both"\n')

@@ -167,7 +167,10 @@ def _read_case(table, study, made):
     """What the study needs of its case."""
     walls = study.content.get("wall", [])
     made.walls = [wall.get("name") for wall in walls if isinstance(wall, dict)]
-    if any(isinstance(wall, dict) and wall.get("worn") for wall in walls):
+    values = [value for axis in study.axes if axis.name != AXIS for value in axis.values]
+    changed = [key for thing in [study, *values] for key in thing.overrides]
+    if any(isinstance(wall, dict) and wall.get("worn") for wall in walls) or any(
+            key.startswith("wall.") and ".worn" in key for key in changed):
         table.fault("the case has walls that are 'worn': the study says how far they are")
     if study.kind == "coupled":
         table.fault("surfaces recede on rigid walls alone: the case has a [solid]")
