@@ -37,8 +37,7 @@ std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene,
              fmt::format("the wall '{}' is pressed, which is not part of", scene.walls[i].name));
   if (with_solid) refuse(key_of_model, "an elastic solid is not coupled to");
   if (!is_viscous(p))
-    refuse(key_of_model,
-           "a viscosity ([fluid.laminar_viscosity], a law of shear) is needed by");
+    refuse(key_of_model, "a viscosity ([fluid.laminar_viscosity], a law of shear) is needed by");
   if (p.similarity)
     refuse("fluid.similarity", "its steps do not depend on the density, so nothing is chosen for");
   if (!p.wall_model.suction)
