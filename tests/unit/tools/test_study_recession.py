@@ -140,6 +140,21 @@ class Faults(Study):
         self.write(RECESSION, HEAD + 'set = { "wall.upper.worn" = [] }\n')
         self.assertIn("the case has walls that are 'worn'", self.study("--check").stderr)
 
+    def test_a_case_from_which_nothing_comes_off_is_refused(self):
+        (self.case / "case.toml").write_text(CASE)
+        self.write(RECESSION, HEAD + "set = { fluid.removal = false }\n")
+        self.assertIn("nothing comes off: the case needs [fluid.removal]", self.study("--check").stderr)
+        (self.case / "case.toml").write_text(CASE[:CASE.index("[fluid.removal]")])
+        self.write(RECESSION)
+        self.assertIn("nothing comes off: the case needs [fluid.removal]", self.study("--check").stderr)
+        self.write(RECESSION, HEAD + "set = { fluid.removal.preston_coefficient = 1e-12 }\n")
+        self.assertNotIn("nothing comes off", self.study("--check").stderr)
+
+    def test_a_pressure_below_0_is_refused(self):
+        (self.case / "case.toml").write_text(CASE)
+        self.write(RECESSION + "pressure = [[0, 1e6], [0.02, -5]]\n")
+        self.assertIn("must be at least 0, found -5", self.study("--check").stderr)
+
     def test_reverse_goes_with_both_ways(self):
         (self.case / "case.toml").write_text(CASE)
         self.write(RECESSION + 'way = "both"\n')

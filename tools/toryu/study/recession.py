@@ -160,6 +160,9 @@ def _pressure(table):
         table.fault(f"'pressure' must be rows of place [m] and pressure [Pa], the places ascending, found {found(rows)}",
                     "pressure")
         return None
+    if (lowest := min(row[1] for row in rows)) < 0:
+        table.fault(f"pressures in 'pressure' must be at least 0, found {lowest}: under suction nothing comes off",
+                    "pressure")
     return rows
 
 
@@ -172,5 +175,9 @@ def _read_case(table, study, made):
     if any(isinstance(wall, dict) and wall.get("worn") for wall in walls) or any(
             key.startswith("wall.") and ".worn" in key for key in changed):
         table.fault("the case has walls that are 'worn': the study says how far they are")
+    removal = study.content.get("fluid", {}).get("removal")
+    given = [value for key, value in study.overrides.items() if key.startswith("fluid.removal")]
+    if not removal and not any(given) or study.overrides.get("fluid.removal") is False:
+        table.fault("nothing comes off: the case needs [fluid.removal] and a [[wall]] with 'work_piece = true'")
     if study.kind == "coupled":
         table.fault("surfaces recede on rigid walls alone: the case has a [solid]")
