@@ -10,10 +10,8 @@ namespace {
 
 /// Terms that are the same about an axis, or of which terms/axisymmetry.hpp knows how.
 template <class Term>
-constexpr bool goes_about_axis =
-    std::is_same_v<Term, BackgroundPressure> || std::is_same_v<Term, EnclosedMedium> ||
-    std::is_same_v<Term, DensityDiffusion> || std::is_same_v<Term, LaminarViscosity> ||
-    std::is_same_v<Term, PowerLaw> || std::is_same_v<Term, HerschelBulkley> || std::is_same_v<Term, Carreau>;
+constexpr bool goes_about_axis = is_one_of<Term, BackgroundPressure, EnclosedMedium, DensityDiffusion,
+                                           LaminarViscosity, PowerLaw, HerschelBulkley, Carreau>;
 
 }  // namespace
 
@@ -47,8 +45,9 @@ std::vector<StartFault> axis_faults(const Parameters& p, const Scene& scene) {
     require(observer.point[1] >= 0 && (!observer.box || observer.box->min[1] >= 0),
             fmt::format("fluid.observer.{}", k),
             "the observer lies beyond the axis: y is the distance from it, at least 0");
-    require(observer.quantity != Quantity::flow_rate || observer.axis == Axis::x,
-            fmt::format("fluid.observer.{}", k), "about an axis a flow rate counts along it: axis = \"x\"");
+    const bool flows = observer.quantity == Quantity::flow_rate || observer.quantity == Quantity::volume_flux;
+    require(!flows || observer.axis == Axis::x, fmt::format("fluid.observer.{}", k),
+            "about an axis a flow rate counts along it: axis = \"x\"");
   }
   return faults;
 }

@@ -123,10 +123,10 @@ void FluidModel::update_neighbours(double dt) {
   const auto timer = timers_.measure("neighbours");
   if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt)) return;
   move_back_into_domain();
-  const bool about_axis = scene_.geometry == Geometry::axisymmetric;
-  if (about_axis) keep_off_axis(state_.fluid);
+  if (scene_.geometry == Geometry::plane) return state_.neighbours.build(state_.fluid, state_.boundaries, dt);
+  keep_off_axis(state_.fluid);
   state_.neighbours.build(state_.fluid, state_.boundaries, dt);
-  if (about_axis) mirror_bodies(state_.fluid, state_.boundaries);
+  mirror_bodies(state_.fluid, state_.boundaries);
 }
 
 void FluidModel::record_surface(const std::filesystem::path& out) {
@@ -164,8 +164,9 @@ void FluidModel::watch_stops(double time) {
 void FluidModel::watch(double time) {
   watch_stops(time);
   if (state_.suction_watch) watch_suction(time);
+  if (state_.steps_since_look > 0) return;
   watch_shear(time);
-  if (state_.steps_since_look == 0) state_.run_watch->look(run_figures(time));
+  state_.run_watch->look(run_figures(time));
 }
 
 void FluidModel::complete_records() {

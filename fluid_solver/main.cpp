@@ -147,6 +147,27 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
         "leave one of the two out");
 }
 
+/// Of what the case is known to make wrong, before the first step.
+void warn_of_start(const CaseFile& file, const Scene& scene, const fluid::Parameters& parameters,
+                   const FluidModel& model) {
+  const auto& particles = model.particles();
+  const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
+                           .blow = fluid::hardest_blow(scene, parameters),
+                           .gravity = fluid::gravity_on_columns(scene)};
+  for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
+  for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
+  if (!file.value<double>("fluid.removal.grain_length"))
+    if (const auto unknown = fluid::removal_by_grain_length(parameters)) log::warn("{}", *unknown);
+  if (const auto beyond = fluid::beyond_measured(parameters, scene.geometry)) log::warn("{}", *beyond);
+  for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
+  for (const auto& thin : fluid::thin_remains(scene.walls, model.reach())) log::warn("{}", thin);
+  for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
+  for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));
+  for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
+  if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing))
+    log::warn("{}", *jet);
+}
+
 ExitCode solve(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
   Scene scene = read_scene(file);
@@ -192,22 +213,7 @@ ExitCode solve(const Options& options) {
   }
   model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
-  const auto& particles = model.particles();
-  const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
-                           .blow = fluid::hardest_blow(scene, parameters),
-                           .gravity = fluid::gravity_on_columns(scene)};
-  for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
-  for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
-  if (!file.value<double>("fluid.removal.grain_length"))
-    if (const auto unknown = fluid::removal_by_grain_length(parameters)) log::warn("{}", *unknown);
-  if (const auto beyond = fluid::beyond_measured(parameters, scene.geometry)) log::warn("{}", *beyond);
-  for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
-  for (const auto& thin : fluid::thin_remains(scene.walls, model.reach())) log::warn("{}", thin);
-  for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
-  for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));
-  for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
-  if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing))
-    log::warn("{}", *jet);
+  warn_of_start(file, scene, parameters, model);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
     if (options.outlook) tell_outlook(model, scene.end_time, twin, real_scene);

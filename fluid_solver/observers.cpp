@@ -25,19 +25,31 @@ double share_in(const Box& box, const Vec& x, double side) {
 
 /// Sums over what lies in a box.
 struct Inside {
-  double V = 0;    ///< volume [m2]
-  double V_v = 0;  ///< times velocity [m3/s]
+  double V = 0;    ///< volume [m2], about an axis [m3]
+  double V_v = 0;  ///< times velocity [m/s]
 };
 
-Inside inside(const Particles& fluid, const Box& box, int along) {
+Inside inside(const Particles& fluid, const Box& box, int along, Geometry geometry) {
   Inside sum;
   for (std::size_t i = 0; i < fluid.count; ++i) {
+    const Vec x = at(fluid.x, i);
     const double V = fluid.m[i] / fluid.rho[i];
-    const double V_inside = V * share_in(box, at(fluid.x, i), std::sqrt(V));
+    const double area = geometry == Geometry::plane ? V : V / circumference(x[1]);
+    const double V_inside = V * share_in(box, x, std::sqrt(area));
     sum.V += V_inside;
     sum.V_v += V_inside * fluid.v[along][i];
   }
   return sum;
+}
+
+/// Across which a flow along `axis` leaves the box: of a slice of unit depth, or of all of the ring [m],
+/// [m2].
+double cross_section(const Box& box, int along, Geometry geometry) {
+  const int across = 1 - along;
+  const double low = box.min[across], high = box.max[across];
+  if (geometry == Geometry::plane) return high - low;
+  const double inner = std::max(low, 0.0);
+  return std::numbers::pi * (high * high - inner * inner);
 }
 
 /// Farthest that one of the points which fill a box, `step` apart, lies from any of `particles`; at most
@@ -86,32 +98,15 @@ double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kerne
   return sum_W > 0 ? sum_p / sum_W : 0.0;
 }
 
-double flow_rate(const Particles& fluid, const Box& box, Axis axis) {
+double flow_rate(const Particles& fluid, const Box& box, Axis axis, Geometry geometry) {
   const int along = static_cast<int>(axis);
-  const Inside sum = inside(fluid, box, along);
-  double cross_section = 1;
-  for (int a = 0; a < dim; ++a)
-    if (a != along) cross_section *= box.max[a] - box.min[a];
-  return sum.V > 0 ? cross_section * sum.V_v / sum.V : 0.0;
+  const Inside sum = inside(fluid, box, along, geometry);
+  return sum.V > 0 ? cross_section(box, along, geometry) * sum.V_v / sum.V : 0.0;
 }
 
-double volume_flux(const Particles& fluid, const Box& box, Axis axis) {
+double volume_flux(const Particles& fluid, const Box& box, Axis axis, Geometry geometry) {
   const int along = static_cast<int>(axis);
-  return inside(fluid, box, along).V_v / (box.max[along] - box.min[along]);
-}
-
-double flow_rate_along_axis(const Particles& fluid, const Box& box) {
-  double sum_V = 0, sum_V_v = 0;
-  for (std::size_t i = 0; i < fluid.count; ++i) {
-    const Vec x = at(fluid.x, i);
-    const double V = fluid.m[i] / fluid.rho[i], side = std::sqrt(V / circumference(x[1]));
-    const double V_inside = V * share_in(box, x, side);
-    sum_V += V_inside;
-    sum_V_v += V_inside * fluid.v[0][i];
-  }
-  const double low = std::max(box.min[1], 0.0), high = box.max[1];
-  const double cross_section = std::numbers::pi * (high * high - low * low);
-  return sum_V > 0 ? cross_section * sum_V_v / sum_V : 0.0;
+  return inside(fluid, box, along, geometry).V_v / (box.max[along] - box.min[along]);
 }
 
 double flow_amplitude(const Particles& fluid, const InitialFlow& flow) {
@@ -148,6 +143,7 @@ double largest_void(const Particles& fluid, const std::vector<Boundary>& walls, 
 
 Observation observe(const Observer& observer, const Observed& now) {
   const Parameters& p = now.parameters;
+  const char* flow_unit = now.geometry == Geometry::plane ? "m2/s" : "m3/s";
   switch (observer.quantity) {
     case Quantity::front_x:
       return {observer.name, "m", front_x(now.fluid, p.spacing)};
@@ -155,9 +151,7 @@ Observation observe(const Observer& observer, const Observed& now) {
       return {observer.name, "Pa",
               pressure_at(observer.point, now.fluid, now.kernel, now.state, now.period) + now.p_offset};
     case Quantity::flow_rate:
-      if (now.geometry == Geometry::axisymmetric)
-        return {observer.name, "m3/s", flow_rate_along_axis(now.fluid, *observer.box)};
-      return {observer.name, "m2/s", flow_rate(now.fluid, *observer.box, observer.axis)};
+      return {observer.name, flow_unit, flow_rate(now.fluid, *observer.box, observer.axis, now.geometry)};
     case Quantity::flow_amplitude:
       return {observer.name, "1", flow_amplitude(now.fluid, *p.initial_flow)};
     case Quantity::flow_error: {
@@ -166,8 +160,7 @@ Observation observe(const Observer& observer, const Observed& now) {
               flow_error(now.fluid, *p.initial_flow, decay(*p.initial_flow, nu, now.time))};
     }
     case Quantity::volume_flux:
-      return {observer.name, now.geometry == Geometry::axisymmetric ? "m3/s" : "m2/s",
-              volume_flux(now.fluid, *observer.box, observer.axis)};
+      return {observer.name, flow_unit, volume_flux(now.fluid, *observer.box, observer.axis, now.geometry)};
     case Quantity::largest_void:
       return {observer.name, "1", largest_void(now.fluid, now.walls, *observer.box, p.spacing, now.period)};
   }

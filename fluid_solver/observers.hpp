@@ -21,14 +21,12 @@ double pressure_at(const Vec& point, const Particles& fluid, const Kernel& kerne
 /// Flow along `axis` through `box`, which is to be full of fluid [m2/s, that is m3/s per metre depth]: the
 /// box's cross-section times the mean velocity in it. A particle counts as the square of its volume, with the
 /// share of it that lies in the box, so that nothing jumps when one passes the box's ends. 0 if the box is
-/// empty.
-double flow_rate(const Particles& fluid, const Box& box, Axis axis);
-/// The same through a ring of that cross-section about the axis, along it [m3/s].
-double flow_rate_along_axis(const Particles& fluid, const Box& box);
+/// empty. About an axis along it, through a ring of that cross-section [m3/s].
+double flow_rate(const Particles& fluid, const Box& box, Axis axis, Geometry geometry = Geometry::plane);
 
 /// The same of a passage whose walls stand somewhere in `box`: the sum of volume times velocity in it, over
 /// its length along `axis` [m2/s]. What a passage has in the mean over that length.
-double volume_flux(const Particles& fluid, const Box& box, Axis axis);
+double volume_flux(const Particles& fluid, const Box& box, Axis axis, Geometry geometry = Geometry::plane);
 
 /// sum m v . v_0(x)/sum m v_0(x)^2: the velocity's share of the flow v_0 that it started with.
 double flow_amplitude(const Particles& fluid, const InitialFlow& flow);

@@ -44,19 +44,6 @@ double speed_over_width(const Parameters& p, double gdot_w, Geometry geometry) {
   return (geometry == Geometry::plane ? 1 / 4.0 : 1 / 6.0) * gdot_w * (1 - sum / intervals);
 }
 
-double largest_speed(const Motion& motion) {
-  double largest = 0;
-  for (const auto& row : motion.velocity) largest = std::max(largest, std::hypot(row[1], row[2]));
-  return std::abs(motion.speed) * largest;
-}
-
-double largest_wall_speed(const Scene& scene) {
-  double largest = 0;
-  for (const Wall& wall : scene.walls)
-    if (wall.motion) largest = std::max(largest, largest_speed(*wall.motion));
-  return largest;
-}
-
 /// In which the pressure would change by all that its table has at the steepest of it [s].
 double shortest_ramp(const Press& press) {
   const auto& rows = press.force.empty() ? press.pressure : press.force;
@@ -99,7 +86,7 @@ double shortest_ramp(const Scene& scene) {
     if (wall.press) shortest = std::min(shortest, shortest_ramp(*wall.press));
     if (!wall.motion) continue;
     const auto& rows = wall.motion->velocity;
-    const double largest = largest_speed(*wall.motion);
+    const double largest = wall.motion->largest_speed();
     if (!wall.motion->velocity_at(0).isZero(0)) shortest = 0;
     for (std::size_t k = 1; k < rows.size(); ++k) {
       const double change =

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <type_traits>
 
 #include "fluid_solver/terms/artificial_viscosity.hpp"
 #include "fluid_solver/terms/central_force.hpp"
@@ -59,6 +60,10 @@ inline double viscosity_of(const OptionalTerms& terms, double shear_rate) {
   if (terms.carreau) return viscosity(*terms.carreau, shear_rate);
   return terms.laminar_viscosity ? terms.laminar_viscosity->dynamic_viscosity : 0.0;
 }
+
+/// Whether a term is among those that a model or a geometry has.
+template <class Term, class... Known>
+constexpr bool is_one_of = (std::is_same_v<Term, Known> || ...);
 
 /// What it means that a case does not mention the term.
 template <class Term>

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "common/scene/scene.hpp"
 
@@ -47,12 +48,25 @@ Vec Motion::velocity_at(double t) const {
   return speed * (velocity_of(last) + slope_before(velocity, next) * (t - last[0]));
 }
 
+double Motion::largest_speed() const {
+  double largest = 0;
+  for (const Row& row : velocity) largest = std::max(largest, velocity_of(row).norm());
+  return std::abs(speed) * largest;
+}
+
 Vec Motion::displacement_at(double t) const {
   return speed * time * (integral_to(velocity, t / time) - integral_to(velocity, 0));
 }
 
 Vec Motion::mean_acceleration(double t, double length) const {
   return (velocity_at(t + 0.5 * length) - velocity_at(t - 0.5 * length)) / length;
+}
+
+double largest_wall_speed(const Scene& scene) {
+  double largest = 0;
+  for (const Wall& wall : scene.walls)
+    if (wall.motion) largest = std::max(largest, wall.motion->largest_speed());
+  return largest;
 }
 
 }  // namespace toryu

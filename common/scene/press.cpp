@@ -1,25 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numbers>
 
+#include "common/scene/rows.hpp"
 #include "common/scene/scene.hpp"
 
 namespace toryu {
 
 namespace {
-
-using Rows = std::vector<std::vector<double>>;
-
-/// The second column at `time`: linear between the rows, constant beyond them.
-double value_at(const Rows& rows, double time) {
-  const auto later = [](double t, const std::vector<double>& row) { return t < row[0]; };
-  const auto next = std::upper_bound(rows.begin(), rows.end(), time, later);
-  if (next == rows.begin()) return next->at(1);
-  const auto& last = *(next - 1);
-  if (next == rows.end()) return last[1];
-  return last[1] + (time - last[0]) / ((*next)[0] - last[0]) * ((*next)[1] - last[1]);
-}
 
 int axis_of(Direction direction) {
   return direction == Direction::plus_x || direction == Direction::minus_x ? 0 : 1;
@@ -33,7 +21,7 @@ Vec Press::axis() const {
 }
 
 double Press::pressure_at(double time, double area) const {
-  return force.empty() ? value_at(pressure, time) : value_at(force, time) / area;
+  return force.empty() ? value_in(pressure, time) : value_in(force, time) / area;
 }
 
 double pressing_area(const Wall& wall, Geometry geometry) {
@@ -57,10 +45,7 @@ void describe(ParameterTable& table, Press& press) {
   const auto rows = [&](const std::string& key, Rows& values, const std::string& unit) {
     table.rows(key, values, {"time [s]", key + " [" + unit + "]"},
                {.help = "on the fluid, linear in between, constant before and after"});
-    for (std::size_t k = 1; k < values.size(); ++k)
-      table.require(
-          values[k][0] > values[k - 1][0], key,
-          fmt::format("times in '{}' must increase: {} comes after {}", key, values[k][0], values[k - 1][0]));
+    require_rising(table, key, values, "times");
   };
   rows("pressure", press.pressure, "Pa");
   rows("force", press.force, "N/m");

@@ -7,6 +7,7 @@
 
 #include "common/case/text_file.hpp"
 #include "common/scene/bodies.hpp"
+#include "common/scene/rows.hpp"
 
 namespace toryu {
 
@@ -151,10 +152,7 @@ void describe(ParameterTable& table, Motion& motion) {
   table.number("time", motion.time,
                {.minimum = 0, .above_minimum = true, .help = "multiplies the times of the rows"});
   table.require(!motion.velocity.empty(), "velocity", "'velocity' needs at least one row");
-  for (std::size_t k = 1; k < motion.velocity.size(); ++k)
-    table.require(motion.velocity[k][0] > motion.velocity[k - 1][0], "velocity",
-                  fmt::format("times in 'velocity' must increase: {} comes after {}", motion.velocity[k][0],
-                              motion.velocity[k - 1][0]));
+  require_rising(table, "velocity", motion.velocity, "times");
 }
 
 namespace {

@@ -37,6 +37,7 @@ struct Motion {
   std::vector<std::vector<double>> velocity;  ///< rows of time [s], v_x, v_y [m/s]; at least one
   double speed = 1, time = 1;                 ///< multiply the velocities and the times of the table
   Vec velocity_at(double t) const;
+  double largest_speed() const;         ///< of the table [m/s]
   Vec displacement_at(double t) const;  ///< exact integral from t = 0 [m]
   /// Change of the velocity over `length` [s] about t, by that length [m/s2]. The slope of a table at one
   /// instant says nothing of a jump that is over in the next.
@@ -99,6 +100,8 @@ struct Scene {
   std::vector<Wall> walls;
   std::vector<Reference> references;
 };
+/// Of all walls whose motion is prescribed [m/s].
+double largest_wall_speed(const Scene& scene);
 /// The keys of [case]; walls and references are sections of their own.
 void describe(ParameterTable& table, Scene& scene);
 /// Reads [case], [[wall]] and [[reference]], and checks that names of walls differ, that walls lie within the

@@ -17,15 +17,6 @@ constexpr double advection_share = 0.2;
 /// by more, and at the last so much of what is tolerated.
 constexpr double inner_tolerance = 0.1, last_tolerance = 0.5;
 
-double largest_speed_of(const std::vector<Wall>& walls) {
-  double largest = 0;
-  for (const Wall& wall : walls)
-    if (wall.motion)
-      for (const auto& row : wall.motion->velocity)
-        largest = std::max(largest, std::abs(wall.motion->speed) * std::hypot(row[1], row[2]));
-  return largest;
-}
-
 void move(Particles& fluid, double dt) {
   for (int a = 0; a < dim; ++a)
     for (std::size_t i = 0; i < fluid.count; ++i) fluid.x[a][i] += dt * fluid.v[a][i];
@@ -38,7 +29,7 @@ Implicit::Implicit(const Parameters& parameters, const Scene& scene)
       dynamics_(parameters, scene.gravity, kernel_, equation_of_state_),
       terms_(parameters, scene.gravity, kernel_, equation_of_state_),
       solver_(parameters.implicit.value_or(ImplicitSolver{})),
-      largest_wall_speed_(largest_speed_of(scene.walls)) {
+      largest_wall_speed_(largest_wall_speed(scene)) {
   dynamics_.allocate(state_.fluid);
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);

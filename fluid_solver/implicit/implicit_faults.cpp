@@ -2,16 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <type_traits>
-
 namespace toryu::fluid {
 
 namespace {
 
 constexpr const char* key_of_model = "fluid.model";
-
-template <class Term, class... Known>
-constexpr bool is_one_of = (std::is_same_v<Term, Known> || ...);
 
 /// Terms that are in the matrix, or act between steps.
 template <class Term>

@@ -1,6 +1,5 @@
 #include "fluid_solver/implicit/step_system.hpp"
 
-#include "fluid_solver/terms/velocity_gradient.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/weakly_compressible/pair_loop.hpp"
 
@@ -93,12 +92,8 @@ void StepSystem::pressures() {
 template <class W>
 void StepSystem::stresses(const W& kernel, std::size_t cluster, bool renew_viscosity) {
   const std::size_t first = cluster * lane_count;
-  VelocityGradient gradient(load(fluid_.x, first), load(fluid_.v, first));
-  gradient.add(sources(fluid_), neighbours_.near(cluster), kernel);
-  if (terms_.viscous_walls)
-    for (const Boundary& wall : boundaries_)
-      gradient.add(sources(wall), wall.list_for_fluid.near(cluster), kernel);
-  TensorLanes grad_v = gradient.value();
+  TensorLanes grad_v =
+      velocity_gradient(kernel, fluid_, neighbours_, boundaries_, terms_.viscous_walls, cluster);
   if (renew_viscosity) {
     const Lanes gdot = shear_rate(grad_v);
     store(gdot, fluid_.gdot, first);

@@ -69,7 +69,6 @@ class StepSystem {
 
  private:
   void pressures();
-  void stresses();
   template <class W>
   void stresses(const W& kernel, std::size_t cluster, bool renew_viscosity);
 

@@ -7,6 +7,7 @@
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 #include "fluid_solver/weakly_compressible/further_forces.hpp"
+#include "fluid_solver/weakly_compressible/pair_loop.hpp"
 #include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
@@ -100,21 +101,11 @@ void Dynamics::density_gradients(Particles& fluid, const ClusterList& neighbours
   });
 }
 
-TensorLanes Dynamics::velocity_gradient(const auto& W, const Particles& fluid, const ClusterList& neighbours,
-                                        const std::vector<Boundary>& boundaries, std::size_t cluster) const {
-  const std::size_t first = cluster * lane_count;
-  VelocityGradient gradient(load(fluid.x, first), load(fluid.v, first));
-  gradient.add(sources(fluid), neighbours.near(cluster), W);
-  if (viscous_walls())
-    for (const auto& wall : boundaries) gradient.add(sources(wall), wall.list_for_fluid.near(cluster), W);
-  return gradient.value();
-}
-
 void Dynamics::viscosities(Particles& fluid, const ClusterList& neighbours,
                            std::vector<Boundary>& boundaries) const {
   const auto of_cluster = [&](const auto& law, const auto& W, std::size_t c) {
     const std::size_t first = c * lane_count;
-    TensorLanes grad_v = velocity_gradient(W, fluid, neighbours, boundaries, c);
+    TensorLanes grad_v = velocity_gradient(W, fluid, neighbours, boundaries, viscous_walls(), c);
     Lanes gdot = shear_rate(grad_v);
     if (axisymmetric()) {  // D has v_r/r too
       const Lanes D_hoop = load(fluid.v[1], first) * inverse(load(fluid.x[1], first));
@@ -156,7 +147,8 @@ void Dynamics::log_conformation_rates(Particles& fluid, const ClusterList& neigh
 #pragma omp for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c)
       find_log_conformation_rate(*parameters_.viscoelasticity,
-                                 velocity_gradient(W, fluid, neighbours, boundaries, c), fluid, c);
+                                 velocity_gradient(W, fluid, neighbours, boundaries, viscous_walls(), c),
+                                 fluid, c);
   });
 }
 

@@ -63,8 +63,6 @@ class Dynamics {
   void pressures(Particles& fluid) const;
   void wall_densities(Boundary& boundary) const;
   void density_gradients(Particles& fluid, const ClusterList& neighbours) const;
-  TensorLanes velocity_gradient(const auto& W, const Particles& fluid, const ClusterList& neighbours,
-                                const std::vector<Boundary>& boundaries, std::size_t cluster) const;
   void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
   void polymer_stresses(Particles& fluid, std::vector<Boundary>& boundaries) const;
   void log_conformation_rates(Particles& fluid, const ClusterList& neighbours,

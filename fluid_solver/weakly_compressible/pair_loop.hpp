@@ -4,6 +4,7 @@
 
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/terms/pair.hpp"
+#include "fluid_solver/terms/velocity_gradient.hpp"
 
 namespace toryu::fluid {
 
@@ -50,6 +51,20 @@ inline Vec lane_sums(const Lanes& m, const VecLanes& v) {
   Vec sum;
   for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * v[a]);
   return sum;
+}
+
+/// [a][b]: dv_b/dx_a of a cluster of the fluid [1/s], from it and, where walls stick, from them.
+template <class W>
+TensorLanes velocity_gradient(const W& kernel, const Particles& fluid, const ClusterList& neighbours,
+                              const std::vector<Boundary>& boundaries, bool viscous_walls,
+                              std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  VelocityGradient gradient(load(fluid.x, first), load(fluid.v, first));
+  gradient.add(sources(fluid), neighbours.near(cluster), kernel);
+  if (viscous_walls)
+    for (const auto& wall : boundaries)
+      gradient.add(sources(wall), wall.list_for_fluid.near(cluster), kernel);
+  return gradient.value();
 }
 
 /// Adds the sums over `sources` near a cluster of targets `i`, pair by pair.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/sph/skin.hpp"
+#include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
@@ -28,7 +29,7 @@ constexpr double largest_viscous_share_about_axis = 0.5, acoustic_share_about_ax
 /// Both together: sound that a viscosity damps, found half a step late, is a leapfrog that is stable up to
 /// (omega dt)^2/4 + lambda dt/2 = 1, omega its frequency and lambda the rate of the damping. By the shares of
 /// the limits at which either alone is unstable; a tenth is left.
-constexpr double acoustic_edge = 6.7, damped_sound_share = 0.9;
+constexpr double damped_sound_share = 0.9;
 
 bool thins(const OptionalTerms& terms) {
   return viscosity_of(terms, 1e6) < viscosity_of(terms, 0);
@@ -73,8 +74,8 @@ StepLimit smallest_limit(const Parameters& p, const Medium& medium, const Extrem
     limit(viscous, "viscous",
           std::min(share, in_plane ? largest_viscous_share : largest_viscous_share_about_axis));
     if (p.integrator == Integrator::symplectic && in_plane)
-      limit(damped_sound_limit(acoustic_edge * acoustic, viscous_edge(p) * viscous), "acoustic and viscous",
-            1);
+      limit(damped_sound_limit(time_step_edge(p) * acoustic, viscous_edge(p) * viscous),
+            "acoustic and viscous", 1);
   }
   if (largest.acceleration > 0) limit(force_share * std::sqrt(h / largest.acceleration), "force", share);
   if (largest.friction_rate > 0)

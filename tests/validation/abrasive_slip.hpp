@@ -65,12 +65,6 @@ class SlidingMeans {
   }
 
  private:
-  /// Of a line through points.
-  struct Slope {
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-    void add(double x_i, double y_i) { n += 1, x += x_i, y += y_i, xx += x_i * x_i, xy += x_i * y_i; }
-    double value() const { return (n * xy - x * y) / (n * xx - x * x); }
-  };
   const FluidCase& the_case_;
   Motion motion_;
   double width_, middle_;
@@ -100,17 +94,17 @@ inline SlidingFlow run_abrasive_slip(const std::string& name, double spacing,
 }
 
 /// Of the case's medium and slip law.
-inline SlitSolution exact_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
+inline DevelopedFlow exact_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const FluidCase the_case("abrasive_slip/" + name, overrides);
   const Parameters& p = the_case.parameters;
-  return {viscosity_of(p), p.similarity->passage_width, p.similarity->mean_speed,
+  return {viscosity_of(p), p.similarity->passage_width, p.similarity->mean_speed, Geometry::plane,
           [law = *p.wall_slip](double tau) { return slip_speed(law, tau); }};
 }
 
 /// Holds pressure gradient and slip speed to the exact ones.
 inline void expect_sliding(const std::string& name, double spacing, double gradient_error, double slip_error,
                            const std::vector<std::string>& overrides = {}) {
-  const SlitSolution exact = exact_of(name, overrides);
+  const DevelopedFlow exact = exact_of(name, overrides);
   const SlidingFlow flow = run_abrasive_slip(name, spacing, overrides);
   testing::Test::RecordProperty("gradient_and_slip_over_exact",
                                 std::to_string(flow.pressure_gradient / exact.pressure_gradient()) + " " +

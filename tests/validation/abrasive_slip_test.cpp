@@ -7,10 +7,10 @@ namespace {
 
 TEST(AbrasiveSlip, SolutionIsTheOneByHand) {
   // U = G (b w/2 + w^2/(12 mu)), u_s = b G w/2
-  const SlitSolution exact = exact_of("case.toml");
+  const DevelopedFlow exact = exact_of("case.toml");
   EXPECT_NEAR(-exact.pressure_gradient(), 0.05 / (3e-7 * 1e-3 + 4e-6 / 12e3), 1e-5 * 78.9e6);
   EXPECT_NEAR(exact.slip_speed(), 3e-7 * 1e-3 * 78.947368e6, 1e-7);
-  const SlitSolution power = exact_of("power_law.toml");
+  const DevelopedFlow power = exact_of("power_law.toml");
   EXPECT_NEAR(-power.pressure_gradient(), 160.8e6, 0.1e6);
   EXPECT_NEAR(power.slip_speed(), 28.4e-3, 0.05e-3);
 }

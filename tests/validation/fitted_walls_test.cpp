@@ -88,7 +88,7 @@ double flow_over_exact(int rows, const std::string& exponent, const std::string&
   double low = 0.1, high = 1;  // the mean velocity whose wall stress is rho F H/2
   while (high - low > 1e-9) {
     const double mean = 0.5 * (low + high);
-    (SlitSolution(viscosity_of(the_case.parameters), 1, mean).wall_stress() < 200 ? low : high) = mean;
+    (DevelopedFlow(viscosity_of(the_case.parameters), 1, mean).wall_stress() < 200 ? low : high) = mean;
   }
   return sum / low;
 }

@@ -11,14 +11,8 @@ namespace {
 /// Gradient over the exact one.
 double expect_slit(const std::string& name, double spacing, double gradient_error, double profile_error) {
   const FluidCase the_case("abrasive_slit/" + name, {"fluid.spacing=" + std::to_string(spacing)});
-  const SlitSolution exact(viscosity_of(the_case.parameters), 0.002, 0.05);
-  ChannelFlow flow = run_channel(the_case, exact, 0.6 * the_case.scene.end_time, 1e-3);
-  flow.pressure_gradient /= exact.pressure_gradient();
-  testing::Test::RecordProperty("pressure_gradient_over_exact", std::to_string(flow.pressure_gradient));
-  testing::Test::RecordProperty("profile_error", std::to_string(flow.profile_error));
-  EXPECT_NEAR(flow.pressure_gradient, 1, gradient_error) << name << ' ' << spacing;
-  EXPECT_LT(flow.profile_error, profile_error) << name << ' ' << spacing;
-  return flow.pressure_gradient;
+  const DevelopedFlow exact(viscosity_of(the_case.parameters), 0.002, 0.05);
+  return expect_developed(the_case, exact, 1e-3, gradient_error, profile_error);
 }
 
 TEST(ImplicitSlit, HasThePressureDropAndProfileOfItsRealMedium) {

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 SIDES = {"left": (0, -1.0), "right": (0, 1.0), "lower": (1, -1.0), "upper": (1, 1.0)}  # axis and sense of the normal
+LEAST_NORMAL = 0.5  # a point with more of its normal along a side belongs to it: one of an edge to both
+NO_SURFACE = "it left no surface.h5: the case needs [fluid.removal] and a [[wall]] with 'work_piece = true'"
 REACH = 2.5  # spacings within which a contour goes on: past a corner whose particle has no face, across no gap
 TURN = 0.8  # how much farther a neighbour seems that lies off the way the contour goes: the next face at a corner
 
@@ -30,6 +32,17 @@ class Contour:
         sharp = (self.normal[1:] * self.normal[:-1]).sum(axis=1) < np.cos(np.pi / 6)
         starts = np.flatnonzero(np.diff(np.concatenate([[0], sharp, [0]])))
         return [int(first + last) // 2 for first, last in zip(starts[::2], starts[1::2])]
+
+
+def points_on(surface, work_piece, side):
+    """Rows of an open surface.h5 on one side of the work piece of that number, in order along it, and where they lie along
+    it [m] at the start."""
+    axis, sense = SIDES[side]
+    rows = np.flatnonzero((surface["work_piece"][:] == work_piece) & (surface["area"][:] > 0)
+                          & (sense * surface["normal"][:][:, axis] > LEAST_NORMAL))
+    position = surface["start_position"][:][rows, 1 - axis]
+    order = np.argsort(position, kind="stable")
+    return rows[order], position[order]
 
 
 def check(surface):

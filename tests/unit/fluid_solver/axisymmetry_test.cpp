@@ -27,21 +27,9 @@ Ring ring(const Vec& x, const Vec& v, double rho, double p, double A = area) {
 
 template <class Add>
 Rates rates_of(const Ring& i, const std::vector<Ring>& others, Add&& add) {
-  FewSources sources({others.begin(), others.end()});
+  FewSources sources(std::vector<Point>(others.begin(), others.end()));
   for (std::size_t j = 0; j < others.size(); ++j) sources.V[j] = others[j].A;
-  const Sources view = sources.view();
-  const Targets target = targets(i);
-  std::vector<std::uint32_t> all(others.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const ShiftedNeighbours list{Vec::Zero(), all};
-  Rates rates;
-  const CubicSpline kernel(h);
-  over_neighbours(kernel, std::span(&list, 1), target.x, view.x, [&](std::uint32_t j, const Neighbour& n) {
-    const Pair pair = make_pair(kernel, n, target, view, j);
-    add(target, view, j, pair, rates);
-    rates.close(pair, view.m[j]);
-  });
-  return rates;
+  return sum_over(i, sources, CubicSpline(h), add);
 }
 
 const Ring ring_i = ring({0.3, 0.5}, {0.2, 0.4}, 1000, 3000),

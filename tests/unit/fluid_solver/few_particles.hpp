@@ -21,7 +21,8 @@ struct Point {
 
 /// What a pair loop reads of `points`.
 struct FewSources {
-  explicit FewSources(const std::vector<Point>& points) {
+  FewSources(std::initializer_list<Point> points) : FewSources(std::vector<Point>(points)) {}
+  FewSources(const std::vector<Point>& points) {
     const std::size_t n = points.size();
     for (auto* field : {&x, &v, &grad_rho}) resize(*field, n);
     resize(eta_grad_v, n);
@@ -75,13 +76,12 @@ inline Targets targets(const Point& i) {
           {Lanes(i.polymer_stress.xx), Lanes(i.polymer_stress.yy), Lanes(i.polymer_stress.xy)}};
 }
 
-/// What `add(targets, sources, j, pair, rates)` adds up for particle `i` over `others`.
+/// What `add(targets, sources, j, pair, rates)` adds up for particle `i` over `sources`.
 template <class W, class Add>
-Rates sum_over(const Point& i, const std::vector<Point>& others, const W& kernel, Add&& add) {
-  const FewSources sources(others);
+Rates sum_over(const Point& i, const FewSources& sources, const W& kernel, Add&& add) {
   const Sources view = sources.view();
   const Targets target = targets(i);
-  std::vector<std::uint32_t> all(others.size());
+  std::vector<std::uint32_t> all(sources.m.size());
   std::iota(all.begin(), all.end(), 0u);
   const ShiftedNeighbours list{Vec::Zero(), all};
   Rates rates;

@@ -5,7 +5,7 @@
 
 #include "common/case/case_file.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
-#include "tests/validation/slit_solution.hpp"
+#include "tests/validation/developed_flow.hpp"
 
 namespace toryu::fluid {
 namespace {
@@ -47,10 +47,10 @@ TEST(PassageFlow, IsThatOfTheExactSolutions) {
   p.power_law.reset();
   p.carreau = Carreau{1000, 10, 0.05, 0.4};
   const auto eta = [&](double gdot) { return viscosity_of(p, gdot); };
-  EXPECT_NEAR(passage_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-4);
+  EXPECT_NEAR(passage_flow(p, U, w).wall_stress / DevelopedFlow(eta, w, U).wall_stress(), 1, 1e-4);
   p.carreau.reset();
   p.herschel_bulkley = HerschelBulkley{{1000, 1, 1, 1e6}, 50e3, 1};
-  EXPECT_NEAR(passage_flow(p, U, w).wall_stress / SlitSolution(eta, w, U).wall_stress(), 1, 1e-3);
+  EXPECT_NEAR(passage_flow(p, U, w).wall_stress / DevelopedFlow(eta, w, U).wall_stress(), 1, 1e-3);
   // Bingham: U = w tau_w/(6 eta) (1 - 3/2 phi + phi^3/2), phi = tau_y/tau_w
   const double tau_w = passage_flow(p, U, w).wall_stress, phi = 50e3 / tau_w;
   EXPECT_NEAR(w * tau_w / 6000 * (1 - 1.5 * phi + 0.5 * phi * phi * phi), U, 0.01 * U);

@@ -85,9 +85,6 @@ int Tank::runs_ = 0;
 class TankState : public testing::TestWithParam<std::tuple<Variant, Integrator>> {
  protected:
   TankState() { omp_set_num_threads(1); }
-  void SetUp() override {
-    if (variant.symplectic_alone && integrator == Integrator::midpoint) GTEST_SKIP() << "the other says it";
-  }
   Variant variant = std::get<0>(GetParam());
   Integrator integrator = std::get<1>(GetParam());
 };
@@ -213,9 +210,16 @@ const Variant variants[] = {
      true},
 };
 
-INSTANTIATE_TEST_SUITE_P(OfAFluid, TankState,
-                         testing::Combine(testing::ValuesIn(variants),
-                                          testing::Values(Integrator::midpoint, Integrator::symplectic)),
+std::vector<std::tuple<Variant, Integrator>> variants_with_integrators() {
+  std::vector<std::tuple<Variant, Integrator>> all;
+  for (const Variant& variant : variants)
+    for (const Integrator integrator : {Integrator::midpoint, Integrator::symplectic})
+      if (integrator == Integrator::symplectic || !variant.symplectic_alone)
+        all.emplace_back(variant, integrator);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAFluid, TankState, testing::ValuesIn(variants_with_integrators()),
                          [](const auto& setting) {
                            return std::get<0>(setting.param).name +
                                   (std::get<1>(setting.param) == Integrator::midpoint ? "Midpoint"

@@ -9,7 +9,8 @@ import numpy as np
 from toryu.processes import DONE
 from toryu.study import calibration_charts, calibration_output, study_file
 from toryu.study.calibration_depths import Coupon, read_coupon
-from toryu.study.document import found, one_of
+from toryu.study.chart_file import conditions
+from toryu.study.document import found
 from toryu.study.least_squares import Fit
 from toryu.study.removed_depth import LAWS
 
@@ -180,12 +181,7 @@ def _scatter(table):
 
 def _at(table, others):
     """Under which conditions it was measured: a value of each axis that is no parameter."""
-    at = table.get("at", dict, {})
-    for name, value in at.items():
-        if name not in others:
-            table.fault(f"'at' names no axis '{name}'; there are {one_of(others)}", "at")
-        elif value not in (names := [v.name for v in others[name].values]):
-            table.fault(f"'at' must name a value of the axis '{name}', one of {names}, found {found(value)}", "at")
+    at = conditions(table, others)
     if missing := [name for name in others if name not in at]:
         table.fault(f"{table.name} must say at which '{missing[0]}' it was measured, at = {{ {missing[0]} = ... }}", "at")
     return at

@@ -14,7 +14,6 @@ from toryu.study.document import found
 from toryu.study.removed_depth import LAWS
 from toryu.surface import SIDES
 
-LEAST_NORMAL = 0.5  # a point with more of its normal along a side belongs to it
 COLUMNS = ["place[m]", "depth[m]", "scatter[m]"]
 
 
@@ -39,7 +38,7 @@ class Coupon:
         """[m] at the places [m] along the face, and the name of the depth."""
         file = along.read(folder)
         if file is None:
-            raise NoDepth("it left no surface.h5: the case needs [fluid.removal] and a [[wall]] with 'work_piece = true'")
+            raise NoDepth(surface.NO_SURFACE)
         with file:
             law = self.law or removed_depth.law_of(file)
             if law is None or law not in file:
@@ -58,14 +57,10 @@ class Coupon:
         names = surface.names(file)
         if self.work_piece not in names:
             raise NoDepth(f"it has no work piece '{self.work_piece}'")
-        axis, sense = SIDES[self.face]
-        rows = np.flatnonzero((file["work_piece"][:] == names.index(self.work_piece)) & (file["area"][:] > 0)
-                              & (sense * file["normal"][:][:, axis] > LEAST_NORMAL))
+        rows, position = surface.points_on(file, names.index(self.work_piece), self.face)
         if not len(rows):
             raise NoDepth(f"the {self.face} face of '{self.work_piece}' has no point")
-        position = file["start_position"][:][rows, 1 - axis]
-        order = np.argsort(position, kind="stable")
-        return rows[order], position[order]
+        return rows, position
 
     def worked(self, time, depth):
         """Depth [m] of each point once the coupon is done. `depth`: times x points [m]."""

@@ -64,7 +64,7 @@ def _lines(table, study, extra):
     y = table.get("y", str, allowed=axes if colour else figures)
     chart = Chart(table.get("title", str, None), x, y, colour,
                   None if colour else table.get("lines", str, None, allowed=axes),
-                  table.get("panels", str, None, allowed=axes), _at(table, axes),
+                  table.get("panels", str, None, allowed=axes), conditions(table, axes),
                   table.texts("log", [], allowed=["x", "y", "colour"] if colour else ["x", "y"]))
     shown = (x, y, chart.lines, chart.panels)
     chart.at = {axis.name: axis.default for axis in study.axes if axis.default and axis.name not in shown} | chart.at
@@ -76,7 +76,8 @@ def _lines(table, study, extra):
     return chart
 
 
-def _at(table, axes):
+def conditions(table, axes):
+    """`at` of a table: axis -> one of its values."""
     at = table.get("at", dict, {})
     for name, value in at.items():
         if name not in axes:
@@ -97,7 +98,7 @@ def _speed_accuracy(table, study, extra):
     times = [name for name in study.of_run() if name.endswith("_time")]
     chart = SpeedAccuracy(table.get("title", str, None), table.get("error", str, allowed=figures),
                           table.get("time", str, "processor_time", allowed=times), lines,
-                          table.get("along", str, allowed=axes), _at(table, axes), table.get("wanted", list, []))
+                          table.get("along", str, allowed=axes), conditions(table, axes), table.get("wanted", list, []))
     for value in chart.wanted:
         if not is_number(value) or not 0 < value < math.inf:
             table.fault(f"'wanted' must be errors above 0, found {value}", "wanted")

@@ -10,7 +10,6 @@ from toryu.report import along
 from toryu.study.removed_depth import law_of
 from toryu.surface import SIDES
 
-LEAST_NORMAL = 0.5  # a point with more of its normal along a side belongs to it: one of an edge to both
 OF_PRESSURE = ("preston_depth", "archard_depth")
 MIRROR_TOLERANCE = 0.1  # spacings by which mirror images may miss each other
 
@@ -90,21 +89,20 @@ class Surface:
 def open_file(folder):
     file = along.read(folder)
     if file is None:
-        raise NoRate("it left no surface.h5: the case needs [fluid.removal] and a [[wall]] with 'work_piece = true'")
+        raise NoRate(surface.NO_SURFACE)
     return file
 
 
 def wetted(file):
     """The Surface of an open surface.h5: the sides of work pieces of which the medium has touched a point."""
     place, normal, area = file["start_position"][:], file["normal"][:], file["area"][:]
-    owner, touched = file["work_piece"][:], file["contact_pressure"][:].max(axis=0) > 0
+    touched = file["contact_pressure"][:].max(axis=0) > 0
     faces = []
     for index, wall in enumerate(surface.names(file)):
-        for side, (axis, sense) in SIDES.items():
-            rows = np.flatnonzero((owner == index) & (area > 0) & (sense * normal[:, axis] > LEAST_NORMAL))
+        for side, (axis, _) in SIDES.items():
+            rows, position = surface.points_on(file, index, side)
             if touched[rows].any():
-                rows = rows[np.argsort(place[rows, 1 - axis], kind="stable")]
-                faces.append(Face(wall, side, rows, place[rows, 1 - axis], area[rows] * np.abs(normal[rows, axis])))
+                faces.append(Face(wall, side, rows, position, area[rows] * np.abs(normal[rows, axis])))
     if not faces:
         raise NoRate("the medium touches no work piece")
     rows = np.concatenate([face.rows for face in faces])
