@@ -54,7 +54,7 @@ void fill_region(std::size_t index, const Parameters& parameters, Body& body, co
 /// the other.
 bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std::size_t b) {
   const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
-  if (!A.round && !B.round) {
+  if (A.is_rectangle() && B.is_rectangle()) {
     const double tolerance = 1e-6 * parameters.spacing;
     return ((A.max - B.min).array() > tolerance).all() && ((B.max - A.min).array() > tolerance).all();
   }

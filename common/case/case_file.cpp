@@ -11,6 +11,7 @@
 #include "common/case/overrides.hpp"
 #include "common/case/read_table.hpp"
 #include "common/case/text_file.hpp"
+#include "common/case/text_hash.hpp"
 #include "common/case/write_table.hpp"
 
 namespace toryu {
@@ -269,19 +270,14 @@ std::string CaseFile::description() const {
 }
 
 std::uint64_t CaseFile::hash() const {
-  // FNV-1a (Fowler, Noll, Vo), the same on every machine.
-  std::uint64_t hash = 14695981039346656037u;
-  const auto add = [&](const std::string& text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    hash = (hash ^ 0xffu) * 1099511628211u;  // no UTF-8 text holds this byte: it ends a text
-  };
-  add(content_->text);
-  for (const auto& text : content_->overrides) add(text);
+  TextHash hash;
+  hash.add(content_->text);
+  for (const auto& text : content_->overrides) hash.add(text);
   for (const auto& name : named_files()) {
-    add(name);
-    add(read_text(folder() / name, largest_reference));
+    hash.add(name);
+    hash.add(read_text(folder() / name, largest_reference));
   }
-  return hash;
+  return hash.value();
 }
 
 std::vector<std::string> CaseFile::named_files() const {

@@ -151,7 +151,7 @@ void ReadTable::required_section(const std::string& key, const std::string& help
 void ReadTable::read_section(const toml::table* table, const std::string& key,
                              const std::function<void(ParameterTable&)>& visit) {
   const std::string path = path_of(key);
-  ReadTable inner(table, path, " in [" + path + "]", table ? place_of_key(key) : place_, faults_);
+  ReadTable inner(table, path, " in [" + path + "]", table ? place_of_key(key) : place_, reading_);
   visit(inner);
   inner.report_unknown_keys();
 }

@@ -66,7 +66,8 @@ class Outline {
 /// What is wrong with rings that should be an outline.
 struct OutlineFault {
   std::string message;
-  Vec place;  ///< [m]
+  Vec place;                 ///< [m]
+  std::size_t ring, corner;  ///< from which the edge there comes, counted from 0
 };
 /// The first fault: fewer than three corners, a corner that is there twice, a ring without an area, edges
 /// that cross or touch.
@@ -74,6 +75,8 @@ std::optional<OutlineFault> fault_of(const std::vector<Outline::Ring>& rings);
 
 /// An ellipse as a ring, whose corners lie so far outside that the area is the ellipse's.
 Outline::Ring ellipse_ring(const Vec& centre, const Vec& radii, int corners = 512);
+/// What lies within an outline, as a shape of a body.
+Box box_of(Outline outline);
 /// The corners of a box, or the ellipse in it if it is round.
 Outline::Ring ring_of(const Box& box);
 
