@@ -208,6 +208,26 @@ std::vector<Outline::Share> Outline::shares_inside(const Vec& a, const Vec& b) c
   return shares;
 }
 
+bool Box::in_outline(const Vec& x) const {
+  return outline->contains(x);
+}
+
+Box Box::moved(const Vec& by) const {
+  Box box{min + by, max + by, round};
+  if (!outline) return box;
+  auto rings = outline->rings();
+  for (auto& ring : rings)
+    for (Vec& corner : ring) corner += by;
+  box.outline = std::make_shared<const Outline>(std::move(rings));
+  return box;
+}
+
+Box box_of(Outline outline) {
+  Box box = outline.bounds();
+  box.outline = std::make_shared<const Outline>(std::move(outline));
+  return box;
+}
+
 Outline::Ring ellipse_ring(const Vec& centre, const Vec& radii, int corners) {
   const double step = 2 * std::numbers::pi / corners;
   const double grown = std::sqrt(step / std::sin(step));
