@@ -73,6 +73,9 @@ struct OutlineFault {
 /// that cross or touch.
 std::optional<OutlineFault> fault_of(const std::vector<Outline::Ring>& rings);
 
+/// The rings of what is left of an outline without a hole; edges may be shared. None if nothing is.
+std::vector<Outline::Ring> difference(const Outline& outline, const Outline& hole);
+
 /// An ellipse as a ring, whose corners lie so far outside that the area is the ellipse's.
 Outline::Ring ellipse_ring(const Vec& centre, const Vec& radii, int corners = 512);
 /// What lies within an outline, as a shape of a body.

@@ -123,6 +123,33 @@ TEST(Outline, AnEllipseHasItsArea) {
   EXPECT_NEAR(circle.nearest({0.3, 0.4}).distance, -0.5, 1e-4);
 }
 
+double area_less(const std::vector<Ring>& rings, const std::vector<Ring>& hole, std::size_t expected_rings) {
+  const auto left = difference(Outline(rings), Outline(hole));
+  EXPECT_EQ(left.size(), expected_rings);
+  if (left.empty()) return 0;
+  EXPECT_FALSE(fault_of(left));
+  return Outline(left).area();
+}
+
+TEST(OutlineDifference, OfWhatLiesWithinBesideAndAcross) {
+  EXPECT_DOUBLE_EQ(area_less({square}, {small_square}, 2), 3);
+  EXPECT_DOUBLE_EQ(area_less({square}, {ring_of({Vec(3, 0), Vec(4, 1)})}, 1), 4);
+  EXPECT_DOUBLE_EQ(area_less({square}, {ring_of({Vec(1, 1), Vec(4, 4)})}, 1), 3);     // a corner
+  EXPECT_DOUBLE_EQ(area_less({square}, {ring_of({Vec(-1, 0.5), Vec(3, 1)})}, 2), 3);  // in two
+  EXPECT_DOUBLE_EQ(area_less({small_square}, {square}, 0), 0);
+  EXPECT_NEAR(area_less({square}, {ellipse_ring({1, 0}, {0.5, 0.5}, 64)}, 1), 4 - std::numbers::pi / 8,
+              1e-12);
+  EXPECT_DOUBLE_EQ(area_less({square, small_square}, {ring_of({Vec(1, -1), Vec(3, 3)})}, 1), 1.5);
+}
+
+TEST(OutlineDifference, OfWhatSharesEdges) {
+  EXPECT_DOUBLE_EQ(area_less({square}, {square}, 0), 0);
+  EXPECT_DOUBLE_EQ(area_less({square}, {ring_of({Vec(0.5, 1), Vec(1, 2)})}, 1), 3.5);  // a slot from the edge
+  EXPECT_DOUBLE_EQ(area_less({square}, {ring_of({Vec(1, 0), Vec(2, 2)})}, 1), 2);      // half of it
+  EXPECT_DOUBLE_EQ(area_less({square}, {ring_of({Vec(2, 0), Vec(3, 2)})}, 1), 4);      // its neighbour
+  EXPECT_DOUBLE_EQ(area_less({square, small_square}, {ring_of({Vec(0.5, 0), Vec(1.5, 0.5)})}, 1), 2.5);
+}
+
 TEST(OutlineFault, NamesThePlace) {
   const auto message = [](const std::vector<Ring>& rings) {
     const auto fault = fault_of(rings);

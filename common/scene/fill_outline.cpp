@@ -1,0 +1,190 @@
+#include "common/scene/fill_outline.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "common/scene/place_index.hpp"
+#include "common/sph/kernel.hpp"
+
+namespace toryu {
+
+namespace {
+
+using Ring = Outline::Ring;
+
+/// Over the spacing.
+constexpr double relaxing_h = 1.0, skin = 0.3, longest_piece = 0.125, first_row = 0.75, longest_move = 0.1;
+constexpr double largest_misfit = 0.1;
+constexpr int most_rounds = 1000;
+constexpr double inertia = 0.9, step = 0.3, converged = 1e-4;
+
+/// The lattice of a rectangle, in the order of its rows; empty if the outline is none that rows fit.
+FittedFilling fill_rectangle(const Outline& outline, double spacing) {
+  if (outline.rings().size() != 1 || outline.rings()[0].size() != 4) return {};
+  const Ring& ring = outline.rings()[0];
+  const Vec u = ring[1] - ring[0], w = ring[3] - ring[0];
+  const double lengths[] = {u.norm(), w.norm()};
+  const bool right_angles = std::abs(u.dot(w)) < 1e-9 * lengths[0] * lengths[1] &&
+                            (ring[2] - ring[1] - w).norm() < 1e-9 * (lengths[0] + lengths[1]);
+  if (!right_angles) return {};
+  long rows[2];
+  for (int a = 0; a < 2; ++a) {
+    rows[a] = std::lround(lengths[a] / spacing);
+    if (rows[a] < 1 || std::abs(lengths[a] / (static_cast<double>(rows[a]) * spacing) - 1) > largest_misfit)
+      return {};
+  }
+  FittedFilling filling;
+  for (long b = 0; b < rows[1]; ++b)
+    for (long a = 0; a < rows[0]; ++a)
+      filling.points.push_back(ring[0] + (static_cast<double>(a) + 0.5) / static_cast<double>(rows[0]) * u +
+                               (static_cast<double>(b) + 0.5) / static_cast<double>(rows[1]) * w);
+  return filling;
+}
+
+/// Moves particles until they are even.
+class Relaxation {
+ public:
+  Relaxation(const Outline& outline, std::vector<Vec>& points, double volume)
+      : outline_(outline),
+        x_(points),
+        V_(volume),
+        d_(std::sqrt(volume)),
+        W_(relaxing_h * d_),
+        pieces_(surface_pieces(outline, longest_piece * d_)),
+        move_(points.size(), Vec::Zero()),
+        moved_(points.size(), Vec::Zero()),
+        row_(points.size(), 0),
+        neighbours_(points.size()),
+        beside_(points.size()) {
+    for (std::size_t i = 0; i < x_.size(); ++i) row_[i] = outline.nearest(x_[i]).distance > -first_row * d_;
+    find_neighbours();
+  }
+
+  /// The largest force [1/d_0].
+  double round() {
+    double largest = 0, furthest = 0;
+    const auto n = static_cast<std::ptrdiff_t>(x_.size());
+#pragma omp parallel for schedule(static) reduction(max : largest, furthest)
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      Vec F = force(i);
+      if (row_[i]) {
+        const Vec normal = outline_.nearest(x_[i]).normal;
+        F -= F.dot(normal) * normal;
+      }
+      largest = std::max(largest, F.norm() * d_);
+      move_[i] = inertia * move_[i] + step * d_ * d_ * F;
+      if (const double length = move_[i].norm(); length > longest_move * d_)
+        move_[i] *= longest_move * d_ / length;
+    }
+#pragma omp parallel for schedule(static) reduction(max : furthest)
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Vec before = x_[i];
+      x_[i] += move_[i];
+      bound(i);
+      moved_[i] += x_[i] - before;
+      furthest = std::max(furthest, moved_[i].norm());
+    }
+    if (furthest > 0.5 * skin * d_) find_neighbours();
+    return largest;
+  }
+
+  /// sum_j V W_ij and what is beyond the outline.
+ private:
+  Vec force(std::size_t i) const {
+    Vec F = Vec::Zero();
+    for (const std::uint32_t j : neighbours_[i]) {
+      const Vec x_ij = x_[i] - x_[j];
+      const double r = x_ij.norm();
+      if (r > 0) F -= V_ * W_.gradient_over_r(r, 1 / r) * x_ij;
+    }
+    for (const std::uint32_t b : beside_[i])
+      F -= W_.value((x_[i] - pieces_[b].place).norm()) * pieces_[b].area;
+    return F;
+  }
+
+  /// Puts a particle of the first row back on its row, and one that came too near to the outline back to it.
+  void bound(std::size_t i) {
+    const auto foot = outline_.nearest(x_[i]);
+    if (row_[i] || foot.distance > -0.5 * d_) x_[i] += (-0.5 * d_ - foot.distance) * foot.normal;
+  }
+
+  void find_neighbours() {
+    const double reach = W_.support() + skin * d_;
+    PlaceIndex particles(outline_.bounds(), reach), pieces(outline_.bounds(), reach);
+    for (std::size_t i = 0; i < x_.size(); ++i) particles.add(x_[i], static_cast<std::uint32_t>(i));
+    for (std::size_t b = 0; b < pieces_.size(); ++b)
+      pieces.add(pieces_[b].place, static_cast<std::uint32_t>(b));
+    const auto n = static_cast<std::ptrdiff_t>(x_.size());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      neighbours_[i].clear();
+      beside_[i].clear();
+      particles.about(x_[i], [&](std::uint32_t j) {
+        if (j != i && (x_[j] - x_[i]).norm() < reach) neighbours_[i].push_back(j);
+      });
+      pieces.about(x_[i], [&](std::uint32_t b) {
+        if ((pieces_[b].place - x_[i]).norm() < reach) beside_[i].push_back(b);
+      });
+      moved_[i].setZero();
+    }
+  }
+
+  const Outline& outline_;
+  std::vector<Vec>& x_;
+  double V_, d_;
+  WendlandC2 W_;
+  std::vector<SurfacePiece> pieces_;
+  std::vector<Vec> move_, moved_;  ///< of this round, and since the neighbours were found
+  std::vector<char> row_;          ///< whether it belongs to the first row
+  std::vector<std::vector<std::uint32_t>> neighbours_, beside_;
+};
+
+}  // namespace
+
+std::vector<SurfacePiece> surface_pieces(const Outline& outline, double longest) {
+  std::vector<SurfacePiece> pieces;
+  for (const Ring& ring : outline.rings())
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec edge = ring[(k + 1) % ring.size()] - ring[k];
+      const int count = std::max(1, static_cast<int>(std::ceil(edge.norm() / longest)));
+      for (int m = 0; m < count; ++m)
+        pieces.push_back({ring[k] + (m + 0.5) / count * edge, Vec(edge[1], -edge[0]) / count});
+    }
+  return pieces;
+}
+
+FittedFilling fill_outline(const Outline& outline, double spacing, const std::function<void(double)>& told) {
+  FittedFilling filling = fill_rectangle(outline, spacing);
+  const bool lattice = !filling.points.empty();
+  if (!lattice) filling.points = parallel_rows(outline, spacing);
+  if (filling.points.empty()) return filling;
+  filling.volume = outline.area() / static_cast<double>(filling.points.size());
+  if (lattice) return filling;
+  Relaxation relaxation(outline, filling.points, filling.volume);
+  while (filling.rounds < most_rounds) {
+    ++filling.rounds;
+    const double largest = relaxation.round();
+    if (told) told(static_cast<double>(filling.rounds) / most_rounds);
+    if (getenv("TRACE") && filling.rounds % 50 == 0) printf("%d %g\n", filling.rounds, largest);
+    if (largest < converged) break;
+  }
+  return filling;
+}
+
+std::vector<double> evenness(const Outline& outline, const FittedFilling& filling, double h) {
+  const CubicSpline W(h);
+  const auto pieces = surface_pieces(outline, longest_piece * h);
+  std::vector<double> sums;
+  for (const Vec& x : filling.points) {
+    double sum = filling.volume * W.value(0.0);
+    for (const Vec& y : filling.points)
+      if (&x != &y) sum += filling.volume * W.value((x - y).norm());
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+}  // namespace toryu
