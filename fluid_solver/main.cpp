@@ -17,6 +17,7 @@
 #include "common/scene/bodies.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/axisymmetry.hpp"
+#include "fluid_solver/flow_numbers.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/implicit/implicit_faults.hpp"
 #include "fluid_solver/implicit/implicit_twin.hpp"
@@ -97,6 +98,14 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
   run_recorded(
       record, [&] { take_turns(link, model, record); }, [&] { link.leave(); },
       [&] { return link.waiting_time() - joined; });
+}
+
+/// What --check knows of the flow before a step is made.
+void tell_flow(const fluid::Parameters& parameters, const Scene& scene) {
+  if (!parameters.similarity)  // which tells them of its passage
+    if (const auto numbers = fluid::flow_numbers(parameters, scene))
+      print("[fluid]: " + fluid::text(*numbers) + '\n');
+  if (const auto creeps = fluid::creeping(parameters, scene)) print("[fluid]: " + *creeps + '\n');
 }
 
 /// Of the case as it is and, where it could be computed by implicit steps as well, which is cheaper.
@@ -195,8 +204,7 @@ ExitCode solve(const Options& options) {
     log::info("{}", made);
     if (options.outlook) print("[fluid]: " + made + '\n');
   }
-  if (options.outlook && !file.has("solid"))
-    if (const auto creeps = fluid::creeping(parameters, scene)) print("[fluid]: " + *creeps + '\n');
+  if (options.outlook && !file.has("solid")) tell_flow(parameters, scene);
   for (const auto& [key, message] : fluid::start_faults(parameters, scene.gravity)) file.fault(key, message);
   file.throw_if_faulty();
   const auto made = fluid::make_model(parameters, scene);

@@ -165,7 +165,20 @@ void describe_medium(ParameterTable& table, Parameters& p) {
                 {.minimum = 1, .maximum = 7, .help = "gamma of the equation of state (Monaghan 1994)"});
 }
 
-void describe_discretisation(ParameterTable& table, Parameters& p) {
+/// The discretisation that bears a high pressure over the shear stress, unless the case says another.
+void take_defaults_of_similarity(Parameters& p) {
+  p.kernel = KernelForm::wendland_c2;
+  p.smoothing_ratio = 2.0;
+}
+
+/// Unless the case says another: the edge of such a flow lies between 5 and 6.5 by symplectic steps, far
+/// lower by others.
+void take_share_of_similarity(Parameters& p) {
+  if (p.integrator == Integrator::symplectic) p.time_step_share = 4.5;
+}
+
+void describe_discretisation(ParameterTable& table, Parameters& p, bool chosen_by_similarity) {
+  if (chosen_by_similarity) take_defaults_of_similarity(p);
   table.number(
       "spacing", p.spacing,
       {.unit = "m", .minimum = 0, .above_minimum = true, .required = true, .help = "particle spacing d_0"});
@@ -174,6 +187,7 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
   table.number("smoothing_ratio", p.smoothing_ratio, {.minimum = 1.0, .maximum = 4.0, .help = "h/d_0"});
   table.choice("integrator", p.integrator, {"midpoint", "symplectic"},
                {.help = "a leapfrog that finds each rate once a step, or the midpoint rule"});
+  if (chosen_by_similarity) take_share_of_similarity(p);
   table.number("time_step_share", p.time_step_share,
                {.minimum = 0,
                 .maximum = 10,
@@ -288,21 +302,13 @@ void require_slip_to_act(ParameterTable& table, const Parameters& p) {
       "\"normalised\"");
 }
 
-/// The discretisation that bears a high pressure over the shear stress, unless the case says another.
-void take_defaults_of_similarity(Parameters& p) {
-  p.kernel = KernelForm::wendland_c2;
-  p.smoothing_ratio = 2.0;
-  p.time_step_share = 4.5;  // the edge of such a flow lies between 5 and 6.5
-}
-
 }  // namespace
 
 void describe(ParameterTable& table, Parameters& p) {
   const bool was_similar = p.similarity.has_value();  // what was read is only written then
   describe_model(table, p);
   describe_medium(table, p);
-  if (p.similarity && !was_similar) take_defaults_of_similarity(p);
-  describe_discretisation(table, p);
+  describe_discretisation(table, p, p.similarity && !was_similar);
   describe_start(table, p);
   describe_terms(table, p);
   table.group("limits", p.limits, "bounds of physics");

@@ -43,6 +43,8 @@ struct Particles {
                                              Presence::on_demand};
   Declared<Symmetric<Field>> polymer_stress{"polymer_stress", "Pa", FieldKind::derived, Presence::on_demand};
   Declared<VecField> a{"acceleration", "m/s2", FieldKind::derived};
+  /// That of the last step, by which an implicit one foresees its velocities.
+  Declared<VecField> a_before{"acceleration_of_last_step", "m/s2", FieldKind::state, Presence::on_demand};
   /// The symplectic step begins with that of the end of the last one.
   Declared<Field> drho{"density_rate", "kg/(m3.s)", FieldKind::state};
 
@@ -52,9 +54,9 @@ struct Particles {
 template <class Archive>
 void serialize(Archive& archive, Particles& particles) {
   auto& [count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
-         eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, drho] = particles;
+         eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, a_before, drho] = particles;
   archive(count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
-          eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, drho);
+          eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, a_before, drho);
 }
 
 /// What a pair loop reads of its sources, fluid or boundary alike.

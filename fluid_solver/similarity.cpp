@@ -32,18 +32,6 @@ constexpr double largest_mach_number = 0.1;
 /// Difference of the pistons' pressures over the drop by which sound and background pressure are chosen.
 constexpr double largest_share_of_drop = 1.5;
 
-/// U over w of the flow with that shear rate at the wall [1/s].
-double speed_over_width(const Parameters& p, double gdot_w, Geometry geometry) {
-  constexpr int intervals = 2000;
-  const double tau_w = viscosity_of(p, gdot_w) * gdot_w;
-  double sum = 0;  // by the midpoint rule
-  for (int k = 0; k < intervals; ++k) {
-    const double gdot = (k + 0.5) / intervals * gdot_w, share = viscosity_of(p, gdot) * gdot / tau_w;
-    sum += geometry == Geometry::plane ? share * share : share * share * share;
-  }
-  return (geometry == Geometry::plane ? 1 / 4.0 : 1 / 6.0) * gdot_w * (1 - sum / intervals);
-}
-
 /// In which the pressure would change by all that its table has at the steepest of it [s].
 double shortest_ramp(const Press& press) {
   const auto& rows = press.force.empty() ? press.pressure : press.force;
@@ -98,21 +86,8 @@ double shortest_ramp(const Scene& scene) {
   return shortest;
 }
 
-/// Of the box about all of the fluid [m].
-Vec sides(const std::vector<Region>& regions) {
-  Vec least = regions.front().box.min, most = regions.front().box.max;
-  for (const Region& region : regions)
-    least = least.cwiseMin(region.box.min), most = most.cwiseMax(region.box.max);
-  return most - least;
-}
 double longest_side(const std::vector<Region>& regions) {
   return sides(regions).maxCoeff();
-}
-
-/// The shorter side; about an axis the fluid reaches as far beyond it.
-double passage_width(const std::vector<Region>& regions, Geometry geometry) {
-  const Vec box = sides(regions);
-  return geometry == Geometry::plane ? box.minCoeff() : std::min(box[0], 2 * box[1]);
 }
 
 /// What the case asks for that is a matter of inertia.
@@ -150,20 +125,6 @@ void describe(ParameterTable& table, Similarity& similarity) {
                 .maximum = 0.05,
                 .above_minimum = true,
                 .help = "change of the density over the pressure drop, which sets the sound speed"});
-}
-
-PassageFlow passage_flow(const Parameters& p, double mean_speed, double width, Geometry geometry) {
-  double low = 1e-100, high = 1e100;
-  while (high / low > 1 + 1e-12) {
-    const double gdot_w = std::sqrt(low) * std::sqrt(high), tau_w = viscosity_of(p, gdot_w) * gdot_w;
-    const double u_s = p.wall_slip ? slip_speed(*p.wall_slip, tau_w) : 0.0;
-    (u_s + speed_over_width(p, gdot_w, geometry) * width < mean_speed ? low : high) = gdot_w;
-  }
-  const double eta_w = viscosity_of(p, low), tau_w = eta_w * low;
-  return {.wall_shear_rate = low,
-          .wall_viscosity = eta_w,
-          .wall_stress = tau_w,
-          .slip_speed = p.wall_slip ? slip_speed(*p.wall_slip, tau_w) : 0.0};
 }
 
 SimilarMedium similar_medium(const Parameters& p, Geometry geometry) {

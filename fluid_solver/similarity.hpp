@@ -13,17 +13,9 @@
 ///
 /// Pressures, viscosities, speeds and forces are real; kinetic energies and momenta are those of the density
 /// chosen. What is left of inertia is an error in proportion to Re (cases/abrasive_slit/README.md). eta_w and
-/// tau_w are those of the developed flow between plates (Bird, Armstrong & Hassager 1987, section 4.2):
-/// tau = tau_w at the wall and falls linearly to the middle, so that, by parts,
-///
-///     U = u_s + w/4 [gdot_w - integral_0^gdot_w (tau(gdot)/tau_w)^2 dgdot],
-///
-/// u_s the slip of [fluid.wall_slip] under tau_w, else 0. What slides is not sheared: with slip Re is over
-/// the share 1 - u_s/U of the viscosity, so that inertia stays as small beside the pressure drop.
-///
-/// About an axis the passage is a tube of the diameter w, where likewise
-///
-///     U = u_s + w/6 [gdot_w - integral_0^gdot_w (tau(gdot)/tau_w)^3 dgdot],   dp = 4 tau_w L/w.
+/// tau_w are those of the developed flow (passage_flow.hpp); about an axis the passage is a tube of the
+/// diameter w and dp = 4 tau_w L/w. What slides is not sheared: with slip Re is over the share 1 - u_s/U of
+/// the viscosity, so that inertia stays as small beside the pressure drop.
 #pragma once
 
 #include <optional>
@@ -32,6 +24,7 @@
 
 #include "common/case/parameter_table.hpp"
 #include "common/scene/scene.hpp"
+#include "fluid_solver/passage_flow.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 
 namespace toryu::fluid {
@@ -46,18 +39,6 @@ struct Similarity {
   double compression = 0.01;     ///< change of the density over the pressure drop
 };
 void describe(ParameterTable& table, Similarity& similarity);
-
-/// Developed flow between two plates, or in a tube.
-struct PassageFlow {
-  double wall_shear_rate = 0;  ///< [1/s]
-  double wall_viscosity = 0;   ///< [Pa s]
-  double wall_stress = 0;      ///< [Pa]
-  double slip_speed = 0;       ///< u_s [m/s]
-};
-/// Of the medium of `parameters` at the mean speed U [m/s] between plates `width` [m] apart, or about an axis
-/// in a tube of that diameter.
-PassageFlow passage_flow(const Parameters& parameters, double mean_speed, double width,
-                         Geometry geometry = Geometry::plane);
 
 /// What similarity makes of a case.
 struct SimilarMedium {

@@ -13,6 +13,11 @@ namespace {
 
 /// Of the spacing: how far a particle goes in a step.
 constexpr double advection_share = 0.2;
+/// Unbalanced force over the driving one up to which a viscosity is taken to change with the velocity as its
+/// law says (Newton); farther off, where that may overshoot, it is kept (Picard).
+constexpr double newton_from = 0.1;
+/// Of the velocity: how far off the force is found again for its derivative. Rounding takes 1e-7 of that.
+constexpr double tangent_share = 1e-7;
 /// The linear solver leaves so much of the unbalanced force, which the next update of the viscosity changes
 /// by more, and at the last so much of what is tolerated.
 constexpr double inner_tolerance = 0.1, last_tolerance = 0.5;
@@ -31,6 +36,7 @@ Implicit::Implicit(const Parameters& parameters, const Scene& scene)
       solver_(parameters.implicit.value_or(ImplicitSolver{})),
       largest_wall_speed_(largest_wall_speed(scene)) {
   dynamics_.allocate(state_.fluid);
+  resize(state_.fluid.a_before, state_.fluid.rho.size());
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
   state_.balance = EnergyBalance(powers());
@@ -68,31 +74,39 @@ void Implicit::advance(double dt) {
 void Implicit::solve(double dt) {
   const auto timer = timers_.measure("implicit system");
   StepSystem system(terms_, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, dt);
-  const StepSystem::Vector v_n = system.velocities(), at_rest = StepSystem::Vector::Zero(v_n.size());
-  StepSystem::Vector v = v_n;
+  StepSystem::Vector v = system.foreseen_velocities();
+  StepSystem::Vector r = system.unbalance(v, Viscosity::renewed);
+  const double driving = system.unbalance(StepSystem::Vector::Zero(v.size()), Viscosity::kept).norm();
   Effort effort{.steps = 1};
-  for (;; ++effort.viscosity_updates) {
-    system.set_velocities(v);
-    system.update_viscosity();
-    const StepSystem::Vector b = system.unbalance(at_rest), r = system.unbalance(v);
-    const double driving = b.norm(), unbalance = r.norm();
-    if (unbalance <= solver_.tolerance * driving) break;
-    if (!std::isfinite(unbalance) || effort.iterations >= solver_.largest_iterations ||
-        effort.viscosity_updates >= solver_.largest_viscosity_updates)
-      fail(unbalance / driving, effort);
-    const double wanted = last_tolerance * solver_.tolerance * driving / unbalance;
-    correct(system, b, r, terms_.viscosity_varies() ? std::max(wanted, inner_tolerance) : wanted, v, effort);
+  bool overshot = false;
+  for (double before = r.norm(); before > solver_.tolerance * driving;) {
+    const bool near = before <= newton_from * driving && !overshot;
+    const double wanted = last_tolerance * solver_.tolerance * driving / before;
+    const bool linear = !terms_.viscosity_varies();
+    correct(system, r, near && !linear ? Viscosity::renewed : Viscosity::kept,
+            linear ? wanted : std::max(wanted, inner_tolerance), v, effort);
+    r = system.unbalance(v, Viscosity::renewed);
+    ++effort.viscosity_updates;
+    const double after = r.norm();
+    if (after > solver_.tolerance * driving) fail_unless_solvable(after / driving, effort);
+    overshot = overshot || (near && after > before);
+    before = after;
   }
-  system.set_accelerations((v - v_n) / dt);
+  if (effort.viscosity_updates == 0) system.unbalance(v, Viscosity::kept);  // what `driving` has overwritten
+  system.finish(v);
   effort_.steps += effort.steps;
   effort_.iterations += effort.iterations;
   effort_.viscosity_updates += effort.viscosity_updates;
 }
 
-void Implicit::correct(StepSystem& system, const StepSystem::Vector& b, const StepSystem::Vector& r,
-                       double tolerance, StepSystem::Vector& v, Effort& effort) const {
+void Implicit::correct(StepSystem& system, const StepSystem::Vector& r, Viscosity viscosity, double tolerance,
+                       StepSystem::Vector& v, Effort& effort) const {
+  const double speed = v.norm();
   const Product product = [&](const StepSystem::Vector& x) -> StepSystem::Vector {
-    return b - system.unbalance(x);
+    if (viscosity == Viscosity::kept) return r - system.unbalance(v + x, viscosity);  // is linear
+    if (x.isZero(0)) return x;
+    const double share = tangent_share * speed / x.norm();
+    return (r - system.unbalance(v + share * x, viscosity)) / share;
   };
   const KrylovResult found = solve_by_bicgstab(product, system.diagonal(), r, tolerance,
                                                solver_.largest_iterations - effort.iterations);
@@ -100,7 +114,10 @@ void Implicit::correct(StepSystem& system, const StepSystem::Vector& b, const St
   effort.iterations += found.iterations;
 }
 
-void Implicit::fail(double unbalance, const Effort& effort) const {
+void Implicit::fail_unless_solvable(double unbalance, const Effort& effort) const {
+  if (std::isfinite(unbalance) && effort.iterations < solver_.largest_iterations &&
+      effort.viscosity_updates < solver_.largest_viscosity_updates)
+    return;
   const std::string taken =
       effort.viscosity_updates >= solver_.largest_viscosity_updates
           ? fmt::format("{} updates of the viscosity (fluid.implicit.largest_viscosity_updates)",

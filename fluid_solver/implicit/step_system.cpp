@@ -70,12 +70,15 @@ StepSystem::Vector StepSystem::velocities() const {
   return vector_of_all(fluid_.v, fluid_.count);
 }
 
-void StepSystem::set_velocities(const Vector& v) {
-  set_all(fluid_.v, v);
+StepSystem::Vector StepSystem::foreseen_velocities() const {
+  return v_n_ + dt_ * vector_of_all(fluid_.a_before, fluid_.count);
 }
 
-void StepSystem::set_accelerations(const Vector& a) {
+void StepSystem::finish(const Vector& v) {
+  set_all(fluid_.v, v);
+  const Vector a = (v - v_n_) / dt_;
   set_all(fluid_.a, a);
+  set_all(fluid_.a_before, a);
 }
 
 void StepSystem::pressures() {
@@ -90,11 +93,11 @@ void StepSystem::pressures() {
 }
 
 template <class W>
-void StepSystem::stresses(const W& kernel, std::size_t cluster, bool renew_viscosity) {
+void StepSystem::stresses(const W& kernel, std::size_t cluster, Viscosity viscosity) {
   const std::size_t first = cluster * lane_count;
   TensorLanes grad_v =
       velocity_gradient(kernel, fluid_, neighbours_, boundaries_, terms_.viscous_walls, cluster);
-  if (renew_viscosity) {
+  if (viscosity == Viscosity::renewed) {
     const Lanes gdot = shear_rate(grad_v);
     store(gdot, fluid_.gdot, first);
     for (std::size_t lane = 0; lane < lane_count; ++lane)
@@ -105,20 +108,7 @@ void StepSystem::stresses(const W& kernel, std::size_t cluster, bool renew_visco
   store(grad_v, fluid_.eta_grad_v, first);
 }
 
-void StepSystem::update_viscosity() {
-  if (!terms_.viscosity_varies()) return;
-  terms_.kernel.visit([&](const auto& W) {
-#pragma omp parallel
-    {
-      for (Boundary& boundary : boundaries_)
-        extrapolate(boundary, fluid_, terms_.kernel, terms_.body_force.gravity);
-#pragma omp for schedule(dynamic, 8)
-      for (std::size_t c = 0; c < fluid_.clusters(); ++c) stresses(W, c, true);
-    }
-  });
-}
-
-void StepSystem::evaluate() {
+void StepSystem::evaluate(Viscosity viscosity) {
   const PairSweeps sweeps = terms_.sweeps();
   terms_.kernel.visit([&](const auto& W) {
     sweeps.rates(W, RatesOf::density, fluid_, neighbours_, boundaries_);
@@ -129,7 +119,7 @@ void StepSystem::evaluate() {
         extrapolate(boundary, fluid_, terms_.kernel, terms_.body_force.gravity);
       if (terms_.viscosity_varies()) {
 #pragma omp for schedule(dynamic, 8)
-        for (std::size_t c = 0; c < fluid_.clusters(); ++c) stresses(W, c, false);
+        for (std::size_t c = 0; c < fluid_.clusters(); ++c) stresses(W, c, viscosity);
         if (terms_.viscous_walls)
           for (Boundary& boundary : boundaries_) extrapolate_viscosity(boundary, fluid_, terms_.kernel);
       }
@@ -138,9 +128,9 @@ void StepSystem::evaluate() {
   });
 }
 
-StepSystem::Vector StepSystem::unbalance(const Vector& v) {
-  set_velocities(v);
-  evaluate();
+StepSystem::Vector StepSystem::unbalance(const Vector& v, Viscosity viscosity) {
+  set_all(fluid_.v, v);
+  evaluate(viscosity);
   return v_n_ + dt_ * vector_of_all(fluid_.a, fluid_.count) - v;
 }
 

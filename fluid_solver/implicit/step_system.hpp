@@ -43,6 +43,9 @@ struct ImplicitTerms {
   bool viscous_walls;
 };
 
+/// At which the force is found: that of before, or that of the shear rates of its own velocities.
+enum class Viscosity { kept, renewed };
+
 class StepSystem {
  public:
   using Vector = Eigen::VectorXd;
@@ -53,24 +56,23 @@ class StepSystem {
   StepSystem(const ImplicitTerms& terms, Particles& fluid, const ClusterList& neighbours,
              std::vector<Boundary>& boundaries, double dt);
 
-  /// The velocities of `fluid`, x before y [m/s], and back.
-  Vector velocities() const;
-  void set_velocities(const Vector& v);
-  void set_accelerations(const Vector& a);  ///< [m/s2]
+  /// All velocities, x before y, if the acceleration stays that of the last step [m/s].
+  Vector foreseen_velocities() const;
+  /// Leaves `v` in `fluid`, and the acceleration that leads to it.
+  void finish(const Vector& v);
 
-  /// Finds the viscosity at the shear rates of the present velocities.
-  void update_viscosity();
-  /// Fills p, drho and a of `fluid` at its velocities, and what the boundaries do to it.
-  void evaluate();
-  /// v^n + dt a(v) - v [m/s]: the unbalanced force, over m/dt.
-  Vector unbalance(const Vector& v);
+  /// v^n + dt a(v) - v [m/s]: the unbalanced force, over m/dt. Leaves p, drho and a of `fluid` and what the
+  /// boundaries do to it.
+  Vector unbalance(const Vector& v, Viscosity viscosity);
   /// The blocks of the matrix 1 - dt da/dv on its diagonal, those of the walls' extrapolation left out.
   std::vector<Block> diagonal() const;
 
  private:
+  Vector velocities() const;
+  void evaluate(Viscosity viscosity);
   void pressures();
   template <class W>
-  void stresses(const W& kernel, std::size_t cluster, bool renew_viscosity);
+  void stresses(const W& kernel, std::size_t cluster, Viscosity viscosity);
 
   const ImplicitTerms& terms_;
   Particles& fluid_;

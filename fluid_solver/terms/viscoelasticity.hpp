@@ -26,6 +26,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -54,6 +55,16 @@ inline void describe(ParameterTable& table, PolymerMode& mode) {
   table.number(
       "mobility", mode.mobility,
       {.minimum = 0, .maximum = 1, .help = "alpha of Giesekus (1982), mostly 0 to 0.5; 0: Oldroyd-B"});
+}
+
+/// Viscosity of a mode in steady shear: falls with the rate where alpha > 0 (Giesekus 1982; Bird, Armstrong &
+/// Hassager 1987, table 7.3-3, without its differences of nearly equal numbers) [Pa s].
+inline double steady_viscosity(const PolymerMode& mode, double shear_rate) {
+  const double alpha = std::min(mode.mobility, 1 - 1e-6);  // at 1 it is a limit
+  const double Wi = mode.relaxation_time * shear_rate, a = 8 * alpha * (1 - alpha) * Wi * Wi;
+  const double root = std::sqrt(1 + 2 * a) + 1, chi = std::sqrt(2 / root);
+  const double f = 2 * a / (root * root * (1 + chi) * (1 + (1 - 2 * alpha) * chi));
+  return mode.polymer_viscosity * (1 - f) * (1 - f) / (1 + (1 - 2 * alpha) * f);
 }
 
 struct Viscoelasticity {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "common/case/case_file.hpp"
+#include "fluid_solver/stability_warnings.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 #include "tests/validation/developed_flow.hpp"
 
@@ -56,6 +57,13 @@ TEST(PassageFlow, IsThatOfTheExactSolutions) {
   EXPECT_NEAR(w * tau_w / 6000 * (1 - 1.5 * phi + 0.5 * phi * phi * phi), U, 0.01 * U);
 }
 
+TEST(PassageFlow, HasTheSpeedThatItsStressDrives) {
+  Parameters p = putty();
+  p.wall_slip = SlipLaw{.coefficient = 3e-7};
+  for (const Geometry geometry : {Geometry::plane, Geometry::axisymmetric})
+    EXPECT_NEAR(mean_speed(p, passage_flow(p, U, w, geometry).wall_stress, w, geometry) / U, 1, 1e-9);
+}
+
 TEST(PassageFlow, SlidesByTheLaw) {
   Parameters p = putty();
   p.wall_slip = SlipLaw{3e-7};  // 0.05 = G (b w/2 + w^2/(12 mu)), tau_w = G w/2
@@ -105,22 +113,32 @@ TEST(Similarity, KeepsWeightAndWhatTheCaseSays) {
   EXPECT_EQ(said.friction->regularisation_speed, 3);
 }
 
+Parameters read_slit(const std::vector<std::string>& overrides) {
+  CaseFile file(std::string(CASES "/abrasive_slit"), overrides);
+  const Scene scene = read_scene(file);
+  Parameters p;
+  file.read("fluid", p, "");
+  file.throw_if_faulty();
+  return p;
+}
+
 TEST(Similarity, TakesADiscretisationOfItsOwnUnlessTheCaseSaysAnother) {
-  const auto read = [](const std::vector<std::string>& overrides) {
-    CaseFile file(std::string(CASES "/abrasive_slit"), overrides);
-    const Scene scene = read_scene(file);
-    Parameters p;
-    file.read("fluid", p, "");
-    file.throw_if_faulty();
-    return p;
-  };
-  const Parameters chosen = read({});
+  const Parameters chosen = read_slit({});
   EXPECT_EQ(chosen.kernel, KernelForm::wendland_c2);
   EXPECT_EQ(chosen.smoothing_ratio, 2);
   EXPECT_EQ(chosen.time_step_share, 4.5);
-  const Parameters said = read({"fluid.time_step_share=1.5", "fluid.kernel=\"cubic_spline\""});
+  const Parameters said = read_slit({"fluid.time_step_share=1.5", "fluid.kernel=\"cubic_spline\""});
   EXPECT_EQ(said.time_step_share, 1.5);
   EXPECT_EQ(said.kernel, KernelForm::cubic_spline);
+}
+
+TEST(Similarity, ChoosesNoShareThatItsIntegratorDoesNotBear) {
+  const Parameters p = read_slit({"fluid.integrator=\"midpoint\""});
+  EXPECT_EQ(p.time_step_share, 1);
+  EXPECT_THAT(stability_warnings(p, {}), IsEmpty());
+  EXPECT_THAT(
+      stability_warnings(read_slit({"fluid.integrator=\"midpoint\"", "fluid.time_step_share=4.5"}), {}),
+      ElementsAre(HasSubstr("time_step_share 4.5 is beyond")));
 }
 
 std::string fault_of(const Parameters& p, bool with_solid = false) {

@@ -122,11 +122,18 @@ TEST(Giesekus, ThinsUnderShearAsItsClosedForm) {
       const double f = (1 - chi) / (1 + (1 - 2 * alpha) * chi);
       const double eta = mode.modulus() * A.xy / 2;
       EXPECT_NEAR(eta / 3, (1 - f) * (1 - f) / (1 + (1 - 2 * alpha) * f), 1e-6) << alpha << ' ' << Wi;
+      EXPECT_NEAR(steady_viscosity(mode, 2), eta, 3e-6) << alpha << ' ' << Wi;
       const double N_2 = mode.modulus() * (A.yy - 1), N_1 = mode.modulus() * (A.xx - A.yy);
       EXPECT_NEAR(N_2, -f * mode.modulus(), 1e-6 * mode.modulus());
       EXPECT_NEAR(N_1, 2 * 3 * mode.relaxation_time * 4 * f * (1 - alpha * f) / (Wi * Wi * alpha * (1 - f)),
                   1e-5 * N_1);
     }
+}
+
+TEST(Giesekus, HasASteadyViscosityToItsBounds) {
+  EXPECT_DOUBLE_EQ(steady_viscosity({0.5, 3, 0}, 7), 3);         // Oldroyd-B
+  EXPECT_DOUBLE_EQ(steady_viscosity({0.5, 3, 0.2}, 0), 3);       // at rest
+  EXPECT_NEAR(steady_viscosity({0.5, 3, 1}, 4), 3.0 / 5, 1e-4);  // 1/(1 + Wi^2), the limit at alpha = 1
 }
 
 TEST(Polymer, HoldsAndLosesWhatTheStressDoes) {
