@@ -66,6 +66,26 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
   if (parameters_.detachment || parameters_.bonds) watch_bonds();
 }
 
+void SolidModel::bear_pressures(const std::vector<Vec>& areas) {
+  for (const auto& load : parameters_.loads) {
+    if (load.pressure == 0) continue;
+    pressed_.resize(particle_count(), Vec::Zero());
+    // The sums of two kernels: a particle's, and those of its neighbours.
+    for (const auto i : body_.below_surface(load.box, 4.0 * parameters_.h())) {
+      const Vec a = -load.pressure / mass(i) * areas[i];
+      pressed_[i] += a;
+      constant_[i] += a;
+    }
+  }
+  state_.idle_external = constant_[state_.number.back()];
+  find_external();
+  state_.load_sum = sum_of_loads();
+}
+
+Vec SolidModel::steady_acceleration(std::size_t particle) const {
+  return pressed_.empty() ? gravity_ : Vec(gravity_ + pressed_[particle]);
+}
+
 Vec SolidModel::initial_velocity(std::size_t particle) const {
   const auto& of_region = parameters_.regions[body_.region[particle]].initial_velocity;
   const auto& velocity = of_region ? of_region : parameters_.initial_velocity;

@@ -142,6 +142,10 @@ class SolidModel : public Solver {
             impedance_work, past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy);
   }
 
+  /// Adds the pressures that act for ever to the loads; `areas` are the vectors of all particles' surfaces
+  /// [m].
+  void bear_pressures(const std::vector<Vec>& areas);
+  Vec steady_acceleration(std::size_t particle) const;  ///< by gravity and constant pressures [m/s2]
   /// Adds to the external acceleration what the interface's impedance z makes of it in a step `dt` [s]:
   ///
   ///     m a = -z n n.(w - w_c),   w = v + dt/2 (a_rest - z/m n n.(w - w_c))
@@ -201,6 +205,7 @@ class SolidModel : public Solver {
   void observe_bonds(std::vector<Observation>& row) const;
 
   std::vector<Vec> constant_;  ///< acceleration by gravity and constant loads, by number [m/s2]
+  std::vector<Vec> pressed_;   ///< of it what constant pressures do; empty without any
   double first_energy_ = 0;    ///< kinetic, of the start [J/m]
   std::vector<std::pair<PointObserver, MaterialPoint>> observers_;
   std::vector<std::uint32_t> held_;  ///< numbers of the held particles

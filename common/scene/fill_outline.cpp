@@ -168,7 +168,6 @@ FittedFilling fill_outline(const Outline& outline, double spacing, const std::fu
     ++filling.rounds;
     const double largest = relaxation.round();
     if (told) told(static_cast<double>(filling.rounds) / most_rounds);
-    if (getenv("TRACE") && filling.rounds % 50 == 0) printf("%d %g\n", filling.rounds, largest);
     if (largest < converged) break;
   }
   return filling;
