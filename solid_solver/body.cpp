@@ -112,8 +112,7 @@ bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std:
   return false;
 }
 
-/// Of the outlines of all regions what no other region lies beside.
-void find_fitted_surface(Body& body) {
+void find_outlined_surface(Body& body) {
   Box bounds = body.outlines[0].bounds();
   for (const Outline& outline : body.outlines) {
     bounds.min = bounds.min.cwiseMin(outline.bounds().min);
@@ -121,23 +120,37 @@ void find_fitted_surface(Body& body) {
   }
   PlaceIndex index(bounds, furthest_particle * body.spacing);
   for (std::uint32_t i = 0; i < body.size(); ++i) index.add(body.X[i], i);
-  for (const Outline& outline : body.outlines)
-    for (const SurfacePiece& piece : surface_pieces(outline, longest_piece * body.spacing)) {
-      const Vec normal = piece.area.normalized();
-      if (body.contains(piece.place + beside * body.spacing * normal)) continue;
-      std::optional<std::uint32_t> nearest;
-      index.about(piece.place, [&](std::uint32_t i) {
-        const auto distance = [&](std::uint32_t k) { return (body.X[k] - piece.place).squaredNorm(); };
-        if (!nearest || distance(i) < distance(*nearest)) nearest = i;
-      });
-      body.outside.push_back(piece.place + 0.5 * body.spacing * normal);
-      if (nearest) body.area_vector[*nearest] += piece.area;
+  const Vec margin = Vec::Constant(body.spacing);
+  for (const SurfacePiece& piece : body.surface({bounds.min - margin, bounds.max + margin})) {
+    body.outside.push_back(piece.place + 0.5 * body.spacing * piece.area.normalized());
+    std::optional<std::uint32_t> nearest;
+    index.about(piece.place, [&](std::uint32_t i) {
+      const auto distance = [&](std::uint32_t k) { return (body.X[k] - piece.place).squaredNorm(); };
+      if (!nearest || distance(i) < distance(*nearest)) nearest = i;
+    });
+    if (nearest) body.area_vector[*nearest] += piece.area;
+  }
+}
+
+void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
+  if (load.pressure == 0) {
+    if (body.inside(load.box).empty())
+      tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
+    return;
+  }
+  const auto surface = body.surface(load.box);
+  if (surface.empty())
+    tell_fault("solid.load", fmt::format("load '{}' acts on no surface of the solid", load.name));
+  for (const SurfacePiece& piece : surface) try {
+      MaterialPoint(piece.place, body.X, 2.0 * h, body.shape);
+    } catch (const std::invalid_argument& error) {
+      return tell_fault("solid.load", fmt::format("load '{}': {}", load.name, error.what()));
     }
 }
 
 void find_surface(Body& body) {
   body.area_vector.assign(body.size(), Vec::Zero());
-  if (body.has_outline()) return find_fitted_surface(body);
+  if (body.has_outline()) return find_outlined_surface(body);
   // Half a spacing and a little: where regions meet, their columns need not face each other.
   OccupancyIndex places(0.6 * body.spacing);
   places.take(body.X, "");
@@ -175,11 +188,12 @@ std::optional<Outline::Foot> Body::foot(const Vec& x) const {
   return nearest;
 }
 
-std::vector<std::uint32_t> Body::below_surface(const Box& box, double reach) const {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < size(); ++i)
-    if (const auto at = foot(X[i]); at && -at->distance < reach && box.contains(at->place))
-      found.push_back(i);
+std::vector<SurfacePiece> Body::surface(const Box& box) const {
+  std::vector<SurfacePiece> found;
+  for (const Outline& outline : outlines)
+    for (const SurfacePiece& piece : surface_pieces(outline, longest_piece * spacing))
+      if (box.contains(piece.place) && !contains(piece.place + beside * spacing * piece.area.normalized()))
+        found.push_back(piece);
   return found;
 }
 
@@ -243,11 +257,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
     body.counts.emplace_back("clamp " + clamp.name, particles.size());
   }
   if (body.size() > 0) find_surface(body);
-  for (const auto& load : parameters.loads)
-    if (load.pressure != 0 ? body.below_surface(load.box, body.spacing).empty()
-                           : body.inside(load.box).empty())
-      tell_fault("solid.load", fmt::format("load '{}' acts on no {} of the solid", load.name,
-                                           load.pressure != 0 ? "surface" : "particle"));
+  for (const auto& load : parameters.loads) check_load(load, body, parameters.h(), tell_fault);
   for (const auto& observer : parameters.observers) try {
       MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape);
     } catch (const std::invalid_argument& error) {

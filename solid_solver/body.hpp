@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/scene/outline.hpp"
+#include "common/scene/fill_outline.hpp"
 #include "solid_solver/parameters.hpp"
 #include "solid_solver/shape.hpp"
 
@@ -44,8 +44,8 @@ struct Body {
   /// The point of the surface that is nearest to `x` [m]: none in a body without an outline.
   std::optional<Outline::Foot> foot(const Vec& x) const;
   std::vector<std::uint32_t> inside(const Box& box) const;  ///< numbers of the particles in a box
-  /// Numbers of the particles no deeper than `reach` [m] below the part of the surface that lies in a box.
-  std::vector<std::uint32_t> below_surface(const Box& box, double reach) const;
+  /// The pieces of the surface in a box: none in a body without an outline.
+  std::vector<SurfacePiece> surface(const Box& box) const;
   /// Numbers of the particles that have an empty lattice site within `reach` [m]: those that a fluid with
   /// that reach can touch.
   std::vector<std::uint32_t> near_surface(double reach) const;

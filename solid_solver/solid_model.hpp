@@ -142,9 +142,6 @@ class SolidModel : public Solver {
             impedance_work, past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy);
   }
 
-  /// Adds the pressures that act for ever to the loads; `areas` are the vectors of all particles' surfaces
-  /// [m].
-  void bear_pressures(const std::vector<Vec>& areas);
   Vec steady_acceleration(std::size_t particle) const;  ///< by gravity and constant pressures [m/s2]
   /// Adds to the external acceleration what the interface's impedance z makes of it in a step `dt` [s]:
   ///
@@ -189,6 +186,10 @@ class SolidModel : public Solver {
   std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
 
  private:
+  /// Adds constant pressures to the loads. What acts at a point of the surface is shared by the particles
+  /// with the weights by which they make up the displacement there: its work is then that of the surface, and
+  /// no layer below it gives way, as the first row does where it bears a load alone.
+  void bear_pressures();
   void find_slots();     ///< and what stands in them, after the numbers have changed
   void find_external();  ///< after the numbers or the loads have changed
   Vec initial_velocity(std::size_t particle) const;  ///< [m/s]

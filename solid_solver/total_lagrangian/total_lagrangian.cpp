@@ -26,7 +26,6 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
                                             Held{mobile_, cells, body_.has_outline()}, body_.shape);
   resize_fields(form_, size);
   resize(T_, size);
-  bear_pressures(pair_areas());
   find_recovered_points();
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
@@ -36,21 +35,6 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
   resize(x_, size);
 #pragma omp parallel
   evaluate();
-}
-
-std::vector<Vec> TotalLagrangian::pair_areas() const {
-  VecField u;
-  resize(u, padded(particle_count()));
-  Tensor<Field> L;
-  resize(L, padded(particle_count()));
-  for (std::size_t c = 0; c < clusters(); ++c) store(pairs_->shape(c), L, c * lane_count);
-  std::vector<Vec> areas(particle_count());
-  for (std::size_t c = 0; c < clusters(); ++c) {
-    const VecLanes sum = pairs_->force_density(u, L, 0.0, c);
-    for (std::size_t k = c * lane_count; k < std::min((c + 1) * lane_count, particle_count()); ++k)
-      areas[state_.number[k]] = -volume_[k] * Vec(sum[0][k % lane_count], sum[1][k % lane_count]);
-  }
-  return areas;
 }
 
 void TotalLagrangian::save() {

@@ -47,10 +47,6 @@ class TotalLagrangian final : public SolidModel {
   Stress stress_at(std::size_t observer) const override;
 
  private:
-  /// The area vectors of the particles as the sums over pairs know them [m]: A_i = -V_i sum_j V_j (L_i + L_j)
-  /// gradW_ij. They spread over the kernel, and are zero inside. Loads -p A_i hold a uniform stress -p in
-  /// balance, where loads on the first row alone would leave a layer in which the surface gives way.
-  std::vector<Vec> pair_areas() const;
   void kick_and_drift(double dt);
   void find_stresses();
   void find_accelerations();

@@ -25,7 +25,6 @@ UpdatedLagrangian::UpdatedLagrangian(const Parameters& parameters, const Body& b
       skin_(skin_ratio * parameters.h()) {
   const std::size_t size = padded(particle_count());
   resize_fields(form_.particles, size);
-  bear_pressures(body_.area_vector);
   resize_fields(form_.rates, size);
   resize_fields(form_, size);
   resize_fields(start_, size);
