@@ -52,7 +52,7 @@ void run_windows(const CaseFile& file, const Scene& scene, const Settings& setti
     beginning.restart = std::filesystem::relative(checkpoints.restart->folder, settings.out).string();
   }
   write_atomically(settings.out / "used_case.toml", checkpoints.case_text);
-  copy_references(scene, file, settings.out);
+  copy_named_files(file, settings.out);
   run.run(link.begin(beginning), checkpoints);
 }
 

@@ -45,7 +45,7 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
   claim_folder(options, "fluid");
   CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());
-  copy_references(scene, file, options.out);
+  copy_named_files(file, options.out);
   RunRecord record("fluid", options, scene, model, particle_counts(model), model.timers());
   checkpoints.resume(record);
   run_recorded(record, [&] { run_alone(scene, model, record, 1, checkpoints); });

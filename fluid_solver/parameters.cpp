@@ -37,13 +37,14 @@ double Parameters::strip_width() const {
 
 void describe(ParameterTable& table, Region& region) {
   table.text("name", region.name, {.required = true, .help = "name in the log"});
-  table.group("box", region.box, "filled with fluid at the start");
+  describe_shape(table, region.shape, region.box, "filled with fluid at the start");
   table.vector("velocity", region.velocity, {.unit = "m/s", .help = "velocity at the start"});
 }
 
 void describe(ParameterTable& table, Hole& hole) {
   table.text("name", hole.name, {.help = "by which a case with this one as its base means it"});
-  describe(table, static_cast<Box&>(hole));
+  if (!describe_optional_shape(table, hole.shape, hole, "cut out of the fluid, as by 'min' and 'max'"))
+    describe(table, static_cast<Box&>(hole));
 }
 
 void describe(ParameterTable& table, InitialFlow& flow) {
@@ -128,13 +129,17 @@ void describe(ParameterTable& table, Observer& observer) {
            "what is "
            "in `box`, however wide the passage is in it"});
   table.vector("point", observer.point, {.unit = "m", .help = "where the pressure is probed"});
-  table.optional("box", observer.box,
-                 "where a flow rate or a void is taken, to be full of fluid, or a volume flux");
+  Box box = observer.box.value_or(Box{});
+  if (describe_optional_shape(table, observer.shape, box,
+                              "where a flow rate or a void is taken, to be full of fluid, or a volume flux"))
+    observer.box = box;
   table.choice("axis", observer.axis, {"x", "y"}, {.help = "direction in which a flow counts"});
   table.require(observer.quantity != Quantity::flow_rate || observer.box, "quantity",
                 "a flow rate needs a 'box'");
   table.require(observer.quantity != Quantity::volume_flux || observer.box, "quantity",
                 "a volume flux needs a 'box'");
+  table.require(observer.quantity == Quantity::largest_void || !observer.box || !observer.box->outline,
+                "quantity", "of an outline there is a largest_void alone: a flow is taken in a 'box'");
   table.require(observer.quantity != Quantity::largest_void || observer.box, "quantity",
                 "a largest void needs a 'box'");
 }
@@ -212,7 +217,7 @@ void describe_terms(ParameterTable& table, Parameters& p) {
 
 /// Whether the fluid is one square without holes.
 bool is_square(const Parameters& p) {
-  if (p.regions.size() != 1 || !p.holes.empty() || p.regions.front().box.round) return false;
+  if (p.regions.size() != 1 || !p.holes.empty() || !p.regions.front().box.is_rectangle()) return false;
   const Vec side = p.regions.front().box.max - p.regions.front().box.min;
   return std::abs(side[0] - side[1]) < 0.5 * p.spacing;
 }

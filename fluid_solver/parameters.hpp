@@ -15,17 +15,19 @@
 
 namespace toryu::fluid {
 
-/// A box filled with fluid at the start.
+/// A box or another shape filled with fluid at the start.
 struct Region {
   std::string name;
   Box box;
   Vec velocity = Vec::Zero();  ///< at the start [m/s]
+  BodyShape shape = {};
 };
 void describe(ParameterTable& table, Region& region);
 
-/// A box cut out of the fluid.
+/// A box or another shape cut out of the fluid.
 struct Hole : Box {
   std::string name;  ///< by which a case that builds on this one replaces it; empty if it has none
+  BodyShape shape = {};
 };
 void describe(ParameterTable& table, Hole& hole);
 
@@ -77,6 +79,7 @@ struct Observer {
   Vec point = Vec::Zero();  ///< [m], of a pressure probe
   std::optional<Box> box;   ///< of a flow rate, a volume flux, a largest void
   Axis axis = Axis::y;      ///< of a flow rate, a volume flux
+  BodyShape shape = {};
 };
 void describe(ParameterTable& table, Observer& observer);
 

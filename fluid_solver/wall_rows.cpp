@@ -33,8 +33,8 @@ Box mirrored(const Box& box) {
 /// `axis`.
 bool lies_on(const Box& wall, double face, const Box& box, int axis, double spacing) {
   const int along = 1 - axis;
-  return !box.round && std::abs(face - wall.max[axis]) < 0.5 * spacing && box.min[along] < wall.max[along] &&
-         box.max[along] > wall.min[along];
+  return box.is_rectangle() && std::abs(face - wall.max[axis]) < 0.5 * spacing &&
+         box.min[along] < wall.max[along] && box.max[along] > wall.min[along];
 }
 
 /// Whether fluid starts on that face of `wall` that lies towards positive `axis`: a region does, or a hole
@@ -57,7 +57,8 @@ bool touches(const Box& wall, Blocks fluid, int axis, double spacing) {
 
 /// Whether a wall, filled from its smallest corner, ends beside the face along `axis` that fluid starts on.
 bool is_misplaced(const Wall& wall, int axis, const Parameters& p) {
-  return !wall.box.round && off_rows(wall.box.max[axis] - wall.box.min[axis], p.spacing) > row_tolerance &&
+  return wall.box.is_rectangle() &&
+         off_rows(wall.box.max[axis] - wall.box.min[axis], p.spacing) > row_tolerance &&
          starts_on(wall.box, blocks_of(p), axis, p.spacing);
 }
 
@@ -79,7 +80,7 @@ bool is_out_of_line(const Wall& wall, int axis, const Parameters& p, const Vec& 
 }
 
 bool takes_rows_of_fluid(const Wall& wall, const Parameters& p, const Vec& gravity) {
-  if (wall.box.round) return false;
+  if (!wall.box.is_rectangle()) return false;
   for (const int axis : {0, 1})
     if (is_misplaced(wall, axis, p) || is_out_of_line(wall, axis, p, gravity)) return true;
   return false;

@@ -48,7 +48,7 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
   claim_folder(options, "solid");
   CheckpointsAlone checkpoints(options, scene, file.used());
   write_atomically(options.out / "used_case.toml", file.used());
-  copy_references(scene, file, options.out);
+  copy_named_files(file, options.out);
   RunRecord record("solid", options, scene, model, particle_counts(model), model.timers());
   list_detached(options, parameters, model);
   checkpoints.resume(record);

@@ -6,12 +6,12 @@ namespace toryu::solid {
 
 void describe(ParameterTable& table, NamedBox& box) {
   table.text("name", box.name, {.required = true, .help = "as the log calls it"});
-  table.group("box", box.box, "its corners");
+  describe_shape(table, box.shape, box.box, "its corners");
 }
 
 void describe(ParameterTable& table, Region& region) {
   table.text("name", region.name, {.required = true, .help = "name of the region", .names_columns = true});
-  table.group("box", region.box, "its corners");
+  describe_shape(table, region.shape, region.box, "its corners");
   table.optional("initial_velocity", region.initial_velocity,
                  "velocity of this region at the start; absent: that of the whole solid");
   table.flag("observed", region.observed,
@@ -20,11 +20,13 @@ void describe(ParameterTable& table, Region& region) {
 
 void describe(ParameterTable& table, BoxLoad& load) {
   table.text("name", load.name, {.required = true, .help = "name of the load"});
-  table.group("box", load.box, "the particles in it share the force equally");
-  table.number("pressure", load.pressure,
-               {.unit = "Pa",
-                .help = "in the place of a force: on the surface that lies in the box, as large and directed "
-                        "as that is in the unloaded body"});
+  describe_shape(table, load.shape, load.box, "the particles in it share the force equally");
+  if (table.wants(load.pressure != 0))
+    table.number(
+        "pressure", load.pressure,
+        {.unit = "Pa",
+         .help = "in the place of a force: on the surface that lies in the box, as large and directed "
+                 "as that is in the unloaded body"});
   table.vector("force", load.force,
                {.unit = "N/m", .required = load.pressure == 0, .help = "force per metre of depth"});
   table.require(load.pressure == 0 || load.force.isZero(0), "pressure",

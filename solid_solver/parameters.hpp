@@ -29,6 +29,7 @@ enum class Gradients { plain, renormalised };
 struct NamedBox {
   std::string name;
   Box box;
+  BodyShape shape = {};
 };
 void describe(ParameterTable& table, NamedBox& box);
 
@@ -38,6 +39,7 @@ struct Region {
   Box box;
   std::optional<InitialVelocity> initial_velocity = std::nullopt;  ///< absent: that of the whole solid
   bool observed = false;  ///< whether a run reports where its centre of mass is and how fast
+  BodyShape shape = {};
 };
 void describe(ParameterTable& table, Region& region);
 
@@ -48,6 +50,7 @@ struct BoxLoad {
   Box box;
   Vec force = Vec::Zero();  ///< [N per metre depth]
   double pressure = 0;      ///< [Pa]
+  BodyShape shape = {};
 };
 void describe(ParameterTable& table, BoxLoad& load);
 

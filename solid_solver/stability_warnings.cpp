@@ -37,8 +37,9 @@ double thickness(const Parameters& p, const Region& region, int axis) {
   double low = region.box.min[axis], high = region.box.max[axis];
   for (bool grows = true; grows;) {
     grows = false;
-    for (const auto& [name, box, velocity, observed] : p.regions) {
-      const bool touches = !box.round && box.min[across] <= middle && box.max[across] > middle &&
+    for (const Region& other : p.regions) {
+      const Box& box = other.box;
+      const bool touches = box.is_rectangle() && box.min[across] <= middle && box.max[across] > middle &&
                            box.min[axis] <= high + rounding && box.max[axis] >= low - rounding;
       if (!touches || (box.min[axis] >= low && box.max[axis] <= high)) continue;
       low = std::min(low, box.min[axis]);
@@ -57,7 +58,7 @@ double fewest_rows(const Parameters& p) {
       return (clamp.box.min.array() <= region.box.min.array()).all() &&
              (clamp.box.max.array() >= region.box.max.array()).all();
     });
-    if (!held && !region.box.round)
+    if (!held && region.box.is_rectangle())
       fewest = std::min({fewest, thickness(p, region, 0) / p.spacing, thickness(p, region, 1) / p.spacing});
   }
   return std::round(fewest);

@@ -1,6 +1,7 @@
 #include "common/case/case_file.hpp"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -10,6 +11,7 @@
 #include "common/case/overrides.hpp"
 #include "common/case/read_table.hpp"
 #include "common/case/text_file.hpp"
+#include "common/case/text_hash.hpp"
 #include "common/case/write_table.hpp"
 
 namespace toryu {
@@ -59,6 +61,17 @@ void add_places(const toml::node& node, const toml::array& path, toml::array& pl
     for (std::size_t i = 0; i < array->size(); ++i)
       if (const toml::node& inner = *array->get(i); inner.is_table())
         add(static_cast<std::int64_t>(i), inner.source(), inner);
+}
+
+void add_named_files(const toml::node& node, const std::filesystem::path& folder,
+                     std::set<std::string>& names) {
+  if (const toml::table* table = node.as_table()) {
+    const auto name = (*table)["file"].value_exact<std::string>();
+    if (name && fault_of_name(folder, *name).empty()) names.insert(*name);
+    for (const auto& [key, inner] : *table) add_named_files(inner, folder, names);
+  } else if (const toml::array* array = node.as_array()) {
+    for (const toml::node& inner : *array) add_named_files(inner, folder, names);
+  }
 }
 
 /// Parses `file` and, if it names a `base`, puts it into that. Appends what was read to `text` and `inputs`.
@@ -143,7 +156,7 @@ void CaseFile::visit(const std::function<void(ParameterTable&)>& description) {
   // In this order: the description shows the defaults, the used case what has been read.
   DescribeTable described;
   description(described);
-  ReadTable read(&content_->root, "", "", content_->start, content_->faults);
+  ReadTable read(&content_->root, "", "", content_->start, {folder(), content_->faults});
   description(read);
   WriteTable written;
   description(written);
@@ -161,6 +174,12 @@ std::optional<Value> CaseFile::value(const std::string& path) const {
 template std::optional<bool> CaseFile::value(const std::string& path) const;
 template std::optional<double> CaseFile::value(const std::string& path) const;
 template std::optional<std::string> CaseFile::value(const std::string& path) const;
+
+void CaseFile::look(const std::string& path, const std::function<void(ParameterTable&)>& description) const {
+  std::vector<InputError> unsaid;
+  ReadTable read(content_->root.at_path(path).as_table(), path, "", content_->start, {folder(), unsaid});
+  description(read);
+}
 
 std::size_t CaseFile::count(const std::string& list) const {
   const toml::array* array = content_->root.at_path(list).as_array();
@@ -251,15 +270,20 @@ std::string CaseFile::description() const {
 }
 
 std::uint64_t CaseFile::hash() const {
-  // FNV-1a (Fowler, Noll, Vo), the same on every machine.
-  std::uint64_t hash = 14695981039346656037u;
-  const auto add = [&](const std::string& text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    hash = (hash ^ 0xffu) * 1099511628211u;  // no UTF-8 text holds this byte: it ends a text
-  };
-  add(content_->text);
-  for (const auto& text : content_->overrides) add(text);
-  return hash;
+  TextHash hash;
+  hash.add(content_->text);
+  for (const auto& text : content_->overrides) hash.add(text);
+  for (const auto& name : named_files()) {
+    hash.add(name);
+    hash.add(read_text(folder() / name, largest_reference));
+  }
+  return hash.value();
+}
+
+std::vector<std::string> CaseFile::named_files() const {
+  std::set<std::string> names;
+  add_named_files(content_->root, folder(), names);
+  return {names.begin(), names.end()};
 }
 
 const std::vector<std::filesystem::path>& CaseFile::inputs() const {

@@ -53,6 +53,9 @@ class CaseFile {
   /// "solid.region[0].box.min[1]"), if it is there: for checks and estimates, never for what is computed.
   template <class Value>
   std::optional<Value> value(const std::string& path) const;
+  /// Reads the item at `path` ("solid.region[0]") as its owner's description has it, for the same purposes.
+  /// Faults are left to the owner.
+  void look(const std::string& path, const std::function<void(ParameterTable&)>& description) const;
   /// How many items the list of another participant ("solid.region") has.
   std::size_t count(const std::string& list) const;
   /// Adds a fault that the owner of a section found by itself, at the place of `key`: a path with items by
@@ -73,10 +76,13 @@ class CaseFile {
   /// The sections read so far as a table of key, unit, default, range and help.
   std::string description() const;
 
-  /// A hash of the text and the overrides, equal in all participants of a run.
+  /// A hash of the text, the overrides and the files that the case names, equal in all participants of a run.
   std::uint64_t hash() const;
   /// The files that were read: the case's own and its base.
   const std::vector<std::filesystem::path>& inputs() const;
+  /// The files that the case names by a key `file` in any of its sections, relative to its folder, sorted;
+  /// none that is not there.
+  std::vector<std::string> named_files() const;
   /// The folder of the file: paths in a case are relative to it.
   std::filesystem::path folder() const;
   /// The folder's name: the case's.

@@ -38,8 +38,16 @@ void DescribeTable::vector(const std::string& key, Vec& value, const NumberRule&
 
 void DescribeTable::rows(const std::string& key, std::vector<std::vector<double>>& value,
                          const std::vector<std::string>& columns, const TextRule& rule) {
-  add(key, rule.required, fmt::format("{}", value),
-      fmt::format("rows of {} numbers ({})", columns.size(), fmt::join(columns, ", ")), rule.help);
+  add(key, rule.required, fmt::format("{}", value), rows_kind(columns), rule.help);
+}
+
+void DescribeTable::tables(const std::string& key, std::vector<std::vector<std::vector<double>>>& value,
+                           const std::vector<std::string>& columns, const TextRule& rule) {
+  add(key, rule.required, fmt::format("{}", value), "lists of " + rows_kind(columns), rule.help);
+}
+
+void DescribeTable::file(const std::string& key, InputFile& value, const TextRule& rule) {
+  add(key, rule.required, "'" + value.name + "'", "a file in the folder of the case", rule.help);
 }
 
 void DescribeTable::word(const std::string& key, int& index, const std::vector<std::string>& words,

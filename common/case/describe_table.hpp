@@ -19,6 +19,9 @@ class DescribeTable final : public ParameterTable {
   void vector(const std::string& key, Vec& value, const NumberRule& rule) override;
   void rows(const std::string& key, std::vector<std::vector<double>>& value,
             const std::vector<std::string>& columns, const TextRule& rule) override;
+  void tables(const std::string& key, std::vector<std::vector<std::vector<double>>>& value,
+              const std::vector<std::string>& columns, const TextRule& rule) override;
+  void file(const std::string& key, InputFile& value, const TextRule& rule) override;
   void require(bool, const std::string&, const std::string&) override {}
 
   /// The keys of this section in columns, then its sub-sections.

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "common/case/input_file.hpp"
 #include "common/vector.hpp"
 
 namespace toryu {
@@ -66,6 +67,13 @@ class ParameterTable {
   virtual void rows(const std::string& key, std::vector<std::vector<double>>& value,
                     const std::vector<std::string>& columns, const TextRule& rule) = 0;
 
+  /// Several such tables: the rings of a polygon's holes, say.
+  virtual void tables(const std::string& key, std::vector<std::vector<std::vector<double>>>& value,
+                      const std::vector<std::string>& columns, const TextRule& rule) = 0;
+  /// A file in the folder of the case, read at once. The key must be called `file`, by which the case knows
+  /// what it names (CaseFile::named_files).
+  virtual void file(const std::string& key, InputFile& value, const TextRule& rule) = 0;
+
   /// One of a few words. The order of `words` is that of the enum's values.
   template <class Enum>
   void choice(const std::string& key, Enum& value, const std::vector<std::string>& words,
@@ -112,6 +120,9 @@ class ParameterTable {
   /// A check that joins several parameters ("max must exceed min"); reported at `key`, which may be a path
   /// ("box.max"), only when reading, and not if a parameter of the section is faulty by itself.
   virtual void require(bool holds, const std::string& key, const std::string& message) = 0;
+
+  /// Whether to visit a key that few items have: what is written leaves it out unless it is `given`.
+  virtual bool wants(bool /*given*/) const { return true; }
 
  protected:
   virtual void word(const std::string& key, int& index, const std::vector<std::string>& words,

@@ -9,17 +9,19 @@
 
 #include "common/case/nearest_word.hpp"
 #include "common/case/rule_text.hpp"
+#include "common/case/text_file.hpp"
 
 namespace toryu {
 
 ReadTable::ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
-                     std::vector<InputError>& faults)
+                     const Reading& reading)
     : table_(table),
       path_(std::move(path)),
       where_(std::move(where)),
       place_(std::move(place)),
-      faults_(faults),
-      faults_apart_(faults.size()) {}
+      reading_(reading),
+      faults_(reading.faults),
+      faults_apart_(reading.faults.size()) {}
 
 void ReadTable::number(const std::string& key, double& value, const NumberRule& rule) {
   const toml::node* node = find(key, rule.required, number_kind("a number", rule), rule.help);
@@ -82,17 +84,40 @@ void ReadTable::vector(const std::string& key, Vec& value, const NumberRule& rul
 
 void ReadTable::rows(const std::string& key, std::vector<std::vector<double>>& value,
                      const std::vector<std::string>& columns, const TextRule& rule) {
-  const std::string row_kind =
-      fmt::format("rows of {} numbers ({})", columns.size(), fmt::join(columns, ", "));
-  const toml::node* node = find(key, rule.required, row_kind, rule.help);
+  const std::string kind = rows_kind(columns);
+  const toml::node* node = find(key, rule.required, kind, rule.help);
+  if (!node) return;
+  if (auto read = checked_rows(key, *node, columns.size(), kind, place_of_key(key))) value = std::move(*read);
+}
+
+void ReadTable::tables(const std::string& key, std::vector<std::vector<std::vector<double>>>& value,
+                       const std::vector<std::string>& columns, const TextRule& rule) {
+  const std::string kind = "lists of " + rows_kind(columns);
+  const toml::node* node = find(key, rule.required, kind, rule.help);
   if (!node) return;
   const toml::array* array = node->as_array();
-  if (!array) return wrong_type(key, row_kind, *node, place_of_key(key));
-  std::vector<std::vector<double>> read;
-  for (const auto& row : *array)
-    if (const auto numbers = checked_numbers(key, row, columns.size(), {}, row_kind, row.source()))
-      read.push_back(*numbers);
-  if (read.size() == array->size()) value = read;
+  if (!array) return wrong_type(key, kind, *node, place_of_key(key));
+  std::vector<std::vector<std::vector<double>>> read;
+  for (const auto& rows : *array)
+    if (auto table = checked_rows(key, rows, columns.size(), kind, rows.source()))
+      read.push_back(std::move(*table));
+  if (read.size() == array->size()) value = std::move(read);
+}
+
+void ReadTable::file(const std::string& key, InputFile& value, const TextRule& rule) {
+  const toml::node* node = find(key, rule.required, "a file", rule.help);
+  if (!node) return;
+  const auto name = checked_text(key, *node, {}, place_of_key(key));
+  if (!name) return;
+  if (const std::string wrong = fault_of_name(reading_.folder, *name); !wrong.empty())
+    return fault(place_of_key(key), wrong);
+  InputFile read{.name = *name, .path = reading_.folder / *name};
+  try {
+    read.text = read_text(read.path, largest_reference);
+  } catch (const BadInput& error) {
+    return fault(place_of_key(key), fmt::format("'{}' {}", *name, error.errors()[0].message));
+  }
+  value = std::move(read);
 }
 
 void ReadTable::word(const std::string& key, int& index, const std::vector<std::string>& words,
@@ -126,7 +151,7 @@ void ReadTable::required_section(const std::string& key, const std::string& help
 void ReadTable::read_section(const toml::table* table, const std::string& key,
                              const std::function<void(ParameterTable&)>& visit) {
   const std::string path = path_of(key);
-  ReadTable inner(table, path, " in [" + path + "]", table ? place_of_key(key) : place_, faults_);
+  ReadTable inner(table, path, " in [" + path + "]", table ? place_of_key(key) : place_, reading_);
   visit(inner);
   inner.report_unknown_keys();
 }
@@ -147,7 +172,7 @@ void ReadTable::items(const std::string& key, std::size_t /*count*/, const std::
       wrong_type(key, "a list of sections " + header, item, place);
       continue;
     }
-    ReadTable inner(item.as_table(), path_of(key), " in " + header, place, faults_);
+    ReadTable inner(item.as_table(), path_of(key), " in " + header, place, reading_);
     visit(i, inner);
     inner.report_unknown_keys();
   }
@@ -259,6 +284,24 @@ std::optional<std::vector<double>> ReadTable::checked_numbers(const std::string&
     if (const auto value = checked_number(key, item, rule, item.source())) values.push_back(*value);
   if (values.size() != count) return std::nullopt;
   return values;
+}
+
+std::optional<std::vector<std::vector<double>>> ReadTable::checked_rows(const std::string& key,
+                                                                        const toml::node& node,
+                                                                        std::size_t columns,
+                                                                        const std::string& kind,
+                                                                        const toml::source_region& place) {
+  const toml::array* array = node.as_array();
+  if (!array) {
+    wrong_type(key, kind, node, place);
+    return std::nullopt;
+  }
+  std::vector<std::vector<double>> read;
+  for (const auto& row : *array)
+    if (const auto numbers = checked_numbers(key, row, columns, {}, kind, row.source()))
+      read.push_back(*numbers);
+  if (read.size() != array->size()) return std::nullopt;
+  return read;
 }
 
 std::string ReadTable::path_of(const std::string& key) const {

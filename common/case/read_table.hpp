@@ -6,12 +6,18 @@
 
 namespace toryu {
 
+/// Where what is read stands, and where faults of it go.
+struct Reading {
+  std::filesystem::path folder;  ///< of the case
+  std::vector<InputError>& faults;
+};
+
 class ReadTable final : public ParameterTable {
  public:
   /// `table` is null where the case has no such section; `path` is its dotted name, `where` the same for a
   /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported.
   ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
-            std::vector<InputError>& faults);
+            const Reading& reading);
 
   void number(const std::string& key, double& value, const NumberRule& rule) override;
   void integer(const std::string& key, int& value, const NumberRule& rule) override;
@@ -21,6 +27,9 @@ class ReadTable final : public ParameterTable {
   void vector(const std::string& key, Vec& value, const NumberRule& rule) override;
   void rows(const std::string& key, std::vector<std::vector<double>>& value,
             const std::vector<std::string>& columns, const TextRule& rule) override;
+  void tables(const std::string& key, std::vector<std::vector<std::vector<double>>>& value,
+              const std::vector<std::string>& columns, const TextRule& rule) override;
+  void file(const std::string& key, InputFile& value, const TextRule& rule) override;
   void require(bool holds, const std::string& key, const std::string& message) override;
 
   /// Reports the keys that no parameter has asked for.
@@ -55,6 +64,9 @@ class ReadTable final : public ParameterTable {
                                                      std::size_t count, const NumberRule& rule,
                                                      const std::string& kind,
                                                      const toml::source_region& place);
+  std::optional<std::vector<std::vector<double>>> checked_rows(const std::string& key, const toml::node& node,
+                                                               std::size_t columns, const std::string& kind,
+                                                               const toml::source_region& place);
   void read_section(const toml::table* table, const std::string& key,
                     const std::function<void(ParameterTable&)>& visit);
   void require_names_differ(const toml::array& items, const std::string& header);
@@ -63,6 +75,7 @@ class ReadTable final : public ParameterTable {
   const toml::table* table_;
   std::string path_, where_;
   toml::source_region place_;
+  Reading reading_;
   std::vector<InputError>& faults_;
   std::vector<std::string> known_;
   /// Faults there were before this section, plus those of its own joint checks.

@@ -1,6 +1,7 @@
 #include "common/case/rule_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -34,6 +35,10 @@ std::string text_kind(const std::vector<std::string>& allowed) {
 
 std::string texts_kind(const std::vector<std::string>& allowed) {
   return "a list of " + (allowed.empty() ? "texts" : quoted_list(allowed));
+}
+
+std::string rows_kind(const std::vector<std::string>& columns) {
+  return fmt::format("rows of {} numbers ({})", columns.size(), fmt::join(columns, ", "));
 }
 
 bool in_range(double value, const NumberRule& rule) {

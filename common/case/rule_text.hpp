@@ -17,6 +17,8 @@ std::string number_kind(const std::string& kind, const NumberRule& rule);
 std::string text_kind(const std::vector<std::string>& allowed);
 /// "a list of 'a', 'b'", or "a list of texts".
 std::string texts_kind(const std::vector<std::string>& allowed);
+/// "rows of 2 numbers (x [m], y [m])"
+std::string rows_kind(const std::vector<std::string>& columns);
 bool in_range(double value, const NumberRule& rule);
 /// The shortest text that reads back as the same number, with a point or an exponent.
 std::string number_text(double value);

@@ -35,6 +35,10 @@ std::string numbers_text(const std::vector<double>& values) {
   return array_text(values, number_text);
 }
 
+std::string rows_text(const std::vector<std::vector<double>>& rows) {
+  return array_text(rows, numbers_text);
+}
+
 bool finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
@@ -68,7 +72,16 @@ void WriteTable::vector(const std::string& key, Vec& value, const NumberRule& /*
 
 void WriteTable::rows(const std::string& key, std::vector<std::vector<double>>& value,
                       const std::vector<std::string>& /*columns*/, const TextRule& /*rule*/) {
-  add(key, array_text(value, numbers_text));
+  add(key, rows_text(value));
+}
+
+void WriteTable::tables(const std::string& key, std::vector<std::vector<std::vector<double>>>& value,
+                        const std::vector<std::string>& /*columns*/, const TextRule& /*rule*/) {
+  add(key, array_text(value, rows_text));
+}
+
+void WriteTable::file(const std::string& key, InputFile& value, const TextRule& /*rule*/) {
+  add(key, in_quotes(value.name));
 }
 
 void WriteTable::word(const std::string& key, int& index, const std::vector<std::string>& words,

@@ -66,7 +66,8 @@ class Outline {
 /// What is wrong with rings that should be an outline.
 struct OutlineFault {
   std::string message;
-  Vec place;  ///< [m]
+  Vec place;                 ///< [m]
+  std::size_t ring, corner;  ///< from which the edge there comes, counted from 0
 };
 /// The first fault: fewer than three corners, a corner that is there twice, a ring without an area, edges
 /// that cross or touch.

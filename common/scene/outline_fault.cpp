@@ -46,12 +46,12 @@ std::optional<Vec> common_place(const Edge& p, const Edge& q) {
   return (low.array() <= high.array()).all() ? std::optional<Vec>(low) : std::nullopt;
 }
 
-std::optional<OutlineFault> fault_of(const Ring& ring) {
+std::optional<OutlineFault> fault_of(const Ring& ring, std::size_t number) {
   if (ring.size() < 3)
     return OutlineFault{fmt::format("has {} corners; an outline has at least 3", ring.size()),
-                        ring.empty() ? Vec::Zero() : ring[0]};
-  for (const Vec& corner : ring)
-    if (!corner.allFinite()) return OutlineFault{"has a corner that is no number", corner};
+                        ring.empty() ? Vec(Vec::Zero()) : ring[0], number, 0};
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    if (!ring[k].allFinite()) return OutlineFault{"has a corner that is no number", ring[k], number, k};
   Vec low = ring[0], high = ring[0];
   for (const Vec& corner : ring) {
     low = low.cwiseMin(corner);
@@ -62,10 +62,10 @@ std::optional<OutlineFault> fault_of(const Ring& ring) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec &a = ring[k], &b = ring[(k + 1) % ring.size()];
     if ((b - a).norm() <= same * extent)
-      return OutlineFault{fmt::format("has the corner {} twice", text(a)), a};
+      return OutlineFault{fmt::format("has the corner {} twice", text(a)), a, number, k};
     area += 0.5 * cross(a - ring[0], b - ring[0]);
   }
-  if (std::abs(area) <= same * extent * extent) return OutlineFault{"encloses no area", ring[0]};
+  if (std::abs(area) <= same * extent * extent) return OutlineFault{"encloses no area", ring[0], number, 0};
   return std::nullopt;
 }
 
@@ -77,10 +77,10 @@ std::optional<Vec> meeting(const Edge& p, const Edge& q) {
 }  // namespace
 
 std::optional<OutlineFault> fault_of(const std::vector<Ring>& rings) {
-  if (rings.empty()) return OutlineFault{"has no ring", Vec::Zero()};
+  if (rings.empty()) return OutlineFault{"has no ring", Vec::Zero(), 0, 0};
   std::vector<Edge> edges;
   for (std::size_t r = 0; r < rings.size(); ++r) {
-    if (auto fault = fault_of(rings[r])) return fault;
+    if (auto fault = fault_of(rings[r], r)) return fault;
     for (std::size_t k = 0; k < rings[r].size(); ++k)
       edges.push_back({rings[r][k], rings[r][(k + 1) % rings[r].size()], r, k, rings[r].size()});
   }
@@ -91,7 +91,8 @@ std::optional<OutlineFault> fault_of(const std::vector<Ring>& rings) {
       const Edge &p = edges[i], &q = edges[j];
       if (p.low()[1] > q.high()[1] || q.low()[1] > p.high()[1]) continue;
       if (const auto place = meeting(p, q))
-        return OutlineFault{fmt::format("crosses or touches itself at {}", text(*place)), *place};
+        return OutlineFault{fmt::format("crosses or touches itself at {}", text(*place)), *place, p.ring,
+                            p.number};
     }
   return std::nullopt;
 }

@@ -38,6 +38,9 @@ Curve read_curve(const std::filesystem::path& folder, const Reference& reference
 /// What is wrong with the name of the series, FILE.csv:COLUMN.
 std::optional<ReferenceFault> fault_of_series(const Reference& reference);
 
+/// Why a file of this name cannot be copied beside the results; empty if it can.
+std::string fault_of_results_name(const std::string& name);
+
 /// Whether a run writes a file of this path, relative to the folder of the results.
 bool is_written_by_runs(const std::filesystem::path& path);
 

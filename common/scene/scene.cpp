@@ -27,7 +27,9 @@ void check_walls(CaseFile& file, const Scene& scene) {
     const Wall& wall = scene.walls[i];
     const std::string key = fmt::format("wall.{}", i);
     if (sound(wall.box) && sound(scene.domain) && !box_in_box(wall.box, scene.domain))
-      file.fault(key + ".box", fmt::format("the box of wall '{}' is not within [case.domain]", wall.name));
+      file.fault(key + "." + wall.shape.place(),
+                 fmt::format("the {} of wall '{}' is not within [case.domain]",
+                             wall.box.outline ? "outline" : "box", wall.name));
     else if (wall.press && sound(wall.box) && sound(scene.domain) &&
              !box_in_box(swept_box(wall), scene.domain))
       file.fault(key + ".press.travel",
@@ -58,9 +60,10 @@ void check_axis(CaseFile& file, const Scene& scene) {
     const Wall& wall = scene.walls[i];
     const std::string key = fmt::format("wall.{}", i);
     if (wall.box.min[1] < 0)
-      file.fault(key + ".box", fmt::format("the wall '{}' crosses the axis: y is the distance from it, at "
-                                           "least 0",
-                                           wall.name));
+      file.fault(key + "." + wall.shape.place(),
+                 fmt::format("the wall '{}' crosses the axis: y is the distance from it, at "
+                             "least 0",
+                             wall.name));
     if (moves_across(wall))
       file.fault(key + (wall.press ? ".press" : ".motion"),
                  fmt::format("the wall '{}' moves across the axis: it can move along x alone", wall.name));
@@ -136,13 +139,6 @@ void describe(ParameterTable& table, Scene& scene) {
                {.help = "plane, or x along an axis and y the distance from it; of a fluid without a solid"});
 }
 
-void describe(ParameterTable& table, Box& box) {
-  table.vector("min", box.min, {.unit = "m", .required = true, .help = "smallest corner"});
-  table.vector("max", box.max, {.unit = "m", .required = true, .help = "largest corner"});
-  table.flag("round", box.round, "the disc or ellipse that touches the sides, in place of the whole box");
-  table.require(sound(box), "max", "'max' must exceed 'min' in each direction");
-}
-
 void describe(ParameterTable& table, Motion& motion) {
   std::vector<std::string> columns = {"time [s]"};
   for (int axis = 0; axis < dim; ++axis) columns.push_back(fmt::format("v_{} [m/s]", "xyz"[axis]));
@@ -163,8 +159,8 @@ std::string name_of(const WornFace& worn) {
 
 /// What is worn lies on the wall, and leaves something of it.
 void require_remains(ParameterTable& table, const Wall& wall) {
-  table.require(wall.worn.empty() || !wall.box.round, "worn",
-                "a round wall has no faces that could be 'worn'");
+  table.require(wall.worn.empty() || wall.box.is_rectangle(), "worn",
+                "a wall that is no box has no faces that could be 'worn'");
   Vec largest = Vec::Zero();  // off either axis
   for (const WornFace& worn : wall.worn) {
     largest[worn.axis()] += worn.largest_depth();
@@ -191,11 +187,12 @@ void require_remains(ParameterTable& table, const Wall& wall) {
 void describe(ParameterTable& table, Wall& wall) {
   table.text("name", wall.name,
              {.required = true, .help = "as the log and the report call it", .names_columns = true});
-  table.group("box", wall.box, "filled with particles on a lattice of each solver's spacing");
+  describe_shape(table, wall.shape, wall.box, "filled with particles on a lattice of each solver's spacing");
   table.optional("motion", wall.motion, "prescribed motion; without it the wall stands still");
   table.optional("press", wall.press, "moves as a pressure and the fluid push it");
   table.require(!wall.motion || !wall.press, "press", "a wall has either a 'motion' or a 'press'");
-  table.require(!wall.press || !wall.box.round, "press", "a piston is a box: it cannot be round");
+  table.require(!wall.press || wall.box.is_rectangle(), "press",
+                "a piston is a box: it cannot be round, or of another shape");
   table.flag("work_piece", wall.work_piece, "a rigid work piece: the fluid's friction acts on it");
   table.list("worn", wall.worn,
              "faces that the fluid finds behind those of the box; of two opposite ones that it wets, both");
@@ -244,9 +241,9 @@ void check_folder(CaseFile& file, const std::filesystem::path& out) {
   }
 }
 
-void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out) {
-  for (const auto& reference : scene.references) {
-    const auto source = file.folder() / reference.file, target = out / reference.file;
+void copy_named_files(const CaseFile& file, const std::filesystem::path& out) {
+  for (const auto& name : file.named_files()) {
+    const auto source = file.folder() / name, target = out / name;
     std::filesystem::create_directories(target.parent_path());
     if (std::filesystem::exists(target)) {
       if (std::filesystem::equivalent(source, target) || same_text(source, target)) continue;

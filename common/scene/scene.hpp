@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "common/case/case_file.hpp"
+#include "common/scene/body_shape.hpp"
 #include "common/scene/box.hpp"
 #include "common/scene/reference.hpp"
 #include "common/scene/worn_face.hpp"
 #include "common/vector.hpp"
 
 namespace toryu {
-
-void describe(ParameterTable& table, Box& box);
 
 /// Prescribed motion of a rigid body: a table of time and velocity, linear in between, constant beyond its
 /// ends; position is its integral. A cycle given for unit speed serves all speeds: `speed` 2 with `time` 0.5
@@ -57,6 +56,7 @@ struct Wall {
   std::optional<Press> press = {};
   bool work_piece = false;          ///< what the fluid's abrasive rubs on; a body of its own in the results
   std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box
+  BodyShape shape = {};             ///< as the case has it
 };
 void describe(ParameterTable& table, Wall& wall);
 /// What the plane of a case stands for: a slice of something long, by metre of depth, or the half plane of x
@@ -97,8 +97,8 @@ void describe(ParameterTable& table, Scene& scene);
 Scene read_scene(CaseFile& file);
 /// A file of the case that lies where a run with its results in `out` would write is a fault of `file`.
 void check_folder(CaseFile& file, const std::filesystem::path& out);
-/// Copies the files of the references to `out`, so that the case written there finds them as well. Another
+/// Copies the files that the case names to `out`, so that the case written there finds them as well. Another
 /// file that is there stays beside the copy, as NAME.N.
-void copy_references(const Scene& scene, const CaseFile& file, const std::filesystem::path& out);
+void copy_named_files(const CaseFile& file, const std::filesystem::path& out);
 
 }  // namespace toryu

@@ -67,14 +67,14 @@ TEST_F(SceneTest, RepeatsFromTheResultsFolder) {
   CaseFile file(case_.folder(), {});
   const Scene scene = read_scene(file);
   const auto out = case_.folder() / "out";
-  copy_references(scene, file, out);
+  copy_named_files(file, out);
   std::ofstream(out / "used_case.toml") << file.used();
 
   CaseFile again(out / "used_case.toml", {});
   const Scene repeated = read_scene(again);
   EXPECT_NO_THROW(again.throw_if_faulty());
   EXPECT_EQ(again.used(), file.used());
-  EXPECT_NO_THROW(copy_references(repeated, again, out));
+  EXPECT_NO_THROW(copy_named_files(again, out));
   EXPECT_GT(std::filesystem::file_size(out / "reference/level.csv"), 0u);
 }
 
@@ -85,8 +85,8 @@ TEST_F(SceneTest, KeepsAnotherFileThatIsWhereAReferenceGoes) {
   std::filesystem::create_directories(reference);
   for (const char* mine : {"mine", "mine too"}) {
     std::ofstream(reference / "level.csv") << mine;
-    copy_references(scene, file, case_.folder() / "out");
-    copy_references(scene, file, case_.folder() / "out");
+    copy_named_files(file, case_.folder() / "out");
+    copy_named_files(file, case_.folder() / "out");
   }
   EXPECT_EQ(std::filesystem::file_size(reference / "level.csv.1"), 4u);
   EXPECT_EQ(std::filesystem::file_size(reference / "level.csv.2"), 8u);
