@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "common/run/log.hpp"
 #include "common/scene/fill.hpp"
 #include "common/scene/fill_outline.hpp"
 #include "common/scene/occupancy_index.hpp"
-#include "common/scene/place_index.hpp"
 
 namespace toryu::solid {
 
@@ -19,6 +20,7 @@ namespace {
 
 /// How far a fitted spacing may be from the stated one.
 constexpr double largest_misfit = 0.1;
+constexpr std::chrono::seconds between_words{2};  // while particles are fitted
 /// Over the spacing: pieces of a surface, how far beyond it is looked for another region, and how far the
 /// particle of a piece may be, in a sharp corner.
 constexpr double longest_piece = 1.0 / 8, beside = 0.01, furthest_particle = 4;
@@ -70,10 +72,17 @@ std::optional<Outline> outline_of(const Region& region, const std::vector<NamedB
 
 void fit_region(std::size_t index, const Outline& outline, const Parameters& parameters, Body& body,
                 const TellFault& tell_fault) {
-  const FittedFilling filling = fill_outline(outline, parameters.spacing);
+  const std::string& name = parameters.regions[index].name;
+  auto said = std::chrono::steady_clock::now();
+  const auto tell = [&](double share) {
+    if (std::chrono::steady_clock::now() - said < between_words) return;
+    said = std::chrono::steady_clock::now();
+    log::info("particles are fitted to region '{}': {:.0f} %", name, 100 * share);
+  };
+  const FittedFilling filling = fill_outline(outline, parameters.spacing, tell);
   if (filling.points.empty())
-    tell_fault("solid.region", fmt::format("region '{}' is nowhere as wide as a row of particles",
-                                           parameters.regions[index].name));
+    tell_fault("solid.region", fmt::format("region '{}' is nowhere as wide as a row of particles", name));
+  body.spread = std::max(body.spread, filling.spread);
   body.X.insert(body.X.end(), filling.points.begin(), filling.points.end());
   body.cell.resize(body.size(), Vec::Constant(std::sqrt(filling.volume)));
   body.region.resize(body.size(), static_cast<std::uint32_t>(index));
@@ -118,18 +127,11 @@ void find_outlined_surface(Body& body) {
     bounds.min = bounds.min.cwiseMin(outline.bounds().min);
     bounds.max = bounds.max.cwiseMax(outline.bounds().max);
   }
-  PlaceIndex index(bounds, furthest_particle * body.spacing);
-  for (std::uint32_t i = 0; i < body.size(); ++i) index.add(body.X[i], i);
   const Vec margin = Vec::Constant(body.spacing);
-  for (const SurfacePiece& piece : body.surface({bounds.min - margin, bounds.max + margin})) {
+  const auto pieces = body.surface({bounds.min - margin, bounds.max + margin});
+  body.area_vector = area_vectors(body.X, pieces, furthest_particle * body.spacing);
+  for (const SurfacePiece& piece : pieces)
     body.outside.push_back(piece.place + 0.5 * body.spacing * piece.area.normalized());
-    std::optional<std::uint32_t> nearest;
-    index.about(piece.place, [&](std::uint32_t i) {
-      const auto distance = [&](std::uint32_t k) { return (body.X[k] - piece.place).squaredNorm(); };
-      if (!nearest || distance(i) < distance(*nearest)) nearest = i;
-    });
-    if (nearest) body.area_vector[*nearest] += piece.area;
-  }
 }
 
 void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
