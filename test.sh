@@ -10,7 +10,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 without=(long benchmark browser)
 all=
-groups=(run study test)
+groups=(run study import test)
 case ${1-} in
   "") ;;
   --browser) without=(long benchmark) groups+=(browser) ;;

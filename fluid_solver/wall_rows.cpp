@@ -71,7 +71,9 @@ bool is_out_of_line(const Wall& wall, int axis, const Parameters& p, const Vec& 
     for (const auto* boxes : {&fluid.boxes, &fluid.holes})
       for (const Box& box : *boxes)
         for (const double face : {box.min[along], box.max[along]})
-          if (face >= low && face <= high && off_rows(face - origin, p.spacing) > row_tolerance) return true;
+          if (!box.outline && face >= low && face <= high &&
+              off_rows(face - origin, p.spacing) > row_tolerance)
+            return true;
     return false;
   };
   const double low = wall.box.min[along], high = wall.box.max[along];
@@ -95,7 +97,8 @@ Blocks blocks_of(const Parameters& p) {
 }
 
 Filling fill_wall(const Wall& wall, const Parameters& p, const Vec& gravity) {
-  if (takes_rows_of_fluid(wall, p, gravity)) return fill_to_faces({{wall.box}, {}}, p.spacing, blocks_of(p));
+  if (wall.box.outline || takes_rows_of_fluid(wall, p, gravity))
+    return fill_to_faces({{wall.box}, {}}, p.spacing, blocks_of(p));
   const auto points = fill({wall.box}, {}, p.spacing);
   return {
       .points = points, .cells = std::vector<Vec>(points.size(), Vec::Constant(p.spacing)), .misfits = {}};

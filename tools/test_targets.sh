@@ -5,7 +5,7 @@
 #   tools/test_targets.sh PRESET...   some: clang-v3, gcc-v2
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-tools/install.sh run test ci
+tools/install.sh run import test ci
 [ $# -gt 0 ] || set -- clang-v3 gcc-v2
 failed=0
 for preset in "$@"; do

@@ -19,42 +19,35 @@ constexpr double apart = 0.9;
 
 struct Body {
   std::string name;  ///< as a sentence calls it
-  std::string key;   ///< of its box in the case file
+  std::string key;   ///< of its shape in the case file
   Part part;
   const Motion* motion = nullptr;
   bool travels = false;  ///< between the stops of a press
 };
 
-std::optional<Vec> corner(const CaseFile& file, const std::string& key) {
-  Vec x;
-  for (int axis = 0; axis < dim; ++axis)
-    if (const auto value = file.value<double>(fmt::format("{}[{}]", key, axis)))
-      x[axis] = *value;
-    else
-      return {};
-  return x;
-}
-
-std::optional<Box> box_at(const CaseFile& file, const std::string& key) {
-  const auto min = corner(file, key + ".min"), max = corner(file, key + ".max");
-  if (!min || !max || (max->array() <= min->array()).any()) return {};
-  return Box{*min, *max, file.value<bool>(key + ".round").value_or(false)};
-}
-
-/// A box of a list of the case.
+/// A shape in a list of the case.
 struct Item {
   std::string name, key;
   Box box;
 };
 
-/// The boxes of the list `section`, each in the key `box`, or without one if that is empty.
-std::vector<Item> items(const CaseFile& file, const std::string& section, const std::string& box = ".box") {
+bool is_sound(const Box& box) {
+  return (box.max.array() > box.min.array()).all();
+}
+
+/// The shapes of the list `section`, as far as they are sound.
+std::vector<Item> items(const CaseFile& file, const std::string& section) {
   std::vector<Item> found;
   for (std::size_t i = 0; i < file.count(section); ++i) {
-    const std::string item = fmt::format("{}[{}]", section, i);
-    if (const auto read = box_at(file, item + box))
-      found.push_back({file.value<std::string>(item + ".name").value_or(""),
-                       fmt::format("{}.{}{}", section, i, box), *read});
+    Item item;
+    BodyShape shape;
+    file.look(fmt::format("{}[{}]", section, i), [&](ParameterTable& table) {
+      table.text("name", item.name, {});
+      if (!describe_optional_shape(table, shape, item.box, "") && section == "fluid.hole")
+        describe(table, item.box);
+    });
+    item.key = fmt::format("{}.{}.{}", section, i, shape.place());
+    if (is_sound(item.box)) found.push_back(std::move(item));
   }
   return found;
 }
@@ -71,9 +64,9 @@ std::vector<Body> walls_of(const Scene& scene, bool swept) {
   std::vector<Body> walls;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
-    if ((wall.box.max.array() <= wall.box.min.array()).any()) continue;
+    if (!is_sound(wall.box)) continue;
     walls.push_back({fmt::format("the wall '{}'", wall.name),
-                     fmt::format("wall.{}.box", i),
+                     fmt::format("wall.{}.{}", i, wall.shape.place()),
                      {{swept ? swept_box(wall) : wall.box}, {}},
                      wall.motion && !wall.motion->velocity.empty() ? &*wall.motion : nullptr,
                      wall.press.has_value()});
@@ -83,7 +76,7 @@ std::vector<Body> walls_of(const Scene& scene, bool swept) {
 
 /// The regions of `participant` less its holes.
 std::vector<Body> regions_of(const CaseFile& file, const std::string& participant) {
-  const auto holes = boxes_of(items(file, participant + ".hole", participant == "fluid" ? "" : ".box"));
+  const auto holes = boxes_of(items(file, participant + ".hole"));
   std::vector<Body> regions;
   for (const auto& [name, key, box] : items(file, participant + ".region"))
     regions.push_back({fmt::format("the {}'s region '{}'", participant, name), key, {{box}, holes}});
@@ -125,6 +118,7 @@ struct Gap {
 
 /// Whether one side of `held` lies on the wall all along.
 bool is_fixed_on(const Part& held, const Box& wall, double tolerance) {
+  if (!wall.is_rectangle()) return false;
   const Box box = bounds_of(held);
   for (int axis = 0; axis < dim; ++axis) {
     const int across = 1 - axis;
@@ -138,7 +132,7 @@ bool is_fixed_on(const Part& held, const Box& wall, double tolerance) {
 }
 
 std::optional<Gap> gap_between(const Box& fluid, const Box& other, double least) {
-  if (fluid.round || other.round) return {};
+  if (!fluid.is_rectangle() || !other.is_rectangle()) return {};
   for (int axis = 0; axis < dim; ++axis) {
     const int across = 1 - axis;
     const double shared =
@@ -155,6 +149,11 @@ std::string gap_text(const Body& region, const Body& other, const Gap& gap, doub
       "{} ends at {} = {:.6g} m, {:.2g} spacings off {}: it does not rest on it, but moves into the gap; let "
       "it end at {:.6g} m, or a spacing or more apart",
       region.name, "xy"[gap.axis], gap.face, gap.width() / spacing, other.name, gap.other);
+}
+
+/// The medium gives way to bodies that no box could be cut out for.
+bool is_left_out(const Body& body) {
+  return body.part.within[0].outline != nullptr;
 }
 
 class Bodies {
@@ -185,7 +184,8 @@ class Bodies {
       }
     for (const Body& region : fluid_)
       for (const auto* bodies : {&walls_, &solid_})
-        for (const Body& other : *bodies) keep_apart(region, other, 0, "", found);
+        for (const Body& other : *bodies)
+          if (!is_left_out(other)) keep_apart(region, other, 0, "", found);
     const auto free = free_parts(file_, solid_), held = held_parts(file_, solid_);
     for (const Body& wall : walls_) {
       for (const Body& part : free)
@@ -193,6 +193,14 @@ class Bodies {
       for (const Body& part : held) keep_at_rest(wall, part, found);
     }
     return found;
+  }
+
+  std::vector<Box> left_out() const {
+    std::vector<Box> boxes;
+    for (const auto* bodies : {&walls_, &solid_})
+      for (const Body& body : *bodies)
+        if (is_left_out(body)) boxes.push_back(body.part.within[0]);
+    return boxes;
   }
 
   std::vector<std::string> passages() const {
@@ -273,6 +281,10 @@ class Bodies {
 void check_bodies(CaseFile& file, const Scene& scene) {
   if (file.kind() == Kind::study) return;
   for (const auto& [key, message] : Bodies(file, scene).faults()) file.fault(key, message);
+}
+
+std::vector<Box> left_out_of_fluid(const CaseFile& file, const Scene& scene) {
+  return Bodies(file, scene).left_out();
 }
 
 std::vector<std::string> passage_warnings(const CaseFile& file, const Scene& scene) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+
+#include "common/scene/fill_outline.hpp"
 
 namespace toryu {
 
@@ -162,7 +165,7 @@ std::vector<double> faces_of(const Blocks& group, const std::vector<Blocks>& bes
   const auto add = [&](const std::vector<Box>& boxes) {
     for (const Box& box : boxes)
       for (const double face : {box.min[axis], box.max[axis]})
-        if (face > low && face < high) faces.push_back(face);
+        if (!box.outline && face > low && face < high) faces.push_back(face);
   };
   add(group.holes);
   for (const Blocks& other : beside) {
@@ -202,11 +205,49 @@ void sort_rows(Filling& filling) {
   filling.cells.swap(sorted.cells);
 }
 
-/// `beside`: nothing where rows need not fit between faces.
-Filling fill(const Blocks& body, double spacing, const Blocks* beside) {
+Outline outline_of(const Box& box) {
+  return box.outline ? *box.outline : Outline({ring_of(box)});
+}
+
+/// What is left of a box without the holes, if an outline bounds it anywhere.
+std::optional<std::vector<Outline::Ring>> outlined(const Box& box, const std::vector<Box>& holes,
+                                                   double spacing) {
+  bool found = box.outline != nullptr;
+  auto rings = outline_of(box).rings();
+  for (const Box& hole : holes) {
+    if (rings.empty() || !touch(hole, box, -rounding * spacing)) continue;
+    const Outline before(rings);
+    rings = difference(before, outline_of(hole));
+    if (hole.outline && !found)
+      found = rings.empty() || Outline(rings).area() < (1 - rounding) * before.area();
+  }
+  return found ? std::optional(std::move(rings)) : std::nullopt;
+}
+
+/// Fills what outlines bound, and returns the rest of the body.
+Blocks fill_outlines(const Blocks& body, double spacing, Filling& filling) {
+  const auto has_outline = [](const Box& box) { return box.outline != nullptr; };
+  if (std::none_of(body.boxes.begin(), body.boxes.end(), has_outline) &&
+      std::none_of(body.holes.begin(), body.holes.end(), has_outline))
+    return body;
+  Blocks rest{{}, body.holes};
+  std::erase_if(rest.holes, has_outline);
+  for (const Box& box : body.boxes) {
+    const auto rings = outlined(box, body.holes, spacing);
+    if (!rings) rest.boxes.push_back(box);
+    if (!rings || rings->empty()) continue;
+    const FittedFilling fitted = fill_outline(Outline(*rings), spacing);
+    const auto cell = Vec::Constant(std::sqrt(fitted.volume));
+    filling.points.insert(filling.points.end(), fitted.points.begin(), fitted.points.end());
+    filling.cells.resize(filling.points.size(), cell);
+    filling.on_lattice = false;
+  }
+  return rest;
+}
+
+Filling fill_rows(const Blocks& body, double spacing, const Blocks* beside) {
   Filling filling;
   if (body.boxes.empty()) return filling;
-  check_size(body.boxes, spacing);
   Vec origin = body.boxes.front().min;
   for (const auto& box : body.boxes) origin = origin.cwiseMin(box.min);
   const auto groups = groups_of(body, spacing);
@@ -222,6 +263,17 @@ Filling fill(const Blocks& body, double spacing, const Blocks* beside) {
     fill_group(group, rows(0), rows(1), spacing, filling);
   }
   if (groups.size() > 1) sort_rows(filling);
+  return filling;
+}
+
+/// `beside`: nothing where rows need not fit between faces.
+Filling fill(const Blocks& body, double spacing, const Blocks* beside) {
+  check_size(body.boxes, spacing);
+  Filling outlines;
+  Filling filling = fill_rows(fill_outlines(body, spacing, outlines), spacing, beside);
+  filling.on_lattice = filling.on_lattice && outlines.on_lattice;
+  filling.points.insert(filling.points.end(), outlines.points.begin(), outlines.points.end());
+  filling.cells.insert(filling.cells.end(), outlines.cells.begin(), outlines.cells.end());
   return filling;
 }
 

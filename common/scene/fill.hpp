@@ -1,4 +1,4 @@
-/// Fills boxes with particles.
+/// Fills bodies with particles: boxes by rows, outlines by particles that fit them (fill_outline.hpp).
 #pragma once
 
 #include <string>

@@ -3,28 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/outline.hpp"
+
 namespace toryu {
 
 static_assert(dim == 2, "places are looked for in the plane");
 
 namespace {
 
-/// Into so many parts the extent of round parts is cut, and the time for which their boxes overlap.
+/// Into so many parts the extent of parts that are no boxes is cut, each edge of an outline at most, and the
+/// time for which their bounds overlap.
 constexpr int round_parts = 32;
 
+/// An outline keeps its place: `holds` knows of the distance.
 Box grown(const Box& box, double distance) {
-  return {box.min.array() - distance, box.max.array() + distance, box.round};
+  return {box.min.array() - distance, box.max.array() + distance, box.round, box.outline};
 }
 
-Box moved(const Box& box, const Vec& by) {
-  return {box.min + by, box.max + by, box.round};
+/// Whether a box that has been grown by `distance` has the point.
+bool holds(const Box& grown, double distance, const Vec& x) {
+  if (!grown.outline) return grown.contains(x);
+  return (x.array() >= grown.min.array()).all() && (x.array() <= grown.max.array()).all() &&
+         grown.outline->nearest(x).distance < distance;
 }
 
 Part joined(const Part& a, const Part& b, const Vec& a_by, const Vec& b_by) {
   Part both;
   for (const auto& [part, by] : {std::pair(&a, a_by), std::pair(&b, b_by)}) {
-    for (const Box& box : part->within) both.within.push_back(moved(box, by));
-    for (const Box& box : part->without) both.without.push_back(moved(box, by));
+    for (const Box& box : part->within) both.within.push_back(by.isZero(0) ? box : box.moved(by));
+    for (const Box& box : part->without) both.without.push_back(by.isZero(0) ? box : box.moved(by));
   }
   return both;
 }
@@ -33,10 +40,24 @@ bool is_empty(const Box& box) {
   return (box.max.array() <= box.min.array()).any();
 }
 
-bool has_round(const Part& part) {
-  const auto is_round = [](const Box& box) { return box.round; };
-  return std::any_of(part.within.begin(), part.within.end(), is_round) ||
-         std::any_of(part.without.begin(), part.without.end(), is_round);
+bool is_of_rectangles(const Part& part) {
+  const auto is_rectangle = [](const Box& box) { return box.is_rectangle(); };
+  return std::all_of(part.within.begin(), part.within.end(), is_rectangle) &&
+         std::all_of(part.without.begin(), part.without.end(), is_rectangle);
+}
+
+/// Places along an outline, `depth` [m] to the left of its edges: inside, where it is above 0.
+std::vector<Vec> places_along(const Outline& outline, double depth) {
+  std::vector<Vec> places;
+  for (const auto& ring : outline.rings())
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec &a = ring[k], way = ring[(k + 1) % ring.size()] - a;
+      const Vec left = Vec(-way[1], way[0]).normalized() * depth;
+      const int count = static_cast<int>(
+          std::clamp(way.norm() / std::max(std::abs(depth), 1e-300), 1.0, double{round_parts}));
+      for (int n = 0; n < count; ++n) places.emplace_back(a + (n + 0.5) / count * way + left);
+    }
+  return places;
 }
 
 /// Coordinates along `axis` of which one lies in each stretch between edges of boxes.
@@ -72,15 +93,23 @@ std::optional<Vec> place_in(const Part& part, double tolerance) {
   for (const Box& box : part.without) firm.without.push_back(grown(box, 0.5 * tolerance));
   const Box bounds = bounds_of(firm);
   if (is_empty(bounds)) return {};
-  const int cuts = has_round(firm) ? round_parts : 1;
+  const auto is_in = [&](const Vec& x) {
+    const auto within = [&](const Box& box) { return holds(box, -0.5 * tolerance, x); };
+    const auto without = [&](const Box& box) { return holds(box, 0.5 * tolerance, x); };
+    return std::all_of(firm.within.begin(), firm.within.end(), within) &&
+           std::none_of(firm.without.begin(), firm.without.end(), without);
+  };
+  const int cuts = is_of_rectangles(firm) ? 1 : round_parts;
   const auto ys = samples(bounds, firm.without, 1, cuts);
   for (const double x : samples(bounds, firm.without, 0, cuts))
-    for (const double y : ys) {
-      const auto holds = [&](const Box& box) { return box.contains({x, y}); };
-      if (std::all_of(firm.within.begin(), firm.within.end(), holds) &&
-          std::none_of(firm.without.begin(), firm.without.end(), holds))
-        return Vec(x, y);
-    }
+    for (const double y : ys)
+      if (is_in({x, y})) return Vec(x, y);
+  // What two bodies share along a slanted or curved face is narrow, and begins at an outline.
+  for (const auto& [boxes, depth] : {std::pair(&firm.within, 0.75), std::pair(&firm.without, -0.75)})
+    for (const Box& box : *boxes)
+      if (box.outline)
+        for (const Vec& x : places_along(*box.outline, depth * tolerance))
+          if (bounds.contains(x) && is_in(x)) return x;
   return {};
 }
 
@@ -134,7 +163,7 @@ class Approach {
   Approach(const Pair& pair, double tolerance)
       : pair_(pair), tolerance_(tolerance), a_(bounds_of(pair.a)), b_(bounds_of(pair.b)) {
     const Part both = joined(pair.a, pair.b, Vec::Zero(), Vec::Zero());
-    parts_ = has_round(both) || !both.without.empty() ? round_parts : 1;
+    parts_ = !is_of_rectangles(both) || !both.without.empty() ? round_parts : 1;
   }
 
   std::optional<Meeting> during(const Stretch& stretch, const Vec& shift) const {

@@ -17,7 +17,8 @@ struct Part {
 Box bounds_of(const Part& part);
 
 /// A place that a part has, if it is more than `tolerance` [m] wide there. Where boxes are round, one that is
-/// narrower than a 32nd of its extent may be missed.
+/// narrower than a 32nd of its extent may be missed; along outlines, one that is shorter than a 32nd of an
+/// edge.
 std::optional<Vec> place_in(const Part& part, double tolerance);
 
 struct Meeting {

@@ -25,9 +25,11 @@ class Case:
     kind: str  # "study", "coupled", "fluid", "solid", or "empty" if there is nothing to compute
     file: pathlib.Path
     name: str  # of its results
-    inputs: list[pathlib.Path]  # the files that were read: its own, its base, its references
+    inputs: list[pathlib.Path]  # the files that were read: its own, its base, those that it names
     content: dict  # what it says, with its base merged and overrides applied
     references: list[dict] = field(default_factory=list)  # what is said of each, and its "points" or its "fault"
+    files: list[str] = field(default_factory=list)  # that it names, relative to its folder
+    outlines: dict = field(default_factory=dict)  # number of a wall -> its rings of corners [m]
     places: list = field(default_factory=list)  # (path of a key, line, column)
 
 
@@ -45,10 +47,11 @@ def resolve(path, program, overrides=()):
         raise BadCase((done.stdout + done.stderr).strip() or f"{program} --resolved ended with {done.returncode}")
     try:
         told = json.loads(done.stdout)
-        case, references = told["case"], told["references"]
+        case, references, files = told["case"], told["references"], told["files"]
+        outlines = {outline["wall"]: outline["rings"] for outline in told["outlines"]}
     except (ValueError, RecursionError, KeyError, TypeError) as error:
         raise BadCase(f"{program}: error: --resolved gave no case: {error!r}") from None
     # as it was given: JSON does not carry a name that is no text
     file = pathlib.Path(path) / "case.toml" if os.path.isdir(path) else pathlib.Path(path)
-    inputs = [*map(pathlib.Path, case["inputs"]), *(file.parent / r["file"] for r in references)]
-    return Case(case["kind"], file, case["name"], inputs, case["content"], references, case["places"])
+    inputs = [*map(pathlib.Path, case["inputs"]), *(file.parent / name for name in files)]
+    return Case(case["kind"], file, case["name"], inputs, case["content"], references, files, outlines, case["places"])

@@ -22,6 +22,7 @@ from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAIL
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
 MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
+PACKAGE_FOR = {".svg": "svgelements", ".dxf": "ezdxf"}  # of Python, that reads such drawings
 ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
 # beside other programs a spinning thread keeps the one it waits for from its core (dam break: 3 to 5 times slower).
@@ -106,6 +107,16 @@ def run_study(arguments):
         if installed != DONE:
             raise SystemExit(installed)
     os.execv(sys.executable, program.python("study", *arguments))
+
+
+def install_for_drawings(case):
+    """What reads drawings is installed when a case names one."""
+    wanted = {PACKAGE_FOR[kind] for name in case.files if (kind := pathlib.PurePath(name).suffix.lower()) in PACKAGE_FOR}
+    if all(map(importlib.util.find_spec, wanted)):
+        return
+    installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "import"]).returncode
+    if installed != DONE:
+        raise SystemExit(installed)
 
 
 def case_of(options):
@@ -206,10 +217,10 @@ def hold(out, name):
     return held
 
 
-def used_references(options):
-    """The files of the references that the used case of a former run names."""
+def used_files(options):
+    """The files that the used case of a former run names."""
     with contextlib.suppress(BadCase):
-        return [r["file"] for r in resolve(options.out / "used_case.toml", options.bin / "coupler").references]
+        return resolve(options.out / "used_case.toml", options.bin / "coupler").files
     return []
 
 
@@ -221,7 +232,7 @@ def set_former_aside(options):
         try:
             if options.overwrite:
                 remove_former(options.out)
-            elif words := keep_former(options.out, used_references(options)):
+            elif words := keep_former(options.out, used_files(options)):
                 print(words, file=sys.stderr)
         except OSError as error:
             done, hint = ("removed", "") if options.overwrite else ("kept beside it", "; --overwrite removes them")
@@ -252,6 +263,7 @@ def main(arguments):
         run_study(arguments)
     options = parse(arguments)
     case = case_of(options)
+    install_for_drawings(case)
     settle_folder(options, case)
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
                 for name, executable in programs(options, case).items()}

@@ -18,6 +18,7 @@ from toryu.processes import BAD_INPUT, DONE, MACHINE
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254}
 DEFAULT_TOLERANCE = 1e-4  # of the larger side
 DEEPEST = 24  # halvings of a curve
+ROUNDING = 1e-9  # of the larger side: what is nearer is one place
 
 
 class BadDrawing(Exception):
@@ -78,13 +79,24 @@ def larger_side(points):
     return max(max(xs) - min(xs), max(ys) - min(ys))
 
 
-def joined(chains, tolerance, words):
-    """Rings of `chains` (lists of points), whose ends are joined where they are nearer than `tolerance`."""
-    def near(a, b):
-        return abs(a[0] - b[0]) <= tolerance and abs(a[1] - b[1]) <= tolerance
+def near(a, b, distance):
+    return abs(a[0] - b[0]) <= distance and abs(a[1] - b[1]) <= distance
 
-    rings = [chain[:-1] for chain in chains if len(chain) > 2 and near(chain[0], chain[-1])]
-    chains = [chain for chain in chains if len(chain) > 1 and not (len(chain) > 2 and near(chain[0], chain[-1]))]
+
+def distinct(points, distance):
+    """The points but for those that are as good as the one before."""
+    kept = points[:1]
+    kept += [point for before, point in zip(points, points[1:]) if not near(before, point, distance)]
+    return kept
+
+
+def joined(chains, tolerance, unit):
+    """Rings of `chains` (lists of points), whose ends are joined where they are nearer than `tolerance`."""
+    def is_ring(chain):
+        return len(chain) > 2 and near(chain[0], chain[-1], tolerance)
+
+    rings = [chain[:-1] for chain in chains if is_ring(chain)]
+    chains = [chain for chain in chains if len(chain) > 1 and not is_ring(chain)]
     cells = {}
     for number, chain in enumerate(chains):
         for point in (chain[0], chain[-1]):
@@ -93,23 +105,23 @@ def joined(chains, tolerance, words):
     def others(number, point):
         column, row = round(point[0] / tolerance), round(point[1] / tolerance)
         return [n for i in (-1, 0, 1) for j in (-1, 0, 1) for n, end in cells.get((column + i, row + j), [])
-                if n != number and near(end, point)]
+                if n != number and near(end, point, tolerance)]
 
     left = dict.fromkeys(range(len(chains)))
     while left:
         first = number = next(iter(left))
         del left[first]
         ring = list(chains[first])
-        while not near(ring[0], ring[-1]):
+        while not near(ring[0], ring[-1], tolerance):
             found = others(number, ring[-1])
             if len(found) > 1:
-                raise BadDrawing("file", f"{len(found) + 1} lines meet at {at(ring[-1], words)}: an outline has two at each corner")
+                raise BadDrawing("file", f"{len(found) + 1} lines meet at {at(ring[-1], unit)}: an outline has two at each corner")
             if not found or found[0] not in left:
-                raise BadDrawing("file", f"the outline is open at {at(ring[-1], words)}")
+                raise BadDrawing("file", f"the outline is open at {at(ring[-1], unit)}")
             number = found[0]
             del left[number]
             chain = chains[number]
-            ring += chain[1:] if near(chain[0], ring[-1]) else chain[-2::-1]
+            ring += chain[1:] if near(chain[0], ring[-1], tolerance) else chain[-2::-1]
         rings.append(ring[:-1])
     return rings
 
@@ -143,11 +155,10 @@ def read_svg(path, options):
     rings = []
     for shape in shapes:
         for part in shape.as_subpaths():
-            points = svg_points(svgelements, part, place, tolerance)
+            points = distinct(svg_points(svgelements, part, place, tolerance), ROUNDING * side)
             if len(points) < 2:
                 continue
-            gap = max(abs(points[0][0] - points[-1][0]), abs(points[0][1] - points[-1][1]))
-            if gap > 1e-9 * side:
+            if not near(points[0], points[-1], ROUNDING * side):
                 raise BadDrawing("file", f"the outline of {named(shape)} is open: it begins at {at(points[0], unit)} and ends at "
                                  f"{at(points[-1], unit)}")
             rings.append(points[:-1])
@@ -257,7 +268,7 @@ def rings_of(path, options):
     read = {".svg": read_svg, ".dxf": read_dxf}[path.suffix.lower()]
     try:
         rings, unit = read(path, options)
-    except (BadDrawing, ImportError, OSError, MemoryError):
+    except (BadDrawing, ImportError, MemoryError):
         raise
     except Exception as error:  # the libraries have no exception of their own for all that a file can hold
         raise BadDrawing("file", f"cannot be read as {path.suffix[1:].upper()}: {' '.join(str(error).split())[:200]}") from error

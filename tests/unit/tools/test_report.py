@@ -223,10 +223,17 @@ class Pieces(unittest.TestCase):
         box = {"min": [0, 0], "max": [2, 1]}
         wall, = scene.wall_paths({"wall": [{"name": "floor", "box": box, "worn": [
             {"face": "upper", "depth": [[0.0, 0.1], [1.0, 0.3], [2.0, 0.1]]}, {"face": "left", "depth": [[0.5, 0.2]]}]}]}, 1.0)
-        self.assertEqual(wall["outline"], [[0, 0], [2, 0], [2, 0], [2, 1], [2, 0.9], [1, 0.7], [0, 0.9], [0.2, 1],
-                                           [0.2, 0.5], [0.2, 0]])
+        self.assertEqual(wall["rings"], [[[0, 0], [2, 0], [2, 0], [2, 1], [2, 0.9], [1, 0.7], [0, 0.9], [0.2, 1],
+                                          [0.2, 0.5], [0.2, 0]]])
         wall, = scene.wall_paths({"wall": [{"name": "floor", "box": box, "worn": [{"face": "upper", "depth": [[0, 0]]}]}]}, 1.0)
-        self.assertEqual(wall["outline"], [])
+        self.assertEqual(wall["rings"], [])
+
+    def test_a_wall_that_is_no_box_is_drawn_by_its_rings(self):
+        frame = [[[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [1, 2], [2, 2]]]
+        floor, part = scene.wall_paths({"wall": [{"name": "floor", "box": {"min": [0, 0], "max": [1, 1]}},
+                                                 {"name": "part", "file": "part.svg"}]}, 1.0, {1: frame})
+        self.assertEqual((floor["rings"], floor["box"]), ([], [0, 0, 1, 1]))
+        self.assertEqual((part["rings"], part["box"], part["round"]), (frame, [0, 0, 4, 4], False))
 
     def test_a_wall_moves_by_the_integral_of_its_velocity(self):
         wall, = scene.wall_paths({"wall": [

@@ -41,12 +41,13 @@ def near_view(view, walls, bodies, contours):
     return [*map(float, low), *map(float, high)]
 
 
-def wall_paths(case, end):
-    """Boxes of the rigid walls with how they move until `end` [s]: rows of time, displacement, velocity (x, y of
+def wall_paths(case, end, outlines=None):
+    """Boxes of the rigid walls, and the rings of those that `outlines` has by their number, with how they move until `end` [s]: rows of time, displacement, velocity (x, y of
     each); the displacement is the integral of the velocity."""
     walls = []
-    for wall in data.tables_of(case, "wall"):
-        box, path = data.box_of(data.table(wall, "box")), []
+    for number, wall in enumerate(data.tables_of(case, "wall")):
+        rings, path = (outlines or {}).get(number, []), []
+        box = bounds(rings) if rings else data.box_of(data.table(wall, "box"))
         if box is None:
             continue
         rows = rows_of(data.table(wall, "motion"))
@@ -57,13 +58,18 @@ def wall_paths(case, end):
             moved = np.vstack([[0, 0], np.cumsum(steps, axis=0)])
             moved -= moved[np.searchsorted(times, 0)]
             path = np.column_stack([times, moved, velocity]).tolist()
-        walls.append({"name": str(wall.get("name", "")), "box": box, "round": wall["box"].get("round") is True,
-                      "path": path, "work_piece": wall.get("work_piece") is True, "outline": outline(wall, box)})
+        walls.append({"name": str(wall.get("name", "")), "box": box, "round": data.table(wall, "box").get("round") is True,
+                      "path": path, "work_piece": wall.get("work_piece") is True, "rings": rings or worn_rings(wall, box)})
     return walls
 
 
-def outline(wall, box):
-    """Corners of a wall whose faces are worn, anticlockwise [x, y]; none of one that is as its box."""
+def bounds(rings):
+    corners = np.array([corner for ring in rings for corner in ring])
+    return [*map(float, corners.min(axis=0)), *map(float, corners.max(axis=0))]
+
+
+def worn_rings(wall, box):
+    """A ring of corners [x, y] of a wall whose faces are worn, anticlockwise; none of one that is as its box."""
     low_x, low_y, high_x, high_y = box
     depths = {worn.get("face"): depth for worn in data.tables_of(wall, "worn")
               if isinstance(depth := worn.get("depth"), list) and depth and all(data.numbers(row, 2) for row in depth)}
@@ -78,7 +84,7 @@ def outline(wall, box):
         for s in [along[0], *(inner if along[0] < along[1] else inner[::-1]), along[1]]:
             level = across + inward * float(np.interp(s, places, worn))
             corners.append([level, s] if turned else [s, level])
-    return corners
+    return [corners]
 
 
 def rows_of(motion):

@@ -65,14 +65,17 @@ class Stage {
   }
 
   drawWalls(time) {
-    for (const {box, round, path, work_piece, outline} of this.walls) {
+    for (const {box, round, path, work_piece, rings} of this.walls) {
       const [dx, dy] = displacement(path, time);
       const [x0, y0] = this.toPixel(box[0] + dx, box[3] + dy), [x1, y1] = this.toPixel(box[2] + dx, box[1] + dy);
       this.context.fillStyle = cssColour(path.length ? "--moving" : work_piece ? "--piece" : "--wall");
-      if (outline.length) {
+      if (rings.length) {
         this.context.beginPath();
-        for (const [x, y] of outline) this.context.lineTo(...this.toPixel(x + dx, y + dy));
-        this.context.fill();
+        for (const ring of rings) {
+          ring.forEach(([x, y], k) => this.context[k ? "lineTo" : "moveTo"](...this.toPixel(x + dx, y + dy)));
+          this.context.closePath();
+        }
+        this.context.fill("evenodd");
         continue;
       }
       if (!round) {
