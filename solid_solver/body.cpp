@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "common/run/log.hpp"
 #include "common/scene/fill.hpp"
+#include "common/scene/fill_outline.hpp"
 #include "common/scene/occupancy_index.hpp"
 
 namespace toryu::solid {
@@ -17,6 +20,10 @@ namespace {
 
 /// How far a fitted spacing may be from the stated one.
 constexpr double largest_misfit = 0.1;
+constexpr std::chrono::seconds between_words{2};  // while particles are fitted
+/// Over the spacing: pieces of a surface, how far beyond it is looked for another region, and how far the
+/// particle of a piece may be, in a sharp corner.
+constexpr double longest_piece = 1.0 / 8, beside = 0.01, furthest_particle = 4;
 
 /// Number of cells along a side; 0, told as a fault, if they do not fill it.
 long cells(const Region& region, int axis, double spacing, const TellFault& tell_fault) {
@@ -29,6 +36,56 @@ long cells(const Region& region, int axis, double spacing, const TellFault& tell
                   "within {:.0f} % of a whole number",
                   region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit));
   return 0;
+}
+
+bool touch(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+/// Whether particles fit a region's outline rather than a lattice.
+bool is_fitted(const Region& region, const std::vector<NamedBox>& holes) {
+  return region.box.outline || std::any_of(holes.begin(), holes.end(), [&](const NamedBox& hole) {
+           return hole.box.outline && touch(hole.box, region.box);
+         });
+}
+
+Outline outline_of(const Box& box) {
+  return box.outline ? *box.outline : Outline({ring_of(box)});
+}
+
+/// The outline of a region without the holes; none, told as a fault, if that is none.
+std::optional<Outline> outline_of(const Region& region, const std::vector<NamedBox>& holes,
+                                  const TellFault& tell_fault) {
+  Outline outline = outline_of(region.box);
+  for (const auto& hole : holes) {
+    if (!touch(hole.box, region.box)) continue;
+    auto rings = difference(outline, outline_of(hole.box));
+    if (const auto fault = fault_of(rings)) {
+      tell_fault("solid.hole", fmt::format("what hole '{}' leaves of region '{}' {}", hole.name, region.name,
+                                           fault->message));
+      return std::nullopt;
+    }
+    outline = Outline(std::move(rings));
+  }
+  return outline;
+}
+
+void fit_region(std::size_t index, const Outline& outline, const Parameters& parameters, Body& body,
+                const TellFault& tell_fault) {
+  const std::string& name = parameters.regions[index].name;
+  auto said = std::chrono::steady_clock::now();
+  const auto tell = [&](double share) {
+    if (std::chrono::steady_clock::now() - said < between_words) return;
+    said = std::chrono::steady_clock::now();
+    log::info("particles are fitted to region '{}': {:.0f} %", name, 100 * share);
+  };
+  const FittedFilling filling = fill_outline(outline, parameters.spacing, tell);
+  if (filling.points.empty())
+    tell_fault("solid.region", fmt::format("region '{}' is nowhere as wide as a row of particles", name));
+  body.spread = std::max(body.spread, filling.spread);
+  body.X.insert(body.X.end(), filling.points.begin(), filling.points.end());
+  body.cell.resize(body.size(), Vec::Constant(std::sqrt(filling.volume)));
+  body.region.resize(body.size(), static_cast<std::uint32_t>(index));
 }
 
 void fill_region(std::size_t index, const Parameters& parameters, Body& body, const TellFault& tell_fault) {
@@ -64,11 +121,41 @@ bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std:
   return false;
 }
 
+void find_outlined_surface(Body& body) {
+  Box bounds = body.outlines[0].bounds();
+  for (const Outline& outline : body.outlines) {
+    bounds.min = bounds.min.cwiseMin(outline.bounds().min);
+    bounds.max = bounds.max.cwiseMax(outline.bounds().max);
+  }
+  const Vec margin = Vec::Constant(body.spacing);
+  const auto pieces = body.surface({bounds.min - margin, bounds.max + margin});
+  body.area_vector = area_vectors(body.X, pieces, furthest_particle * body.spacing);
+  for (const SurfacePiece& piece : pieces)
+    body.outside.push_back(piece.place + 0.5 * body.spacing * piece.area.normalized());
+}
+
+void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
+  if (load.pressure == 0) {
+    if (body.inside(load.box).empty())
+      tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
+    return;
+  }
+  const auto surface = body.surface(load.box);
+  if (surface.empty())
+    tell_fault("solid.load", fmt::format("load '{}' acts on no surface of the solid", load.name));
+  for (const SurfacePiece& piece : surface) try {
+      MaterialPoint(piece.place, body.X, 2.0 * h, body.shape);
+    } catch (const std::invalid_argument& error) {
+      return tell_fault("solid.load", fmt::format("load '{}': {}", load.name, error.what()));
+    }
+}
+
 void find_surface(Body& body) {
+  body.area_vector.assign(body.size(), Vec::Zero());
+  if (body.has_outline()) return find_outlined_surface(body);
   // Half a spacing and a little: where regions meet, their columns need not face each other.
   OccupancyIndex places(0.6 * body.spacing);
   places.take(body.X, "");
-  body.area_vector.assign(body.size(), Vec::Zero());
   for (std::size_t i = 0; i < body.size(); ++i)
     for (int axis = 0; axis < dim; ++axis)
       for (const double side : {-1.0, 1.0}) {
@@ -86,6 +173,30 @@ double Body::total_volume() const {
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) sum += volume(i);
   return sum;
+}
+
+bool Body::contains(const Vec& x) const {
+  return std::any_of(outlines.begin(), outlines.end(),
+                     [&](const Outline& outline) { return outline.contains(x); });
+}
+
+std::optional<Outline::Foot> Body::foot(const Vec& x) const {
+  std::optional<Outline::Foot> nearest;
+  for (const Outline& outline : outlines) {
+    const auto found = outline.nearest(x);
+    const bool surface = !contains(found.place + beside * spacing * found.normal);
+    if (surface && (!nearest || std::abs(found.distance) < std::abs(nearest->distance))) nearest = found;
+  }
+  return nearest;
+}
+
+std::vector<SurfacePiece> Body::surface(const Box& box) const {
+  std::vector<SurfacePiece> found;
+  for (const Outline& outline : outlines)
+    for (const SurfacePiece& piece : surface_pieces(outline, longest_piece * spacing))
+      if (box.contains(piece.place) && !contains(piece.place + beside * spacing * piece.area.normalized()))
+        found.push_back(piece);
+  return found;
 }
 
 std::vector<std::uint32_t> Body::inside(const Box& box) const {
@@ -117,9 +228,22 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
   std::vector<Box> holes;
   for (const auto& hole : parameters.holes) holes.push_back(hole.box);
   body.shape = Shape(boxes, holes, parameters.spacing);
+  const bool has_outline =
+      std::any_of(regions.begin(), regions.end(),
+                  [&](const Region& region) { return is_fitted(region, parameters.holes); }) ||
+      std::any_of(parameters.loads.begin(), parameters.loads.end(),
+                  [](const BoxLoad& load) { return load.pressure != 0; });
   for (std::size_t a = 0; a < regions.size(); ++a) {
     const std::size_t before = body.size();
-    fill_region(a, parameters, body, tell_fault);
+    if (has_outline) {
+      auto outline = outline_of(regions[a], parameters.holes, tell_fault);
+      if (!outline) continue;
+      body.outlines.push_back(std::move(*outline));
+    }
+    if (is_fitted(regions[a], parameters.holes))
+      fit_region(a, body.outlines.back(), parameters, body, tell_fault);
+    else
+      fill_region(a, parameters, body, tell_fault);
     for (std::size_t b = 0; b < a; ++b)
       if (overlap(parameters, body, a, b))
         tell_fault("solid.region", fmt::format("region '{}' overlaps region '{}'; regions may touch only",
@@ -134,15 +258,13 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
     for (const auto i : particles) body.held[i] = 1;
     body.counts.emplace_back("clamp " + clamp.name, particles.size());
   }
-  for (const auto& load : parameters.loads)
-    if (body.inside(load.box).empty())
-      tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
+  if (body.size() > 0) find_surface(body);
+  for (const auto& load : parameters.loads) check_load(load, body, parameters.h(), tell_fault);
   for (const auto& observer : parameters.observers) try {
       MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape);
     } catch (const std::invalid_argument& error) {
       tell_fault("solid.observer", fmt::format("observer '{}': {}", observer.name, error.what()));
     }
-  if (body.size() > 0) find_surface(body);
   return body;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/scene/fill_outline.hpp"
 #include "solid_solver/parameters.hpp"
 #include "solid_solver/shape.hpp"
 
@@ -17,21 +18,34 @@ namespace toryu::solid {
 /// at (i + 1/2) spacings from its faces, and their volumes sum to its area. A clamp line that is the common
 /// face of two regions therefore lies between rows. Of a round region, or about a round hole, the particles
 /// whose centre is inside are there.
+///
+/// A region that is an outline, or that a hole with an outline cuts, is fitted instead: fill_outline.hpp says
+/// how. The surface of a body that has such a region is its outline, each piece of which belongs to the
+/// particle nearest to it.
 struct Body {
   std::vector<Vec> X;                 ///< positions [m]
-  std::vector<Vec> cell;              ///< sides of each particle's cell [m]
+  std::vector<Vec> cell;              ///< sides of each particle's cell; of a fitted one as if square [m]
   std::vector<std::uint32_t> region;  ///< index of each particle's region
   std::vector<char> held;             ///< by a clamp
   std::vector<Vec> area_vector;       ///< outward faces of the surface [m per metre depth]; zero inside
   Shape shape;                        ///< where there is material
-  std::vector<Vec> outside;           ///< empty lattice sites beyond the surface [m]
-  double spacing = 0;                 ///< as stated [m]
+  std::vector<Vec> outside;           ///< empty lattice sites, or places as far beyond the surface [m]
+  /// Of all regions without the holes, if one is fitted or a pressure acts on the body; else none.
+  std::vector<Outline> outlines;
+  double spacing = 0;                                       ///< as stated [m]
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log
 
   std::size_t size() const { return X.size(); }
   double volume(std::size_t i) const { return cell[i].prod(); }  ///< [m2 per metre depth]
   double total_volume() const;
+  bool has_outline() const { return !outlines.empty(); }
+  /// Whether `x` [m] lies in one of the outlines.
+  bool contains(const Vec& x) const;
+  /// The point of the surface that is nearest to `x` [m]: none in a body without an outline.
+  std::optional<Outline::Foot> foot(const Vec& x) const;
   std::vector<std::uint32_t> inside(const Box& box) const;  ///< numbers of the particles in a box
+  /// The pieces of the surface in a box: none in a body without an outline.
+  std::vector<SurfacePiece> surface(const Box& box) const;
   /// Numbers of the particles that have an empty lattice site within `reach` [m]: those that a fluid with
   /// that reach can touch.
   std::vector<std::uint32_t> near_surface(double reach) const;

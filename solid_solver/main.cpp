@@ -136,6 +136,8 @@ ExitCode solve(const Options& options) {
     if (options.outlook) print(outlook("[solid]", *model, scene.end_time).text);
     return ExitCode::done;
   }
+  if (body.has_outline())
+    log::info("particles fit the outline; their density is even within {:.2g} %", 100 * body.spread);
   log::info("area {:.6g} m2, mass {:.6g} kg per metre of depth", body.total_volume(), model->total_mass());
   if (!file.has("fluid")) {
     compute_alone(options, file, scene, parameters, *model);

@@ -161,8 +161,8 @@ std::vector<ActiveTerm> SolidModel::active_terms() const {
     terms.push_back(
         {"gravity", "Dv/Dt = g", "", fmt::format("g = ({:g}, {:g}) m/s2", gravity_[0], gravity_[1])});
   if (!parameters_.loads.empty())
-    terms.push_back({"constant loads", "f_i = F/N on the N particles of a box", "",
-                     fmt::format("{} boxes", parameters_.loads.size())});
+    terms.push_back({"constant loads", "f_i = F/N on the N particles of a box, or -p A_i on their surface",
+                     "", fmt::format("{} boxes", parameters_.loads.size())});
   if (parameters_.artificial_viscosity)
     terms.push_back(
         {"artificial viscosity", "Pi_ij = (-A c theta_ij + B theta_ij^2)/rho_0 where particles approach",

@@ -54,6 +54,12 @@ class MaterialPoint {
     return sum;
   }
 
+  /// Calls take(particle, weight) for each: how they share what acts at the point.
+  template <class Take>
+  void share(const Take& take) const {
+    for (std::size_t k = 0; k < particles_.size(); ++k) take(particles_[k], weights_[k]);
+  }
+
  private:
   std::vector<std::uint32_t> particles_;
   std::vector<double> weights_;

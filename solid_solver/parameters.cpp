@@ -21,7 +21,16 @@ void describe(ParameterTable& table, Region& region) {
 void describe(ParameterTable& table, BoxLoad& load) {
   table.text("name", load.name, {.required = true, .help = "name of the load"});
   describe_shape(table, load.shape, load.box, "the particles in it share the force equally");
-  table.vector("force", load.force, {.unit = "N/m", .required = true, .help = "force per metre of depth"});
+  if (table.wants(load.pressure != 0))
+    table.number(
+        "pressure", load.pressure,
+        {.unit = "Pa",
+         .help = "in the place of a force: on the surface that lies in the box, as large and directed "
+                 "as that is in the unloaded body"});
+  table.vector("force", load.force,
+               {.unit = "N/m", .required = load.pressure == 0, .help = "force per metre of depth"});
+  table.require(load.pressure == 0 || load.force.isZero(0), "pressure",
+                "a load is a 'force' or a 'pressure', not both");
 }
 
 void describe(ParameterTable& table, SolidLimits& limits) {
@@ -93,7 +102,7 @@ void describe_body(ParameterTable& table, Parameters& p) {
   table.list("region", p.regions, "boxes filled with the solid; they may touch but not overlap");
   table.list("hole", p.holes, "boxes cut out of the regions");
   table.list("clamp", p.clamps, "boxes whose particles are held in place");
-  table.list("load", p.loads, "constant forces on the particles of a box");
+  table.list("load", p.loads, "constant forces or pressures on the particles of a box");
   table.list("observer", p.observers, "material points whose displacement goes to solid.csv");
   table.optional("initial_velocity", p.initial_velocity, "velocity at the start; absent: at rest");
 }

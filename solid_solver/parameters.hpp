@@ -43,11 +43,13 @@ struct Region {
 };
 void describe(ParameterTable& table, Region& region);
 
-/// A constant force, shared equally by the particles of a box.
+/// A constant force, shared equally by the particles of a box, or a constant pressure on their share of the
+/// surface, as large and directed as the surface is in the unloaded body.
 struct BoxLoad {
   std::string name;
   Box box;
   Vec force = Vec::Zero();  ///< [N per metre depth]
+  double pressure = 0;      ///< [Pa]
   BodyShape shape = {};
 };
 void describe(ParameterTable& table, BoxLoad& load);

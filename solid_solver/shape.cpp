@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/outline.hpp"
+
 namespace toryu::solid {
 
 namespace {
@@ -10,6 +12,8 @@ namespace {
 /// Over the spacing: rounding, what is known of a round face, and by how much a bond may be longer than the
 /// straight way.
 constexpr double rounding = 1e-6, round_face = 0.25, longest_detour = 0.1;
+/// Cosine of the turn from which on a corner is one.
+constexpr double least_straight = 0.98;
 
 /// The part of the way a + t (b - a), 0 <= t <= 1, that lies in a box; empty where end <= begin.
 struct Part {
@@ -39,13 +43,30 @@ Part part_in_ellipse(const Box& box, const Vec& a, const Vec& way) {
   return {std::max(0.0, (-B - std::sqrt(D)) / A), std::min(1.0, (-B + std::sqrt(D)) / A)};
 }
 
-Part part_in(const Box& box, const Vec& a, const Vec& way) {
-  return box.round ? part_in_ellipse(box, a, way) : part_in_sides(box, a, way);
+/// Calls take(part) for each part of the way from a that lies in a shape.
+template <class Take>
+void parts_in(const Box& box, const Vec& a, const Vec& way, const Take& take) {
+  if (box.outline)
+    for (const auto& [begin, end] : box.outline->shares_inside(a, a + way)) take(Part{begin, end});
+  else if (const Part part = box.round ? part_in_ellipse(box, a, way) : part_in_sides(box, a, way);
+           part.end > part.begin)
+    take(part);
 }
 
-/// Box with its sides moved out by `distance` [m].
+/// Box with its sides moved out by `distance` [m]. Particles know an outline as it is.
 Box grown(const Box& box, double distance) {
+  if (box.outline) return box;
   return {box.min.array() - distance, box.max.array() + distance, box.round};
+}
+
+/// Corners at which an outline turns by more than a curve in small steps does.
+void add_corners(const Outline& outline, std::vector<Vec>& corners) {
+  for (const auto& ring : outline.rings())
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec before = (ring[k] - ring[(k + ring.size() - 1) % ring.size()]).normalized(),
+                after = (ring[(k + 1) % ring.size()] - ring[k]).normalized();
+      if (before.dot(after) < least_straight) corners.push_back(ring[k]);
+    }
 }
 
 }  // namespace
@@ -54,7 +75,9 @@ Shape::Shape(std::vector<Box> regions, std::vector<Box> holes, double spacing)
     : regions_(std::move(regions)), tolerance_(rounding * spacing), detour_(longest_detour * spacing) {
   for (const auto* boxes : {&regions_, &holes})
     for (const Box& box : *boxes)
-      if (!box.round)
+      if (box.outline)
+        add_corners(*box.outline, corners_);
+      else if (!box.round)
         for (const double x : {box.min.x(), box.max.x()})
           for (const double y : {box.min.y(), box.max.y()}) corners_.emplace_back(x, y);
   for (Box& region : regions_) region = grown(region, region.round ? round_face * spacing : 0.5 * tolerance_);
@@ -77,13 +100,13 @@ bool Shape::sees(const Vec& a, const Vec& b) const {
   const Vec way = b - a;
   if (way.norm() <= tolerance_) return true;
   const double share = tolerance_ / way.norm();
-  for (const Box& hole : holes_) {
-    const Part part = part_in(hole, a, way);
-    if (part.end - part.begin > share) return false;
-  }
+  double empty = 0;  // the longest way through a hole
+  for (const Box& hole : holes_)
+    parts_in(hole, a, way, [&](const Part& part) { empty = std::max(empty, part.end - part.begin); });
+  if (empty > share) return false;
   std::vector<Part> parts;
   for (const Box& region : regions_)
-    if (const Part part = part_in(region, a, way); part.end > part.begin) parts.push_back(part);
+    parts_in(region, a, way, [&](const Part& part) { parts.push_back(part); });
   std::sort(parts.begin(), parts.end(), [](const Part& p, const Part& q) { return p.begin < q.begin; });
   double reached = 0;
   for (const Part& part : parts)

@@ -22,11 +22,13 @@ class Shape {
   /// Whether the straight way from `a` to `b` [m] lies in the material all along.
   bool sees(const Vec& a, const Vec& b) const;
   /// Whether it joins any two of its points.
-  bool is_convex() const { return holes_.empty() && regions_.size() <= 1; }
+  bool is_convex() const {
+    return holes_.empty() && (regions_.empty() || (regions_.size() == 1 && !regions_[0].outline));
+  }
 
  private:
   std::vector<Box> regions_, holes_;
-  std::vector<Vec> corners_;           ///< of those that are not round [m]
+  std::vector<Vec> corners_;           ///< of those that are not round, nor nearly so [m]
   double tolerance_ = 0, detour_ = 0;  ///< of lengths; by how much a bond may be longer than straight [m]
 };
 

@@ -44,6 +44,7 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
     for (const auto i : particles)
       constant_[i] += load.force / (static_cast<double>(particles.size()) * mass(i));
   }
+  bear_pressures();
   state_.idle_external = constant_[state_.number.back()];
   find_external();
   state_.load_sum = sum_of_loads();
@@ -64,6 +65,24 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
     state_.detachment = detachment_->start();
   }
   if (parameters_.detachment || parameters_.bonds) watch_bonds();
+}
+
+void SolidModel::bear_pressures() {
+  for (const auto& load : parameters_.loads) {
+    if (load.pressure == 0) continue;
+    pressed_.resize(particle_count(), Vec::Zero());
+    for (const SurfacePiece& piece : body_.surface(load.box)) {
+      const MaterialPoint point(piece.place, body_.X, 2.0 * parameters_.h(), body_.shape);
+      point.share([&](std::uint32_t i, double weight) {
+        pressed_[i] -= weight * load.pressure / mass(i) * piece.area;
+      });
+    }
+  }
+  for (std::size_t i = 0; i < pressed_.size(); ++i) constant_[i] += pressed_[i];
+}
+
+Vec SolidModel::steady_acceleration(std::size_t particle) const {
+  return pressed_.empty() ? gravity_ : Vec(gravity_ + pressed_[particle]);
 }
 
 Vec SolidModel::initial_velocity(std::size_t particle) const {

@@ -142,6 +142,7 @@ class SolidModel : public Solver {
             impedance_work, past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy);
   }
 
+  Vec steady_acceleration(std::size_t particle) const;  ///< by gravity and constant pressures [m/s2]
   /// Adds to the external acceleration what the interface's impedance z makes of it in a step `dt` [s]:
   ///
   ///     m a = -z n n.(w - w_c),   w = v + dt/2 (a_rest - z/m n n.(w - w_c))
@@ -185,6 +186,10 @@ class SolidModel : public Solver {
   std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
 
  private:
+  /// Adds constant pressures to the loads. What acts at a point of the surface is shared by the particles
+  /// with the weights by which they make up the displacement there: its work is then that of the surface, and
+  /// no layer below it gives way, as the first row does where it bears a load alone.
+  void bear_pressures();
   void find_slots();     ///< and what stands in them, after the numbers have changed
   void find_external();  ///< after the numbers or the loads have changed
   Vec initial_velocity(std::size_t particle) const;  ///< [m/s]
@@ -201,6 +206,7 @@ class SolidModel : public Solver {
   void observe_bonds(std::vector<Observation>& row) const;
 
   std::vector<Vec> constant_;  ///< acceleration by gravity and constant loads, by number [m/s2]
+  std::vector<Vec> pressed_;   ///< of it what constant pressures do; empty without any
   double first_energy_ = 0;    ///< kinetic, of the start [J/m]
   std::vector<std::pair<PointObserver, MaterialPoint>> observers_;
   std::vector<std::uint32_t> held_;  ///< numbers of the held particles

@@ -15,8 +15,8 @@ using Ring = Outline::Ring;
 /// Over the spacing.
 constexpr double relaxing_h = 1.0, skin = 0.3, longest_piece = 0.125, first_row = 0.75, longest_move = 0.1;
 constexpr double largest_misfit = 0.1;
-constexpr int most_rounds = 1000;
-constexpr double inertia = 0.9, step = 0.3, converged = 1e-4;
+constexpr int most_rounds = 200;
+constexpr double inertia = 0.9, step = 0.3, converged = 5e-4;
 
 /// The lattice of a rectangle, in the order of its rows; empty if the outline is none that rows fit.
 FittedFilling fill_rectangle(const Outline& outline, double spacing) {
@@ -90,7 +90,21 @@ class Relaxation {
     return largest;
   }
 
-  /// sum_j V W_ij and what is beyond the outline.
+  /// Standard deviation of sum_j V W_ij over their mean, where the outline is out of reach.
+  double spread() const {
+    double sum = 0, squares = 0, count = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      if (!beside_[i].empty()) continue;
+      double density = V_ * W_.value(0.0);
+      for (const std::uint32_t j : neighbours_[i]) density += V_ * W_.value((x_[i] - x_[j]).norm());
+      sum += density;
+      squares += density * density;
+      ++count;
+    }
+    return count > 0 ? std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count))) * count / sum
+                     : 0.0;
+  }
+
  private:
   Vec force(std::size_t i) const {
     Vec F = Vec::Zero();
@@ -168,23 +182,35 @@ FittedFilling fill_outline(const Outline& outline, double spacing, const std::fu
     ++filling.rounds;
     const double largest = relaxation.round();
     if (told) told(static_cast<double>(filling.rounds) / most_rounds);
-    if (getenv("TRACE") && filling.rounds % 50 == 0) printf("%d %g\n", filling.rounds, largest);
     if (largest < converged) break;
   }
+  filling.spread = relaxation.spread();
   return filling;
 }
 
-std::vector<double> evenness(const Outline& outline, const FittedFilling& filling, double h) {
-  const CubicSpline W(h);
-  const auto pieces = surface_pieces(outline, longest_piece * h);
-  std::vector<double> sums;
-  for (const Vec& x : filling.points) {
-    double sum = filling.volume * W.value(0.0);
-    for (const Vec& y : filling.points)
-      if (&x != &y) sum += filling.volume * W.value((x - y).norm());
-    sums.push_back(sum);
+std::vector<Vec> area_vectors(const std::vector<Vec>& points, const std::vector<SurfacePiece>& pieces,
+                              double reach) {
+  std::vector<Vec> areas(points.size(), Vec::Zero());
+  if (points.empty()) return areas;
+  Box bounds{points[0], points[0]};
+  for (const Vec& x : points) {
+    bounds.min = bounds.min.cwiseMin(x);
+    bounds.max = bounds.max.cwiseMax(x);
   }
-  return sums;
+  PlaceIndex index(bounds, reach);
+  for (std::size_t i = 0; i < points.size(); ++i) index.add(points[i], static_cast<std::uint32_t>(i));
+  for (const SurfacePiece& piece : pieces) {
+    double least = reach * reach;
+    Vec* nearest = nullptr;
+    index.about(piece.place, [&](std::uint32_t i) {
+      const double square = (points[i] - piece.place).squaredNorm();
+      if (square >= least) return;
+      least = square;
+      nearest = &areas[i];
+    });
+    if (nearest) *nearest += piece.area;
+  }
+  return areas;
 }
 
 }  // namespace toryu

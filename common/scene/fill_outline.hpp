@@ -24,6 +24,7 @@ struct FittedFilling {
   std::vector<Vec> points;
   double volume = 0;  ///< of each particle: their sum is the outline's area [m2]
   int rounds = 0;     ///< that the relaxation took; 0 on a lattice
+  double spread = 0;  ///< of the sums of kernels inside: their standard deviation over their mean
 };
 
 /// A rectangle whose sides are near whole numbers of spacings, turned or not, gets the lattice that it fits.
@@ -44,8 +45,9 @@ struct SurfacePiece {
 /// The outline in straight pieces that are no longer than `longest` [m].
 std::vector<SurfacePiece> surface_pieces(const Outline& outline, double longest);
 
-/// Sum over the particles' kernels and the integral beyond the outline, at each particle: 1 where they are
-/// even. `h` [m] of the cubic spline.
-std::vector<double> evenness(const Outline& outline, const FittedFilling& filling, double h);
+/// What of the pieces belongs to each point: a piece to the nearest one within `reach` [m] [m per metre
+/// depth].
+std::vector<Vec> area_vectors(const std::vector<Vec>& points, const std::vector<SurfacePiece>& pieces,
+                              double reach);
 
 }  // namespace toryu

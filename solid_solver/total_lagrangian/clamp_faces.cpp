@@ -27,6 +27,23 @@ double entry(const Vec& from, const Vec& to, const Vec& centre, const Vec& sides
   return out - in > rounding ? in : std::numeric_limits<double>::infinity();
 }
 
+/// The same for the cell of what is nearer to `centre` than to any of `others`.
+double entry(const Vec& from, const Vec& to, const Vec& centre, const std::vector<Vec>& others) {
+  double in = 0, out = 1;
+  for (const Vec& other : others) {
+    // |x - centre|^2 <= |x - other|^2 at x = from + s (to - from)
+    const Vec apart = centre - other;
+    const double rise = (to - from).dot(apart), level = (0.5 * (centre + other) - from).dot(apart);
+    if (std::abs(rise) < rounding * apart.squaredNorm()) {
+      if (level > -rounding * apart.squaredNorm()) return std::numeric_limits<double>::infinity();
+    } else if (rise > 0)
+      in = std::max(in, level / rise);
+    else
+      out = std::min(out, level / rise);
+  }
+  return out - in > rounding ? in : std::numeric_limits<double>::infinity();
+}
+
 std::uint64_t key(std::size_t free, std::size_t held) {
   return (static_cast<std::uint64_t>(free) << 32) | held;
 }
@@ -46,9 +63,15 @@ void ClampFaces::find_shares(const VecField& X, std::size_t i, std::span<const s
   std::vector<std::uint32_t> near;  // of i itself: the same whichever cluster it is in
   for (const std::uint32_t j : sources)
     if (holds(j) && (at(X, j) - X_i).norm() < reach) near.push_back(j);
+  std::vector<Vec> free;  // of those about it, where cells follow from them
+  for (const std::uint32_t j : sources)
+    if (held_.fitted && !near.empty() && !holds(j) && (at(X, j) - X_i).norm() < reach)
+      free.push_back(at(X, j));
   for (const std::uint32_t j : near) {
     double s = 1;
-    for (const std::uint32_t k : near) s = std::min(s, entry(X_i, at(X, j), at(X, k), at(held_.cells, k)));
+    for (const std::uint32_t k : near)
+      s = std::min(s, held_.fitted ? entry(X_i, at(X, j), at(X, k), free)
+                                   : entry(X_i, at(X, j), at(X, k), at(held_.cells, k)));
     shares_[key(i, j)] = s;
   }
 }

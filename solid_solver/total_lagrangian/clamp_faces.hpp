@@ -28,6 +28,8 @@ namespace toryu::solid {
 struct Held {
   const Field& mobile;    ///< 0 where a clamp holds, else 1
   const VecField& cells;  ///< sides of the particles' cells [m]
+  /// Whether the cells are no boxes, but what is nearer to one particle than to others.
+  bool fitted = false;
 };
 
 class ClampFaces {

@@ -11,7 +11,9 @@
 /// displacement along it is good, while that across it has a layer in which the weak form lets the surface
 /// go: there the derivative along the normal N follows from the traction,
 ///
-///     P(H) N = t(depth),   t = 0 at the surface and that of the fit at a depth of 1.5 d_0, linear between.
+///     P(H) N = t(depth),   t = 0 at the surface and that of the fit at a depth of 1.5 d_0, linear between;
+///
+/// t = -p N at the surface under a constant pressure.
 ///
 /// Held particles take no part, as their displacement has a kink at the clamp, and none that a gap parts from
 /// the point.
@@ -76,12 +78,14 @@ class GradientFit {
   std::vector<std::array<double, dim>> weights_;  ///< [1/m]
 };
 
-/// A free surface beside a point.
+/// A surface beside a point on which nothing acts, or a constant pressure.
 struct FreeSurface {
   Vec normal = Vec::Zero();          ///< outward, of the unloaded body
   double share = 0;                  ///< of the traction at `deeper` that is left at the point
   std::vector<std::uint32_t> faces;  ///< particles that it belongs to
   GradientFit deeper;
+  Vec place = Vec::Zero();  ///< of a body with an outline: its nearest point [m]
+  double pressure = 0;      ///< [Pa]
 };
 
 struct RecoveredPoint {

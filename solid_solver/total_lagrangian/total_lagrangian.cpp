@@ -23,7 +23,7 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
     set(cells, k, body_.cell[i]);
   }
   pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
-                                            Held{mobile_, cells}, body_.shape);
+                                            Held{mobile_, cells, body_.has_outline()}, body_.shape);
   resize_fields(form_, size);
   resize(T_, size);
   find_recovered_points();
@@ -290,12 +290,19 @@ Stress TotalLagrangian::stress_of(const Tensor<double>& H) const {
 
 void TotalLagrangian::find_recovered_points() {
   const BodyIndex index(body_);
-  for (const auto& observer : parameters_.observers) of_observers_.emplace_back(index, observer.point);
+  const auto know_pressure = [&](RecoveredPoint& point) {
+    for (const auto& load : parameters_.loads)
+      if (point.surface && load.pressure != 0 && load.box.contains(point.surface->place))
+        point.surface->pressure += load.pressure;
+  };
+  for (const auto& observer : parameters_.observers)
+    know_pressure(of_observers_.emplace_back(index, observer.point));
   surface_index_.assign(particle_count(), particle_count());
   for (std::size_t i = 0; i < particle_count(); ++i) {
     if (body_.held[i] || body_.area_vector[i].isZero()) continue;
     RecoveredPoint point(index, body_.X[i]);
     if (!point.fit.found() || !point.surface) continue;
+    know_pressure(point);
     surface_index_[i] = of_surface_.size();
     of_surface_.push_back(std::move(point));
   }
@@ -305,7 +312,7 @@ bool TotalLagrangian::is_free(const FreeSurface& surface) const {
   if (bodies_) return false;
   return std::all_of(surface.faces.begin(), surface.faces.end(), [&](std::uint32_t i) {
     const bool pushed = walls_ && !at(state_.push, slot_[i]).isZero();
-    return !pushed && at(state_.external, slot_[i]) == gravity_;
+    return !pushed && at(state_.external, slot_[i]) == steady_acceleration(i);
   });
 }
 
@@ -317,7 +324,9 @@ Stress TotalLagrangian::recovered(const RecoveredPoint& point) const {
     std::visit(
         [&](const auto& law) {
           const auto P = [&](const Tensor<double>& gradient) { return law.stress(gradient); };
-          const Vec t = point.surface->share * traction(P(point.surface->deeper.gradient(u)), normal);
+          const double share = point.surface->share;
+          Vec t = share * traction(P(point.surface->deeper.gradient(u)), normal);
+          if (point.surface->pressure != 0) t -= (1 - share) * point.surface->pressure * normal;
           H = with_traction(P, H, normal, t);
         },
         law_);
