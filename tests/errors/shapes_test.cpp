@@ -49,7 +49,7 @@ TEST(ShapeFaults, OfAPolygonThatCrossesItself) {
             "case.toml:7:1: error: 'polygon' crosses or touches itself at (1, 1) m, at its corner 0, counted "
             "from 0");
   EXPECT_EQ(faults_of("polygon=[[0,0],[2,2]]\n"),
-            "case.toml:7:1: error: 'polygon' has 2 corners; an outline has at least 3 m, at its corner 0, "
+            "case.toml:7:1: error: 'polygon' has 2 corners; an outline has at least 3, at its corner 0, "
             "counted from 0");
 }
 
@@ -63,7 +63,7 @@ TEST(ShapeFaults, OfHoles) {
 
 TEST(ShapeFaults, OfCopiesThatOverlap) {
   EXPECT_EQ(faults_of("box={min=[0,0], max=[1,1]}\narray={count=2, translate=[0.5,0.5]}\n"),
-            "case.toml:8:1: error: copies overlap or touch: one crosses or touches itself at (1, 0.5) m");
+            "case.toml:8:1: error: copies overlap or touch: one crosses or touches itself at (0.5, 1) m");
 }
 
 TEST(ShapeFaults, OfAWallBeyondTheDomain) {
