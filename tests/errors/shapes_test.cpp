@@ -107,7 +107,7 @@ TEST(ShapeFaults, OfAFileThatIsNotThereOrOfAnotherKind) {
   EXPECT_EQ(faults_with("part.csv", "x[m],y[m]\n0,0\n2,0\n2,1\n", "id='a'\n"),
             "case.toml:8:1: error: 'id' is that of an element of an .svg");
   EXPECT_EQ(faults_of("box={min=[0,0], max=[1,1]}\nunit='mm'\n"),
-            "case.toml:7:1: error: 'id', 'layer' and 'unit' are those of a 'file'");
+            "case.toml:8:1: error: 'unit' is that of a 'file'");
 }
 
 /// The wall of a case.
@@ -182,8 +182,8 @@ TEST(Shapes, AreLeftOutOfTheFluidUnlessTheyAreBoxes) {
   EXPECT_EQ(CaseText(tank + "box={min=[-1,-1], max=[1,1]}\n[fluid]\nspacing=0.1\n[[fluid.region]]\n"
                             "name='water'\ncircle={centre=[0,0], radius=2}\n")
                 .scene_faults(),
-            "case.toml:12:1: error: the fluid's region 'water' overlaps the wall 'w' near (-0.934375, "
-            "-0.934375) m");
+            "case.toml:12:1: error: the fluid's region 'water' overlaps the wall 'w' near (-0.963906, "
+            "-0.963906) m");
 }
 
 TEST(Shapes, ThatOverlapAreFaults) {
