@@ -14,13 +14,18 @@ namespace {
 
 using Ring = Outline::Ring;
 
-/// Over the spacing.
-constexpr double relaxing_h = 1.0, skin = 0.3, longest_piece = 0.125, first_row = 0.75, longest_move = 0.1;
+/// Over the spacing: h of the relaxation, so short that a particle's nearest neighbours count most; how much
+/// farther neighbours are listed; pieces of the outline; how deep the first row may start and how exactly it
+/// keeps its depth; the longest move of a round.
+constexpr double relaxing_h = 1.0, skin = 0.3, longest_piece = 0.125, first_row = 0.75, on_row = 1e-6,
+                 longest_move = 0.1;
+/// What sides of a rectangle may be off a whole number of rows, over it.
 constexpr double largest_misfit = 0.1;
-constexpr std::chrono::seconds worth_keeping{1};
-constexpr double on_row = 1e-6;
-constexpr int most_rounds = 200, most_turns = 20;
+/// Of a move, what is kept in the next round; what F adds, over d_0^2; the largest F [1/d_0] at the end.
 constexpr double inertia = 0.9, step = 0.3, converged = 5e-4;
+constexpr int most_rounds = 200;
+constexpr int most_turns = 20;  // from one side of a corner to the other
+constexpr std::chrono::seconds worth_keeping{1};
 
 /// The lattice of a rectangle, in the order of its rows; empty if the outline is none that rows fit.
 FittedFilling fill_rectangle(const Outline& outline, double spacing) {

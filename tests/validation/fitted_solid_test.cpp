@@ -68,7 +68,7 @@ TEST(CurvedBeam, BendsAsElasticityHasIt) {
   for (const auto& [name, r] : {std::pair("inner", 0.01), {"outer", 0.02}}) {
     const StressAt sigma = stress(*model, name);
     const double along = 0.5 * (sigma.xx + sigma.yy) - sigma.xy;  // at 45 degrees
-    const double exact = along_quarter_ring(r, M_PI / 4, 100.0, 0.0025);
+    const double exact = along_quarter_ring(r, M_PI / 4, 100.0, 0.003);
     std::printf("%s %.5g Pa, exact %.5g, ratio %.4f\n", name, along, exact, along / exact);
     EXPECT_NEAR(along / exact, 1.0, 0.03);
   }
