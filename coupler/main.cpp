@@ -40,8 +40,8 @@ void drop_unless_all_can(Checkpoints& checkpoints, const CouplerLink::Partners& 
 }
 
 /// Joins both participants and runs all windows.
-void run_windows(const CaseFile& file, const Scene& scene, const Settings& settings, Checkpoints checkpoints,
-                 CouplerLink& link, CoupledRun& run) {
+void run_windows(const CaseFile& file, const Settings& settings, Checkpoints checkpoints, CouplerLink& link,
+                 CoupledRun& run) {
   const auto partners = link.gather(
       {.windows_repeat = settings.coupling.windows_repeat(), .restart = checkpoints.restart.has_value()});
   drop_unless_all_can(checkpoints, partners);
@@ -56,8 +56,7 @@ void run_windows(const CaseFile& file, const Scene& scene, const Settings& setti
   run.run(link.begin(beginning), checkpoints);
 }
 
-void run_and_sum_up(const CaseFile& file, const Scene& scene, const Settings& settings,
-                    const Checkpoints& checkpoints) {
+void run_and_sum_up(const CaseFile& file, const Settings& settings, const Checkpoints& checkpoints) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   Summary summary;
@@ -79,7 +78,7 @@ void run_and_sum_up(const CaseFile& file, const Scene& scene, const Settings& se
     write_summary(settings.out, summary);
   };
   try {
-    run_windows(file, scene, settings, checkpoints, link, run);
+    run_windows(file, settings, checkpoints, link, run);
     link.stop(ExitCode::done, "");
     run.complete();
   } catch (...) {
@@ -120,7 +119,7 @@ ExitCode couple(const Options& options) {
   claim_folder(options, "coupler");
   Checkpoints checkpoints{.interval = scene.checkpoint_interval, .every = scene.checkpoint_every};
   if (options.restart) checkpoints.restart = checkpoint_to_restart(options.out);
-  run_and_sum_up(file, scene,
+  run_and_sum_up(file,
                  {.end_time = scene.end_time,
                   .frame_interval = scene.frame_interval,
                   .series_interval = scene.series_interval,

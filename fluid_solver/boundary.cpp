@@ -52,6 +52,9 @@ void Boundary::know_faces(const FaceDepths& depths, bool fit) {
     set(depth_up, k, depths.up[id[k]]);
     set(depth_down, k, depths.down[id[k]]);
   }
+  if (depths.to_outline.empty()) return;
+  resize(to_outline, padded(count));
+  for (std::size_t k = 0; k < count; ++k) set(to_outline, k, depths.to_outline[id[k]]);
 }
 
 void Boundary::sort() {

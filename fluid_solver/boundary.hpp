@@ -46,6 +46,8 @@ inline Faces faces_of(const Vec& area_vector) {
 /// Distance of each particle of a body from the end of the body along either direction of each axis [m].
 struct FaceDepths {
   std::vector<Vec> up, down;
+  /// From each to the nearest point of the body's outline [m]; zero where it has none. Empty: none has.
+  std::vector<Vec> to_outline = {};
 };
 
 struct Boundary {
@@ -66,6 +68,8 @@ struct Boundary {
   /// Distance from where the body ends along either direction of each axis (wall_extrapolation.hpp).
   Declared<VecField> depth_up{"depth_up", "m", FieldKind::state, Presence::on_demand},
       depth_down{"depth_down", "m", FieldKind::state, Presence::on_demand};
+  /// To the nearest point of its outline, for the particles of a body that is one.
+  Declared<VecField> to_outline{"to_outline", "m", FieldKind::state, Presence::on_demand};
   // extrapolated from the fluid
   Declared<Field> p{"pressure", "Pa", FieldKind::derived},
       p_rho2{"p/rho^2", "m5/(kg.s2)", FieldKind::derived};
@@ -143,13 +147,13 @@ void Boundary::move_to(Of&& kinematics) {
 template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
   auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
-         p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress, force,
-         friction_length, friction_force, fitted, force_on_fluid, impulse, work, counted, list_for_wall,
-         list_for_fluid, strips] = boundary;
+         to_outline, p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress,
+         force, friction_length, friction_force, fitted, force_on_fluid, impulse, work, counted,
+         list_for_wall, list_for_fluid, strips] = boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
-  archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, p, p_rho2,
-          v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress, force, friction_length,
-          friction_force, impulse, work, counted);
+  archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, to_outline,
+          p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress, force,
+          friction_length, friction_force, impulse, work, counted);
 }
 
 inline Sources sources(const Boundary& b) {

@@ -38,12 +38,14 @@ void disorder(std::vector<Vec>& points, double largest) {
 /// The lattice of a wall, and what stands where of it.
 struct WallParticles {
   std::vector<Vec> lattice;
-  std::vector<std::size_t> stands;  ///< points of the lattice that have a particle
+  std::vector<const Outline*> outlines;  ///< that the points fit; null on a lattice
+  std::vector<std::size_t> stands;       ///< points of the lattice that have a particle
   std::vector<Vec> places;
   std::vector<double> volumes;  ///< [m2]
 
   WallParticles() = default;
-  WallParticles(const Wall& wall, const Filling& filling) : lattice(filling.points) {
+  WallParticles(const Wall& wall, const Filling& filling)
+      : lattice(filling.points), outlines(lattice.size(), wall.box.outline.get()) {
     const auto worn = worn_places(wall, lattice);
     for (std::size_t k = 0; k < lattice.size(); ++k) {
       if (!worn[k]) continue;
@@ -56,6 +58,7 @@ struct WallParticles {
     for (const std::size_t k : other.stands) stands.push_back(lattice.size() + k);
     const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
     append(lattice, other.lattice);
+    append(outlines, other.outlines);
     append(places, other.places);
     append(volumes, other.volumes);
   }
@@ -65,7 +68,10 @@ struct WallParticles {
     for (const std::size_t k : stands) values.push_back(of_lattice[k]);
     return values;
   }
-  FaceDepths kept(const FaceDepths& depths) const { return {kept(depths.up), kept(depths.down)}; }
+  FaceDepths kept(const FaceDepths& depths) const {
+    return {kept(depths.up), kept(depths.down),
+            depths.to_outline.empty() ? std::vector<Vec>{} : kept(depths.to_outline)};
+  }
 };
 
 }  // namespace
@@ -149,10 +155,11 @@ void FluidModel::fill_walls() {
                    scene_.geometry);
     const bool fit = parameters_.wall_model.extrapolation == WallExtrapolation::fit;
     if (fit || parameters_.wall_slip)
-      boundary.know_faces(made.kept(lattice_face_depths(made.lattice, parameters_.spacing, 2 * reach())),
-                          fit);
+      boundary.know_faces(
+          made.kept(face_depths(made.lattice, made.outlines, parameters_.spacing, 2 * reach())), fit);
     if (wall && wall->work_piece)
-      boundary.make_work_piece(made.kept(lattice_faces(made.lattice, parameters_.spacing, period_.shifts())));
+      boundary.make_work_piece(
+          made.kept(faces_of(*wall, made.lattice, parameters_.spacing, period_.shifts())));
   };
   for (const auto& wall : scene_.walls) {
     const WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));

@@ -191,7 +191,7 @@ ExitCode solve(const Options& options) {
   check_folder(file, options.out);
   for (const auto& [key, message] : fluid::axis_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
-  for (const Box& box : left_out_of_fluid(file, scene)) parameters.holes.emplace_back().Box::operator=(box);
+  fluid::leave_out(left_out_of_fluid(file, scene), parameters);
   for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);
   for (const auto& [key, message] : fluid::similarity_faults(parameters, scene.geometry, file.has("solid")))
     file.fault(key, message);

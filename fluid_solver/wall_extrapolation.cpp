@@ -14,6 +14,8 @@ namespace {
 
 // A sum of kernel values below this share of W(0) means that no fluid is in reach.
 constexpr double smallest_share = 1e-9;
+// No length of a case is as small [m].
+constexpr double tiny = 1e-30;
 // What lies nearer to the face counts as this far, over the spacing: the velocity there is divided by it.
 constexpr double least_distance = 0.25;
 // Rows whose distances from the face spread less than this share tell no bend; the line in steps of h^2.
@@ -57,6 +59,15 @@ Face face_towards(const Boundary& boundary, const Particles& fluid, const W& ker
       face.depth = select(better, depth, face.depth);
       face.separation = select(better, separation, face.separation);
     }
+  if (boundary.to_outline[0].empty()) return face;
+  const VecLanes way = load(boundary.to_outline, first);
+  const Lanes depth = square_root(dot(way, way));
+  const VecLanes normal = product(inverse(max(depth, tiny)), way);
+  const Lanes separation = -dot(normal, x_wi) - depth;
+  const auto better = (depth > 0.0) & (separation > face.separation);
+  for (int b = 0; b < dim; ++b) face.normal[b] = select(better, normal[b], face.normal[b]);
+  face.depth = select(better, depth, face.depth);
+  face.separation = select(better, separation, face.separation);
   return face;
 }
 
@@ -323,6 +334,18 @@ FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, d
       depths.up[k][a] = depth(points[k], Vec::Unit(a));
       depths.down[k][a] = depth(points[k], -Vec::Unit(a));
     }
+  return depths;
+}
+
+FaceDepths face_depths(const std::vector<Vec>& points, const std::vector<const Outline*>& outlines,
+                       double spacing, double far) {
+  FaceDepths depths = lattice_face_depths(points, spacing, far);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!outlines[k]) continue;
+    depths.up[k] = depths.down[k] = Vec::Constant(far);
+    depths.to_outline.resize(points.size(), Vec::Zero());
+    depths.to_outline[k] = outlines[k]->nearest(points[k]).place - points[k];
+  }
   return depths;
 }
 

@@ -96,6 +96,10 @@ Blocks blocks_of(const Parameters& p) {
   return fluid;
 }
 
+void leave_out(const std::vector<Box>& bodies, Parameters& p) {
+  for (const Box& body : bodies) static_cast<Box&>(p.holes.emplace_back()) = body;
+}
+
 Filling fill_wall(const Wall& wall, const Parameters& p, const Vec& gravity) {
   if (wall.box.outline || takes_rows_of_fluid(wall, p, gravity))
     return fill_to_faces({{wall.box}, {}}, p.spacing, blocks_of(p));

@@ -12,10 +12,13 @@ namespace toryu::fluid {
 /// Regions and holes of the fluid.
 Blocks blocks_of(const Parameters& parameters);
 
-/// Particles of a wall: those that fit its outline; of a box on the lattice through its smallest corner. In rows between its faces, in line with
-/// the fluid's, where fluid at rest on the wall would find those off by more than a tenth of a spacing: where
-/// they end beside a face that the fluid starts on, or are out of line with the fluid's under its weight or
-/// where the fluid is not on a lattice itself.
+/// Cuts these bodies out of the fluid, besides its holes.
+void leave_out(const std::vector<Box>& bodies, Parameters& parameters);
+
+/// Particles of a wall: those that fit its outline; of a box on the lattice through its smallest corner. In
+/// rows between its faces, in line with the fluid's, where fluid at rest on the wall would find those off by
+/// more than a tenth of a spacing: where they end beside a face that the fluid starts on, or are out of line
+/// with the fluid's under its weight or where the fluid is not on a lattice itself.
 Filling fill_wall(const Wall& wall, const Parameters& parameters, const Vec& gravity);
 
 /// A sentence for each wall of too few rows to fit them to the face that fluid starts on.

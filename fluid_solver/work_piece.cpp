@@ -1,7 +1,9 @@
 #include "fluid_solver/work_piece.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "common/scene/fill_outline.hpp"
 #include "common/scene/occupancy_index.hpp"
 
 namespace toryu::fluid {
@@ -22,6 +24,35 @@ std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing,
       if (!places.taken(points[k] + next)) faces[k].upper[axis] = spacing;
     }
   return faces;
+}
+
+namespace {
+
+/// Over the spacing: pieces of an outline, how far beyond one the wall may go on, and how far the particle of
+/// a piece may be, in a sharp corner.
+constexpr double longest_piece = 1.0 / 8, beside = 0.01, furthest_particle = 4;
+
+/// The faces of points that fit an outline, as it is.
+std::vector<Faces> outline_faces(const Outline& outline, const std::vector<Vec>& points, double spacing,
+                                 const std::vector<Vec>& shifts) {
+  auto pieces = surface_pieces(outline, longest_piece * spacing);
+  std::erase_if(pieces, [&](const SurfacePiece& piece) {
+    const Vec beyond = piece.place + beside * spacing * piece.area.normalized();
+    return std::any_of(shifts.begin(), shifts.end(),
+                       [&](const Vec& shift) { return outline.contains(beyond - shift); });
+  });
+  std::vector<Faces> faces;
+  for (const Vec& area : area_vectors(points, pieces, furthest_particle * spacing))
+    faces.push_back(faces_of(area));
+  return faces;
+}
+
+}  // namespace
+
+std::vector<Faces> faces_of(const Wall& wall, const std::vector<Vec>& points, double spacing,
+                            const std::vector<Vec>& shifts) {
+  return wall.box.outline ? outline_faces(*wall.box.outline, points, spacing, shifts)
+                          : lattice_faces(points, spacing, shifts);
 }
 
 namespace {

@@ -13,6 +13,10 @@ namespace toryu::fluid {
 std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing,
                                  const std::vector<Vec>& shifts);
 
+/// The same of the particles of a wall: where it is an outline, each piece of that belongs to the nearest.
+std::vector<Faces> faces_of(const Wall& wall, const std::vector<Vec>& points, double spacing,
+                            const std::vector<Vec>& shifts);
+
 /// Where a work piece stands on a wall no fluid comes: closes the faces of its cells, `spacing` [m] wide,
 /// that border on a cell of those `boundaries`, `wall_spacing` [m] wide, that stand still as it does or move
 /// as it does. A solid's interface counts as still: what borders on a wall is held.

@@ -49,13 +49,9 @@ bool is_fitted(const Region& region, const std::vector<NamedBox>& holes) {
          });
 }
 
-Outline outline_of(const Box& box) {
-  return box.outline ? *box.outline : Outline({ring_of(box)});
-}
-
 /// The outline of a region without the holes; none, told as a fault, if that is none.
-std::optional<Outline> outline_of(const Region& region, const std::vector<NamedBox>& holes,
-                                  const TellFault& tell_fault) {
+std::optional<Outline> outline_without(const Region& region, const std::vector<NamedBox>& holes,
+                                       const TellFault& tell_fault) {
   Outline outline = outline_of(region.box);
   for (const auto& hole : holes) {
     if (!touch(hole.box, region.box)) continue;
@@ -236,7 +232,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
   for (std::size_t a = 0; a < regions.size(); ++a) {
     const std::size_t before = body.size();
     if (has_outline) {
-      auto outline = outline_of(regions[a], parameters.holes, tell_fault);
+      auto outline = outline_without(regions[a], parameters.holes, tell_fault);
       if (!outline) continue;
       body.outlines.push_back(std::move(*outline));
     }

@@ -32,7 +32,8 @@ struct Body {
   std::vector<Vec> outside;           ///< empty lattice sites, or places as far beyond the surface [m]
   /// Of all regions without the holes, if one is fitted or a pressure acts on the body; else none.
   std::vector<Outline> outlines;
-  double spacing = 0;                                       ///< as stated [m]
+  double spacing = 0;  ///< as stated [m]
+  double spread = 0;   ///< of the density of fitted particles: see fill_outline.hpp
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log
 
   std::size_t size() const { return X.size(); }

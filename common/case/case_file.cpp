@@ -291,6 +291,7 @@ const std::vector<std::filesystem::path>& CaseFile::inputs() const {
 }
 
 std::filesystem::path CaseFile::folder() const {
+  if (content_->file.empty()) return {};
   return std::filesystem::absolute(content_->file).lexically_normal().parent_path();
 }
 

@@ -98,7 +98,7 @@ std::vector<Ring> rings_of(const BodyShape& shape) {
 
 std::string text_of(const OutlineFault& fault, std::size_t rings) {
   const std::string ring = rings > 1 ? fmt::format(" of its ring {}", fault.ring) : "";
-  return fmt::format("{} m, at its corner {}{}, counted from 0", fault.message, fault.corner, ring);
+  return fmt::format("{}, at its corner {}{}, counted from 0", fault.message, fault.corner, ring);
 }
 
 std::vector<Ring> copies_of(const std::vector<Ring>& rings, const Array& array) {
@@ -135,7 +135,7 @@ std::optional<ShapeFault> solve(const BodyShape& shape, Box& box) {
     for (Vec& corner : ring) corner = placed(shape, corner);
   if (shape.array) rings = copies_of(rings, *shape.array);
   if (const auto fault = fault_of(rings); fault && shape.array)
-    return ShapeFault{"array", "copies overlap or touch: one " + fault->message + " m"};
+    return ShapeFault{"array", "copies overlap or touch: one " + fault->message};
   box = box_of(Outline(std::move(rings)));
   return {};
 }

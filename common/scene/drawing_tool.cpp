@@ -10,12 +10,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include "common/case/text_file.hpp"
 #include "common/case/text_hash.hpp"
+#include "common/case/user_cache.hpp"
 
 namespace toryu {
 
@@ -25,9 +24,11 @@ namespace fs = std::filesystem;
 
 /// Debian's own, which has the packages, whatever python3 is first on PATH.
 constexpr const char* python = "/usr/bin/python3";
-constexpr int ended_well = 0, bad_drawing = 2;      // exit codes
+constexpr int ended_well = 0;                       // exit code
 constexpr std::chrono::seconds time_limit{120};     // for a drawing
 constexpr std::size_t largest_answer = 64'000'000;  // [bytes]
+/// Of an answer that is kept: without it the file has been damaged.
+constexpr const char* last_line = "# whole\n";
 
 /// tools/toryu of the tree that the program was built in; empty if it is in none.
 fs::path tools_folder() {
@@ -40,34 +41,13 @@ fs::path tools_folder() {
 }
 
 /// Where an answer is kept; empty if the user has no such place.
-fs::path cached_file(const fs::path& tools, const std::string& text,
-                     const std::vector<std::string>& arguments) {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (cache && fs::path(cache).is_absolute())
-    folder = fs::path(cache) / "toryu";
-  else if (home && fs::path(home).is_absolute())
-    folder = fs::path(home) / ".cache/toryu";
-  else
-    return {};
+fs::path cached_answer(const fs::path& tools, const std::string& text,
+                       const std::vector<std::string>& arguments) {
   TextHash hash;
   hash.add(text);
   hash.add(read_text(tools / "outline.py", largest_case));
   for (const auto& argument : arguments) hash.add(argument);
-  return folder / fmt::format("outline_{:016x}.csv", hash.value());
-}
-
-/// Other programs of the run may read or write the same file: it is there whole or not at all.
-void keep(const fs::path& file, const std::string& rows) {
-  std::error_code none;
-  fs::create_directories(file.parent_path(), none);
-  const fs::path part = fmt::format("{}.{}.part", file.string(), getpid());
-  std::ofstream stream(part, std::ios::binary);
-  stream << rows;
-  stream.close();
-  if (stream) fs::rename(part, file, none);
-  if (!stream || none) fs::remove(part, none);
+  return cached_file(fmt::format("outline_{:016x}.csv", hash.value()));
 }
 
 /// A child process and the end of the pipe that its standard output goes to.
@@ -158,11 +138,12 @@ ToolAnswer ask_drawing_tool(const fs::path& path, const std::string& text,
     return {.rows = {},
             .key = "file",
             .fault = "cannot be read: there is no tools/toryu/outline.py in a folder above the program"};
-  const fs::path cached = cached_file(tools, text, arguments);
+  const fs::path cached = cached_answer(tools, text, arguments);
   if (!cached.empty() && is_file(cached))
-    return {.rows = read_text(cached, largest_answer), .key = {}, .fault = {}};
+    if (auto rows = read_text(cached, largest_answer); rows.ends_with(last_line))
+      return {.rows = std::move(rows), .key = {}, .fault = {}};
   ToolAnswer answer = answer_of(tools, path, arguments);
-  if (answer.fault.empty() && !cached.empty()) keep(cached, answer.rows);
+  if (answer.fault.empty() && !cached.empty()) keep_cached(cached, answer.rows + last_line);
   return answer;
 }
 

@@ -205,10 +205,6 @@ void sort_rows(Filling& filling) {
   filling.cells.swap(sorted.cells);
 }
 
-Outline outline_of(const Box& box) {
-  return box.outline ? *box.outline : Outline({ring_of(box)});
-}
-
 /// What is left of a box without the holes, if an outline bounds it anywhere.
 std::optional<std::vector<Outline::Ring>> outlined(const Box& box, const std::vector<Box>& holes,
                                                    double spacing) {

@@ -1,8 +1,10 @@
 #include "common/scene/fill_outline.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
+#include "common/scene/filling_cache.hpp"
 #include "common/scene/place_index.hpp"
 #include "common/sph/kernel.hpp"
 
@@ -12,11 +14,18 @@ namespace {
 
 using Ring = Outline::Ring;
 
-/// Over the spacing.
-constexpr double relaxing_h = 1.0, skin = 0.3, longest_piece = 0.125, first_row = 0.75, longest_move = 0.1;
+/// Over the spacing: h of the relaxation, so short that a particle's nearest neighbours count most; how much
+/// farther neighbours are listed; pieces of the outline; how deep the first row may start and how exactly it
+/// keeps its depth; the longest move of a round.
+constexpr double relaxing_h = 1.0, skin = 0.3, longest_piece = 0.125, first_row = 0.75, on_row = 1e-6,
+                 longest_move = 0.1;
+/// What sides of a rectangle may be off a whole number of rows, over it.
 constexpr double largest_misfit = 0.1;
-constexpr int most_rounds = 200;
+/// Of a move, what is kept in the next round; what F adds, over d_0^2; the largest F [1/d_0] at the end.
 constexpr double inertia = 0.9, step = 0.3, converged = 5e-4;
+constexpr int most_rounds = 200;
+constexpr int most_turns = 20;  // from one side of a corner to the other
+constexpr std::chrono::seconds worth_keeping{1};
 
 /// The lattice of a rectangle, in the order of its rows; empty if the outline is none that rows fit.
 FittedFilling fill_rectangle(const Outline& outline, double spacing) {
@@ -38,6 +47,7 @@ FittedFilling fill_rectangle(const Outline& outline, double spacing) {
     for (long a = 0; a < rows[0]; ++a)
       filling.points.push_back(ring[0] + (static_cast<double>(a) + 0.5) / static_cast<double>(rows[0]) * u +
                                (static_cast<double>(b) + 0.5) / static_cast<double>(rows[1]) * w);
+  filling.volume = outline.area() / static_cast<double>(filling.points.size());
   return filling;
 }
 
@@ -120,8 +130,12 @@ class Relaxation {
 
   /// Puts a particle of the first row back on its row, and one that came too near to the outline back to it.
   void bound(std::size_t i) {
-    const auto foot = outline_.nearest(x_[i]);
-    if (row_[i] || foot.distance > -0.5 * d_) x_[i] += (-0.5 * d_ - foot.distance) * foot.normal;
+    for (int turn = 0; turn < most_turns; ++turn) {  // in a corner from one side to the other
+      const auto foot = outline_.nearest(x_[i]);
+      const double way = -0.5 * d_ - foot.distance;
+      if ((!row_[i] && way >= 0) || std::abs(way) < on_row * d_) return;
+      x_[i] += way * foot.normal;
+    }
   }
 
   void find_neighbours() {
@@ -170,21 +184,33 @@ std::vector<SurfacePiece> surface_pieces(const Outline& outline, double longest)
   return pieces;
 }
 
-FittedFilling fill_outline(const Outline& outline, double spacing, const std::function<void(double)>& told) {
-  FittedFilling filling = fill_rectangle(outline, spacing);
-  const bool lattice = !filling.points.empty();
-  if (!lattice) filling.points = parallel_rows(outline, spacing);
+namespace {
+
+FittedFilling relaxed(const Outline& outline, double spacing, const std::function<void(double)>& told) {
+  FittedFilling filling;
+  filling.points = parallel_rows(outline, spacing);
   if (filling.points.empty()) return filling;
   filling.volume = outline.area() / static_cast<double>(filling.points.size());
-  if (lattice) return filling;
   Relaxation relaxation(outline, filling.points, filling.volume);
-  while (filling.rounds < most_rounds) {
+  for (double largest = 2 * converged; largest > converged && filling.rounds < most_rounds;) {
     ++filling.rounds;
-    const double largest = relaxation.round();
+    largest = relaxation.round();
     if (told) told(static_cast<double>(filling.rounds) / most_rounds);
-    if (largest < converged) break;
   }
   filling.spread = relaxation.spread();
+  return filling;
+}
+
+}  // namespace
+
+FittedFilling fill_outline(const Outline& outline, double spacing, const std::function<void(double)>& told) {
+  FittedFilling lattice = fill_rectangle(outline, spacing);
+  if (!lattice.points.empty()) return lattice;
+  const auto file = cached_filling(outline, spacing);
+  if (auto kept = read_filling(file)) return *kept;
+  const auto start = std::chrono::steady_clock::now();
+  FittedFilling filling = relaxed(outline, spacing, told);
+  if (std::chrono::steady_clock::now() - start > worth_keeping) keep_filling(filling, file);
   return filling;
 }
 

@@ -242,4 +242,8 @@ Outline::Ring ring_of(const Box& box) {
   return {box.min, Vec(box.max[0], box.min[1]), box.max, Vec(box.min[0], box.max[1])};
 }
 
+Outline outline_of(const Box& box) {
+  return box.outline ? *box.outline : Outline({ring_of(box)});
+}
+
 }  // namespace toryu

@@ -82,5 +82,7 @@ Outline::Ring ellipse_ring(const Vec& centre, const Vec& radii, int corners = 51
 Box box_of(Outline outline);
 /// The corners of a box, or the ellipse in it if it is round.
 Outline::Ring ring_of(const Box& box);
+/// Of a shape that is one, or of a box or an ellipse.
+Outline outline_of(const Box& box);
 
 }  // namespace toryu

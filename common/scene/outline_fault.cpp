@@ -20,7 +20,7 @@ double cross(const Vec& a, const Vec& b) {
 }
 
 std::string text(const Vec& place) {
-  return fmt::format("({:g}, {:g})", place[0], place[1]);
+  return fmt::format("({:g}, {:g}) m", place[0], place[1]);
 }
 
 struct Edge {
@@ -58,15 +58,22 @@ std::optional<OutlineFault> fault_of(const Ring& ring, std::size_t number) {
     high = high.cwiseMax(corner);
   }
   const double extent = (high - low).norm();
-  double area = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec &a = ring[k], &b = ring[(k + 1) % ring.size()];
     if ((b - a).norm() <= same * extent)
       return OutlineFault{fmt::format("has the corner {} twice", text(a)), a, number, k};
-    area += 0.5 * cross(a - ring[0], b - ring[0]);
   }
-  if (std::abs(area) <= same * extent * extent) return OutlineFault{"encloses no area", ring[0], number, 0};
   return std::nullopt;
+}
+
+bool has_area(const Ring& ring) {
+  double area = 0, length = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec &a = ring[k], &b = ring[(k + 1) % ring.size()];
+    area += 0.5 * cross(a - ring[0], b - ring[0]);
+    length += (b - a).norm();
+  }
+  return std::abs(area) > same * length * length;
 }
 
 std::optional<Vec> meeting(const Edge& p, const Edge& q) {
@@ -94,6 +101,8 @@ std::optional<OutlineFault> fault_of(const std::vector<Ring>& rings) {
         return OutlineFault{fmt::format("crosses or touches itself at {}", text(*place)), *place, p.ring,
                             p.number};
     }
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    if (!has_area(rings[r])) return OutlineFault{"encloses no area", rings[r][0], r, 0};
   return std::nullopt;
 }
 

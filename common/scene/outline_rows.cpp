@@ -133,8 +133,8 @@ void fill_gaps(const Outline& outline, double spacing, Gathering& gathering) {
   const Box bounds = outline.bounds();
   for (double y = bounds.min[1] + 0.5 * step; y < bounds.max[1]; y += step)
     for (double x = bounds.min[0] + 0.5 * step; x < bounds.max[0]; x += step)
-      if (const Vec place(x, y);
-          !gathering.has_within(place, room * spacing) && outline.nearest(place).distance < -0.5 * spacing)
+      if (const Vec place(x, y); !gathering.has_within(place, room * spacing) && outline.contains(place) &&
+                                 outline.nearest(place).distance < -0.5 * spacing)
         gathering.take(place);
 }
 

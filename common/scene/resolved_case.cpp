@@ -60,9 +60,8 @@ std::string resolved_case(CaseFile& file) {
     for (const auto& name : file.named_files()) files.push_back(name);
     outlines = outlines_of_walls(file);
   }
-  return fmt::format(
-      "{{\n\"case\": {},\n\"references\": {},\n\"files\": {},\n\"outlines\": {}\n}}", text,
-      json_text(references), json_text(files), json_text(outlines));
+  return fmt::format("{{\n\"case\": {},\n\"references\": {},\n\"files\": {},\n\"outlines\": {}\n}}", text,
+                     json_text(references), json_text(files), json_text(outlines));
 }
 
 }  // namespace toryu

@@ -159,7 +159,8 @@ std::string name_of(const WornFace& worn) {
 
 /// What is worn lies on the wall, and leaves something of it.
 void require_remains(ParameterTable& table, const Wall& wall) {
-  table.require(wall.worn.empty() || wall.box.is_rectangle(), "worn",
+  if (wall.worn.empty()) return;
+  table.require(wall.box.is_rectangle(), "worn",
                 "a wall that is no box has no faces that could be 'worn'");
   Vec largest = Vec::Zero();  // off either axis
   for (const WornFace& worn : wall.worn) {

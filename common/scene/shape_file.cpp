@@ -140,9 +140,13 @@ void describe(ParameterTable& table, ShapeFile& file) {
     table.text("layer", file.layer, {.help = "of a .dxf; else all of it"});
   if (table.wants(file.unit != LengthUnit::of_file))
     table.choice("unit", file.unit, units, {.help = "of lengths in the file, where it does not say it"});
-  table.require(
-      !file.file.name.empty() || (file.id.empty() && file.layer.empty() && file.unit == LengthUnit::of_file),
-      "file", "'id', 'layer' and 'unit' are those of a 'file'");
+  const bool named = !file.file.name.empty();
+  const auto require_file = [&](const std::string& key, bool given) {
+    table.require(named || !given, key, fmt::format("'{}' is that of a 'file'", key));
+  };
+  require_file("id", !file.id.empty());
+  require_file("layer", !file.layer.empty());
+  require_file("unit", file.unit != LengthUnit::of_file);
 }
 
 std::optional<ShapeFileFault> read_rings(const ShapeFile& shape, double tolerance,

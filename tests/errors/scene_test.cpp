@@ -232,7 +232,7 @@ TEST(ReferenceFault, OfTheNames) {
   EXPECT_EQ(
       reference_faults("./fluid.csv", "solid.csv:tip_y[m]", "y[m]"),
       "case.toml:10:1: error: './fluid.csv' is the name of a file of the results, beside which a copy of "
-      "the reference is kept; give it another name or put it into a folder");
+      "it is kept; give it another name or put it into a folder");
 }
 
 TEST(ReferenceFault, OfAnyNameThatARunWritesOrRemoves) {

@@ -49,7 +49,7 @@ TEST(ShapeFaults, OfAPolygonThatCrossesItself) {
             "case.toml:7:1: error: 'polygon' crosses or touches itself at (1, 1) m, at its corner 0, counted "
             "from 0");
   EXPECT_EQ(faults_of("polygon=[[0,0],[2,2]]\n"),
-            "case.toml:7:1: error: 'polygon' has 2 corners; an outline has at least 3 m, at its corner 0, "
+            "case.toml:7:1: error: 'polygon' has 2 corners; an outline has at least 3, at its corner 0, "
             "counted from 0");
 }
 
@@ -63,7 +63,7 @@ TEST(ShapeFaults, OfHoles) {
 
 TEST(ShapeFaults, OfCopiesThatOverlap) {
   EXPECT_EQ(faults_of("box={min=[0,0], max=[1,1]}\narray={count=2, translate=[0.5,0.5]}\n"),
-            "case.toml:8:1: error: copies overlap or touch: one crosses or touches itself at (1, 0.5) m");
+            "case.toml:8:1: error: copies overlap or touch: one crosses or touches itself at (0.5, 1) m");
 }
 
 TEST(ShapeFaults, OfAWallBeyondTheDomain) {
@@ -107,7 +107,7 @@ TEST(ShapeFaults, OfAFileThatIsNotThereOrOfAnotherKind) {
   EXPECT_EQ(faults_with("part.csv", "x[m],y[m]\n0,0\n2,0\n2,1\n", "id='a'\n"),
             "case.toml:8:1: error: 'id' is that of an element of an .svg");
   EXPECT_EQ(faults_of("box={min=[0,0], max=[1,1]}\nunit='mm'\n"),
-            "case.toml:7:1: error: 'id', 'layer' and 'unit' are those of a 'file'");
+            "case.toml:8:1: error: 'unit' is that of a 'file'");
 }
 
 /// The wall of a case.
@@ -182,8 +182,8 @@ TEST(Shapes, AreLeftOutOfTheFluidUnlessTheyAreBoxes) {
   EXPECT_EQ(CaseText(tank + "box={min=[-1,-1], max=[1,1]}\n[fluid]\nspacing=0.1\n[[fluid.region]]\n"
                             "name='water'\ncircle={centre=[0,0], radius=2}\n")
                 .scene_faults(),
-            "case.toml:12:1: error: the fluid's region 'water' overlaps the wall 'w' near (-0.934375, "
-            "-0.934375) m");
+            "case.toml:12:1: error: the fluid's region 'water' overlaps the wall 'w' near (-0.963906, "
+            "-0.963906) m");
 }
 
 TEST(Shapes, ThatOverlapAreFaults) {

@@ -4,6 +4,8 @@
 #include <omp.h>
 
 #include "common/case/case_file.hpp"
+#include "common/scene/bodies.hpp"
+#include "fluid_solver/wall_rows.hpp"
 #include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
 namespace toryu::fluid {
@@ -25,6 +27,7 @@ struct FluidCase {
     file.ignore_sections({"solid", "coupling"});
     file.read("fluid", parameters, "");
     file.throw_if_faulty();
+    leave_out(left_out_of_fluid(file, scene), parameters);
     complete_medium(parameters);
     if (parameters.similarity) make_similar(parameters, scene);
   }

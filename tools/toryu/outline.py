@@ -115,7 +115,8 @@ def joined(chains, tolerance, unit):
         while not near(ring[0], ring[-1], tolerance):
             found = others(number, ring[-1])
             if len(found) > 1:
-                raise BadDrawing("file", f"{len(found) + 1} lines meet at {at(ring[-1], unit)}: an outline has two at each corner")
+                raise BadDrawing("file", f"{len(found) + 1} lines meet at {at(ring[-1], unit)}: an outline has two at "
+                                 "each corner")
             if not found or found[0] not in left:
                 raise BadDrawing("file", f"the outline is open at {at(ring[-1], unit)}")
             number = found[0]
@@ -148,7 +149,10 @@ def read_svg(path, options):
     shapes = list(svg_shapes(svgelements, drawing, options.id))
     top = page[1] + page[3] if len(page) == 4 else 0.0
     left = page[0] if len(page) == 4 else 0.0
-    place = lambda point: (point.x - left, top - point.y)
+
+    def place(point):
+        return point.x - left, top - point.y
+
     side = larger_side([place(p) for shape in shapes for segment in shape if segment.end is not None
                         for p in (segment.start or segment.end, segment.end)]) or 1.0
     tolerance = options.tolerance / unit if options.tolerance else DEFAULT_TOLERANCE * side
@@ -159,8 +163,8 @@ def read_svg(path, options):
             if len(points) < 2:
                 continue
             if not near(points[0], points[-1], ROUNDING * side):
-                raise BadDrawing("file", f"the outline of {named(shape)} is open: it begins at {at(points[0], unit)} and ends at "
-                                 f"{at(points[-1], unit)}")
+                raise BadDrawing("file", f"the outline of {named(shape)} is open: it begins at {at(points[0], unit)} and "
+                                 f"ends at {at(points[-1], unit)}")
             rings.append(points[:-1])
     return rings, unit
 
@@ -251,7 +255,10 @@ DXF_UNITS = {1, 2, 4, 5, 6, 13, 14}  # that have a length: in, ft, mm, cm, m, um
 def dxf_chains(entity, tolerance):
     """The lines of an entity as lists of points; with no tolerance coarse ones."""
     kind = entity.dxftype()
-    flat = lambda points: [[(p[0], p[1]) for p in points]]
+
+    def flat(points):
+        return [[(p[0], p[1]) for p in points]]
+
     if kind == "LINE":
         return flat([entity.dxf.start, entity.dxf.end])
     if kind in ("LWPOLYLINE", "POLYLINE"):
@@ -271,7 +278,8 @@ def rings_of(path, options):
     except (BadDrawing, ImportError, MemoryError):
         raise
     except Exception as error:  # the libraries have no exception of their own for all that a file can hold
-        raise BadDrawing("file", f"cannot be read as {path.suffix[1:].upper()}: {' '.join(str(error).split())[:200]}") from error
+        words = " ".join(str(error).split())[:200]
+        raise BadDrawing("file", f"cannot be read as {path.suffix[1:].upper()}: {words}") from error
     if not rings:
         raise BadDrawing("file", "the file holds no outline")
     return [[(x * unit, y * unit) for x, y in ring] for ring in rings]

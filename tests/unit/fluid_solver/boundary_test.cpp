@@ -47,10 +47,12 @@ struct Taken {
 /// With slip where there are `sliding` terms; a work piece then.
 Taken extrapolated(const std::vector<Vec>& places, const Fluid& fluid, const Vec& g, const Vec& v_w = {0, 0},
                    const Vec& a_w = {0, 0}, bool fitted = false, const OptionalTerms* sliding = nullptr,
-                   double p_offset = 0) {
+                   double p_offset = 0, const Outline* outline = nullptr) {
   Boundary boundary;
   boundary.place(places, std::vector<double>(places.size(), d_0 * d_0), 1000, 0.3);
-  if (fitted || sliding) boundary.know_faces(lattice_face_depths(places, d_0, 4 * kernel.support()), fitted);
+  const std::vector<const Outline*> outlines(places.size(), outline);
+  if (fitted || sliding)
+    boundary.know_faces(face_depths(places, outlines, d_0, 4 * kernel.support()), fitted);
   if (sliding) {
     boundary.make_work_piece(std::vector<Faces>(places.size(), faces_of(Vec(0, d_0))));
     resize(boundary.slip_velocity, padded(places.size()));
@@ -296,6 +298,34 @@ TEST(WallSlip, BearsNoMoreThanTheFrictionOfAWorkPiece) {
   EXPECT_NEAR(at_offset(1000).stress[0], 15, 1e-6);
   EXPECT_NEAR(at_offset(1e5).stress[0], 30, 1e-6) << "the law's own";
   EXPECT_EQ(at_offset(-600).stress[0], 0) << "under suction";
+}
+
+TEST(WallFit, ContinuesAShearOverASlantedOutlineExactly) {
+  auto [fluid, wall] = shear_over_wall(0.2, [](double y) { return 0.7 + 3 * y; });
+  const auto turned = [](const Vec& x) {
+    return Vec(std::cos(0.3) * x[0] - std::sin(0.3) * x[1], std::sin(0.3) * x[0] + std::cos(0.3) * x[1]);
+  };
+  const auto depth_of = wall;
+  for (auto* vectors : {&fluid.x, &fluid.v, &wall})
+    for (Vec& v : *vectors) v = turned(v);
+  Outline::Ring ring = ring_of(Box{Vec(-9, -9), Vec(9, 0)});
+  for (Vec& corner : ring) corner = turned(corner);
+  const Outline outline({ring});
+  const Taken taken = extrapolated(wall, fluid, g, turned({0.7, 0}), {0, 0}, true, nullptr, 0, &outline);
+  for (std::size_t k = 3 * 4; k < 3 * 8 + 2; ++k)
+    if (k % 3 < 2) {
+      const Vec expected = turned({0.7 + 3 * depth_of[k][1], 0});
+      EXPECT_LT((taken.v_viscous[k] - expected).norm(), 1e-9);
+    }
+}
+
+TEST(FaceDepths, OfAnOutlineAreItsNearestPoint) {
+  const Outline triangle({{{0, 0}, {4, 0}, {0, 4}}});
+  const FaceDepths depths = face_depths({{1.5, 1.5}, {9, 9}}, {&triangle, nullptr}, 1.0, 10);
+  EXPECT_LT((depths.to_outline[0] - Vec(0.5, 0.5)).norm(), 1e-15);
+  EXPECT_EQ(depths.to_outline[1], Vec(0, 0));
+  EXPECT_EQ(depths.up[0], Vec(10, 10));
+  EXPECT_EQ(depths.up[1], Vec(0.5, 0.5));
 }
 
 TEST(FaceDepths, AreHowFarTheBodyGoesOn) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/scene/fill_outline.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
@@ -22,6 +23,25 @@ const Boundary& boundary_of(const WeaklyCompressible& solver, const std::string&
   for (const auto& boundary : solver.boundaries())
     if (boundary.name == name) return boundary;
   throw std::out_of_range(name);
+}
+
+TEST(WorkPiece, ThatIsAnOutlineHasItsLengthAndNormals) {
+  const Wall wall{.name = "pin", .box = box_of(Outline({ellipse_ring({1, 2}, {0.5, 0.5})})), .motion = {}};
+  const auto points = fill_outline(*wall.box.outline, 0.05).points;
+  Vec sum = Vec::Zero();
+  double length = 0;
+  const auto faces = faces_of(wall, points, 0.05, {Vec::Zero()});
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vec area = faces[k].upper - faces[k].lower, outward = points[k] - Vec(1, 2);
+    sum += area;
+    length += area.norm();
+    EXPECT_EQ(area.isZero(0), outward.norm() < 0.46);
+    if (!area.isZero(0)) {
+      EXPECT_GT(area.dot(outward), 0.998 * area.norm() * outward.norm());
+    }
+  }
+  EXPECT_NEAR(sum.norm(), 0, 1e-12);
+  EXPECT_NEAR(length / M_PI, 1.0, 1e-3);
 }
 
 /// Area vectors over the spacing, by id: row by row from the smallest corner.

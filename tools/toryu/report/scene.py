@@ -42,8 +42,8 @@ def near_view(view, walls, bodies, contours):
 
 
 def wall_paths(case, end, outlines=None):
-    """Boxes of the rigid walls, and the rings of those that `outlines` has by their number, with how they move until `end` [s]: rows of time, displacement, velocity (x, y of
-    each); the displacement is the integral of the velocity."""
+    """Boxes of the rigid walls, the rings of those that `outlines` has by their number, and how they move until `end` [s]:
+    rows of time, displacement, velocity (x, y of each); the displacement is the integral of the velocity."""
     walls = []
     for number, wall in enumerate(data.tables_of(case, "wall")):
         rings, path = (outlines or {}).get(number, []), []

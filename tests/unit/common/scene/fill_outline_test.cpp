@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+
+#include "common/scene/filling_cache.hpp"
 
 namespace toryu {
 namespace {
@@ -57,7 +61,7 @@ TEST(FillOutline, VolumesSumToTheAreaAndNoneIsOutside) {
 TEST(FillOutline, ParticlesAreEven) {
   for (const auto& rings : {std::vector<Ring>{disc}, {disc, hole}, {triangle}, {angle_iron}}) {
     const auto filling = fill_outline(Outline(rings), 0.5);
-    EXPECT_LT(filling.spread, 0.006);
+    EXPECT_LT(filling.spread, 0.01);
     double nearest = 1;
     for (std::size_t i = 0; i < filling.points.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -82,11 +86,28 @@ TEST(FillOutline, IsEmptyWhereNoRowFits) {
   EXPECT_TRUE(fill_outline(Outline({{{0, 0}, {9, 0}, {9.1, 0.4}}}), 1.0).points.empty());
 }
 
+TEST(FillingCache, GivesBackEveryBit) {
+  const Outline outline({disc, hole});
+  const auto filling = fill_outline(outline, 2.0);
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("toryu_filling_{}", getpid());
+  keep_filling(filling, file);
+  const auto kept = read_filling(file);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->points, filling.points);
+  EXPECT_EQ(kept->volume, filling.volume);
+  EXPECT_EQ(kept->spread, filling.spread);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_FALSE(read_filling(file));
+  std::filesystem::remove(file);
+  EXPECT_NE(cached_filling(outline, 2.0), cached_filling(outline, 2.5));
+  EXPECT_NE(cached_filling(outline, 2.0), cached_filling(Outline({disc}), 2.0));
+}
+
 TEST(SurfacePieces, AreClosedAndAsLongAsTheOutline) {
   const Outline outline({disc, hole});
   const auto pieces = surface_pieces(outline, 0.1);
-  const auto filling = fill_outline(outline, 1.0);
-  const auto areas = area_vectors(filling.points, pieces, 4.0);
+  const auto filling = fill_outline(outline, 0.5);
+  const auto areas = area_vectors(filling.points, pieces, 2.0);
   Vec sum = Vec::Zero(), moment = Vec::Zero();
   double length = 0;
   for (std::size_t i = 0; i < areas.size(); ++i) {

@@ -158,12 +158,13 @@ TEST(OutlineFault, NamesThePlace) {
   EXPECT_EQ(message({square, small_square}), "none");
   EXPECT_EQ(message({}), "has no ring");
   EXPECT_EQ(message({{{0, 0}, {1, 0}}}), "has 2 corners; an outline has at least 3");
-  EXPECT_EQ(message({{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}), "has the corner (1, 0) twice");
+  EXPECT_EQ(message({{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}), "has the corner (1, 0) m twice");
   EXPECT_EQ(message({{{0, 0}, {1, 1}, {2, 2}}}), "encloses no area");
-  EXPECT_EQ(message({{{0, 0}, {2, 2}, {2, 0}, {0, 2.5}}}), "crosses or touches itself at (1.11111, 1.11111)");
-  EXPECT_EQ(message({square, {{1, 1}, {3, 1}, {3, 1.5}, {1, 1.5}}}), "crosses or touches itself at (2, 1)");
-  EXPECT_EQ(message({{{0, 0}, {2, 0}, {2, 1}, {1, 0}, {0, 1}}}), "crosses or touches itself at (1, 0)");
-  EXPECT_EQ(message({{{0, 0}, {1, 0}, {1, 2}, {1, 1}, {0, 1}}}), "crosses or touches itself at (1, 1)");
+  EXPECT_EQ(message({{{0, 0}, {2, 2}, {2, 0}, {0, 2.5}}}),
+            "crosses or touches itself at (1.11111, 1.11111) m");
+  EXPECT_EQ(message({square, {{1, 1}, {3, 1}, {3, 1.5}, {1, 1.5}}}), "crosses or touches itself at (2, 1) m");
+  EXPECT_EQ(message({{{0, 0}, {2, 0}, {2, 1}, {1, 0}, {0, 1}}}), "crosses or touches itself at (1, 0) m");
+  EXPECT_EQ(message({{{0, 0}, {1, 0}, {1, 2}, {1, 1}, {0, 1}}}), "crosses or touches itself at (1, 1) m");
 }
 
 }  // namespace
