@@ -50,6 +50,10 @@ inline constexpr double start_edge = 0.075;
 /// once.
 inline constexpr double depth_edge_hydrostatic = 2.1, depth_edge_at_once = 6.9;
 
+/// With [fluid.similarity], which knows the passage: a round one that draws the rings of the medium farther
+/// apart than the kernel bears.
+std::optional<std::string> beyond_thinnest_rings(const Parameters& parameters, const Scene& scene);
+
 /// The velocity of a wall that changes while sound crosses the kernel: a blow, of pressure rho_0 c_0 v.
 struct Blow {
   double speed = 0;  ///< across its shorter side: what slides sends no sound [m/s]

@@ -108,8 +108,8 @@ void Implicit::correct(StepSystem& system, const StepSystem::Vector& r, Viscosit
     const double share = tangent_share * speed / x.norm();
     return (r - system.unbalance(v + share * x, viscosity)) / share;
   };
-  const KrylovResult found = solve_by_bicgstab(product, system.diagonal(), r, tolerance,
-                                               solver_.largest_iterations - effort.iterations);
+  const KrylovResult found = solve_by_gmres(product, system.diagonal(), r, tolerance,
+                                            solver_.largest_iterations - effort.iterations);
   v += found.x;
   effort.iterations += found.iterations;
 }
@@ -138,7 +138,7 @@ void Implicit::note_extremes() {
 std::vector<ActiveTerm> Implicit::active_terms() const {
   auto texts = dynamics_.active_terms();
   texts.push_back({"implicit steps", "(v - v^n)/dt = a(v), with p = p^n + c^2 dt drho(v)",
-                   "backward Euler; BiCGSTAB by van der Vorst 1992",
+                   "backward Euler; GMRES by Saad & Schultz 1986",
                    fmt::format("tolerance {:g}, a particle goes {:g} spacings in a step", solver_.tolerance,
                                advection_share * parameters_.time_step_share)});
   return texts;

@@ -1,59 +1,19 @@
 #include "fluid_solver/implicit/krylov.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
-
-namespace toryu::fluid {
-namespace {
-class ProductMatrix;
-}
-}  // namespace toryu::fluid
-
-namespace Eigen::internal {
-template <>
-struct traits<toryu::fluid::ProductMatrix> : traits<SparseMatrix<double>> {};
-}  // namespace Eigen::internal
+#include <algorithm>
+#include <cmath>
 
 namespace toryu::fluid {
 
 namespace {
-
-/// A matrix as Eigen's solvers want it: "matrix-free solvers" of Eigen's manual.
-class ProductMatrix : public Eigen::EigenBase<ProductMatrix> {
- public:
-  using Scalar = double;
-  using RealScalar = double;
-  using StorageIndex = int;
-  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
-
-  ProductMatrix(const Product& product_of, const DiagonalBlocks& diagonal)
-      : product(product_of), blocks(diagonal) {}
-  Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(blocks.size()); }
-  Eigen::Index cols() const { return rows(); }
-  template <class Rhs>
-  Eigen::Product<ProductMatrix, Rhs, Eigen::AliasFreeProduct> operator*(
-      const Eigen::MatrixBase<Rhs>& x) const {
-    return {*this, x.derived()};
-  }
-
-  const Product& product;
-  const DiagonalBlocks& blocks;
-};
 
 /// Divides by the diagonal blocks.
 class BlockJacobi {
  public:
-  using StorageIndex = int;
-  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic };
-
-  BlockJacobi& analyzePattern(const ProductMatrix&) { return *this; }
-  BlockJacobi& factorize(const ProductMatrix& A) {
-    inverse_.clear();
-    for (const auto& block : A.blocks) inverse_.push_back(block.inverse());
-    return *this;
+  explicit BlockJacobi(const DiagonalBlocks& blocks) {
+    for (const auto& block : blocks) inverse_.push_back(block.inverse());
   }
-  BlockJacobi& compute(const ProductMatrix& A) { return factorize(A); }
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd operator()(const Eigen::VectorXd& b) const {
     const auto n = static_cast<Eigen::Index>(inverse_.size());
     Eigen::VectorXd x(2 * n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -63,45 +23,75 @@ class BlockJacobi {
     }
     return x;
   }
-  Eigen::ComputationInfo info() const { return Eigen::Success; }
 
  private:
   DiagonalBlocks inverse_;
 };
 
-}  // namespace
+/// Directions between restarts.
+constexpr long most_directions = 60;
 
-}  // namespace toryu::fluid
-
-namespace Eigen::internal {
-
-template <class Rhs>
-struct generic_product_impl<toryu::fluid::ProductMatrix, Rhs, SparseShape, DenseShape, GemvProduct>
-    : generic_product_impl_base<toryu::fluid::ProductMatrix, Rhs,
-                                generic_product_impl<toryu::fluid::ProductMatrix, Rhs>> {
-  template <class Dest>
-  static void scaleAndAddTo(Dest& sum, const toryu::fluid::ProductMatrix& A, const Rhs& x,
-                            const double& factor) {
-    sum += factor * A.product(x);
+/// An orthonormal basis Q of the Krylov space, and the least squares problem |b - A M^-1 Q y| in it, H made
+/// upper triangular by rotations (Saad & Schultz 1986).
+class Directions {
+ public:
+  Directions(const Eigen::VectorXd& r, long most)
+      : Q_(r.size(), most + 1),
+        H_(Eigen::MatrixXd::Zero(most + 1, most)),
+        g_(Eigen::VectorXd::Zero(most + 1)) {
+    g_[0] = r.norm();
+    Q_.col(0) = r / g_[0];
   }
+  long count() const { return static_cast<long>(turns_.size()); }
+  Eigen::VectorXd newest() const { return Q_.col(count()); }
+  double residual() const { return std::abs(g_[count()]); }
+
+  /// Takes in w, A M^-1 of the newest.
+  void add(Eigen::VectorXd w) {
+    const long k = count();
+    for (long i = 0; i <= k; ++i) {
+      H_(i, k) = Q_.col(i).dot(w);
+      w -= H_(i, k) * Q_.col(i);
+    }
+    H_(k + 1, k) = w.norm();
+    if (H_(k + 1, k) > 0) Q_.col(k + 1) = w / H_(k + 1, k);
+    auto column = H_.col(k);
+    for (long i = 0; i < k; ++i)
+      column.applyOnTheLeft(i, i + 1, turns_[static_cast<std::size_t>(i)].adjoint());
+    turns_.emplace_back().makeGivens(column[k], column[k + 1]);
+    column.applyOnTheLeft(k, k + 1, turns_.back().adjoint());
+    g_.applyOnTheLeft(k, k + 1, turns_.back().adjoint());
+  }
+
+  /// Q y that leaves the least.
+  Eigen::VectorXd best() const {
+    const long k = count();
+    return Q_.leftCols(k) * H_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(g_.head(k));
+  }
+
+ private:
+  Eigen::MatrixXd Q_, H_;
+  Eigen::VectorXd g_;
+  std::vector<Eigen::JacobiRotation<double>> turns_;
 };
 
-}  // namespace Eigen::internal
+}  // namespace
 
-namespace toryu::fluid {
-
-KrylovResult solve_by_bicgstab(const Product& product, const DiagonalBlocks& blocks, const Eigen::VectorXd& b,
-                               double tolerance, long largest_iterations) {
-  const ProductMatrix A(product, blocks);
-  Eigen::BiCGSTAB<ProductMatrix, BlockJacobi> solver;
-  solver.setTolerance(tolerance);
-  solver.setMaxIterations(largest_iterations);
-  solver.compute(A);
-  KrylovResult result;
-  result.x = solver.solve(b);
-  result.iterations = solver.iterations();
-  result.residual = solver.error();
-  result.converged = solver.info() == Eigen::Success;
+KrylovResult solve_by_gmres(const Product& product, const DiagonalBlocks& blocks, const Eigen::VectorXd& b,
+                            double tolerance, long largest_iterations) {
+  const BlockJacobi divide(blocks);
+  const double wanted = tolerance * b.norm();
+  KrylovResult result{.x = Eigen::VectorXd::Zero(b.size())};
+  for (Eigen::VectorXd r = b; r.norm() > wanted && result.iterations < largest_iterations;) {
+    const long most = std::min(most_directions, largest_iterations - result.iterations);
+    Directions directions(r, most);
+    while (directions.count() < most && directions.residual() > wanted)
+      directions.add(product(divide(directions.newest())));
+    result.iterations += directions.count();
+    result.x += divide(directions.best());
+    if (directions.residual() <= wanted) break;
+    r = b - product(result.x);
+  }
   return result;
 }
 

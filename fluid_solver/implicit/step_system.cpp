@@ -20,6 +20,17 @@ void set_all(VecField& field, const StepSystem::Vector& all) {
   for (int a = 0; a < dim; ++a) Eigen::Map<StepSystem::Vector>(field[a].data(), n) = all.segment(a * n, n);
 }
 
+/// sums[b] += sum_j V_j (v_j - v_i)_b gradW_ij.
+template <class W>
+TORYU_INLINE void add_differences(const W& kernel, std::span<const ShiftedNeighbours> near,
+                                  const VecLanes& x_i, const VecLanes& v_i, const Sources& s,
+                                  const Positions& v, TensorLanes& sums) {
+  over_neighbours(kernel, near, x_i, s.x, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+    const VecLanes V_grad = n.gradient(s.V[j]);
+    for (int b = 0; b < dim; ++b) add_product(sums[b], v[b][j] - v_i[b], V_grad);
+  });
+}
+
 /// sum + factor a (x) b.
 TORYU_INLINE void add_dyad(TensorLanes& sum, const Lanes& factor, const VecLanes& a, const VecLanes& b) {
   for (int k = 0; k < dim; ++k)
@@ -64,6 +75,12 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
     boundary.eta.resize(boundary.V.size());
     resize(boundary.eta_grad_v, boundary.V.size());
   }
+  if (!terms.viscosity_varies()) return;
+  moments_.resize(fluid.clusters());
+  terms.kernel.visit([&](const auto& W) {
+#pragma omp parallel for schedule(dynamic, 8)
+    for (std::size_t c = 0; c < fluid.clusters(); ++c) find_moment(W, c);
+  });
 }
 
 StepSystem::Vector StepSystem::velocities() const {
@@ -81,22 +98,51 @@ void StepSystem::finish(const Vector& v) {
   set_all(fluid_.a_before, a);
 }
 
-void StepSystem::pressures() {
-#pragma omp for schedule(static)
-  for (std::size_t c = 0; c < fluid_.clusters(); ++c) {
-    const std::size_t first = c * lane_count;
-    const Lanes inverse_rho = inverse(load(fluid_.rho, first));
-    const Lanes p = load(p_n_, first) + dt_ * load(c2_, first) * load(fluid_.drho, first);
-    store(p, fluid_.p, first);
-    store(p * inverse_rho * inverse_rho, fluid_.p_rho2, first);
-  }
+template <class W>
+void StepSystem::find_moment(const W& kernel, std::size_t cluster) {
+  const VecLanes x_i = load(fluid_.x, cluster * lane_count);
+  Moment& moment = moments_[cluster];
+  const auto add = [&](const Sources& s, std::span<const ShiftedNeighbours> near) {
+    over_neighbours(kernel, near, x_i, s.x, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
+      moment.add(n.x_ij, n.gradient(s.V[j]));
+    });
+  };
+  add(sources(fluid_), neighbours_.near(cluster));
+  if (terms_.viscous_walls)
+    for (const Boundary& wall : boundaries_) add(sources(wall), wall.list_for_fluid.near(cluster));
+  moment.invert();
+}
+
+template <class W>
+void StepSystem::compress(const W& kernel, std::size_t cluster) {
+  const std::size_t first = cluster * lane_count;
+  const VecLanes x_i = load(fluid_.x, first), v_i = load(fluid_.v, first);
+  TensorLanes of_fluid = zero_tensor(), of_walls = zero_tensor();
+  add_differences(kernel, neighbours_.near(cluster), x_i, v_i, sources(fluid_), sources(fluid_).v, of_fluid);
+  for (const Boundary& wall : boundaries_)
+    add_differences(kernel, wall.list_for_fluid.near(cluster), x_i, v_i, sources(wall), sources(wall).v,
+                    of_walls);
+  if (terms_.viscosity_varies()) store(of_fluid, fluid_.eta_grad_v, first);
+  const Lanes rho_i = load(fluid_.rho, first), inverse_rho = inverse(rho_i);
+  const Lanes drho = -1.0 * rho_i * (of_fluid[0][0] + of_fluid[1][1] + of_walls[0][0] + of_walls[1][1]);
+  const Lanes p = load(p_n_, first) + dt_ * load(c2_, first) * drho;
+  store(drho, fluid_.drho, first);
+  store(p, fluid_.p, first);
+  store(p * inverse_rho * inverse_rho, fluid_.p_rho2, first);
 }
 
 template <class W>
 void StepSystem::stresses(const W& kernel, std::size_t cluster, Viscosity viscosity) {
   const std::size_t first = cluster * lane_count;
-  TensorLanes grad_v =
-      velocity_gradient(kernel, fluid_, neighbours_, boundaries_, terms_.viscous_walls, cluster);
+  TensorLanes sums = load(fluid_.eta_grad_v, first), grad_v;  // of the fluid, as `compress` leaves them
+  if (terms_.viscous_walls)
+    for (const Boundary& wall : boundaries_)
+      add_differences(kernel, wall.list_for_fluid.near(cluster), load(fluid_.x, first), load(fluid_.v, first),
+                      sources(wall), sources(wall).v_viscous, sums);
+  for (int b = 0; b < dim; ++b) {
+    const VecLanes grad_v_b = moments_[cluster].renormalised(sums[b]);
+    for (int a = 0; a < dim; ++a) grad_v[a][b] = grad_v_b[a];
+  }
   if (viscosity == Viscosity::renewed) {
     const Lanes gdot = shear_rate(grad_v);
     store(gdot, fluid_.gdot, first);
@@ -111,10 +157,10 @@ void StepSystem::stresses(const W& kernel, std::size_t cluster, Viscosity viscos
 void StepSystem::evaluate(Viscosity viscosity) {
   const PairSweeps sweeps = terms_.sweeps();
   terms_.kernel.visit([&](const auto& W) {
-    sweeps.rates(W, RatesOf::density, fluid_, neighbours_, boundaries_);
 #pragma omp parallel
     {
-      pressures();
+#pragma omp for schedule(dynamic, 8)
+      for (std::size_t c = 0; c < fluid_.clusters(); ++c) compress(W, c);
       for (Boundary& boundary : boundaries_)
         extrapolate(boundary, fluid_, terms_.kernel, terms_.body_force.gravity);
       if (terms_.viscosity_varies()) {

@@ -22,6 +22,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "common/sph/renormalisation.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
@@ -70,7 +71,13 @@ class StepSystem {
  private:
   Vector velocities() const;
   void evaluate(Viscosity viscosity);
-  void pressures();
+  template <class W>
+  void find_moment(const W& kernel, std::size_t cluster);
+  /// The rate of the density, the pressure that follows, and in `eta_grad_v` what the gradient of the
+  /// velocity has of the fluid.
+  template <class W>
+  void compress(const W& kernel, std::size_t cluster);
+  /// The rest of that gradient, of walls, times the viscosity.
   template <class W>
   void stresses(const W& kernel, std::size_t cluster, Viscosity viscosity);
 
@@ -80,7 +87,8 @@ class StepSystem {
   std::vector<Boundary>& boundaries_;
   double dt_;
   Vector v_n_;
-  Field p_n_, c2_;  ///< [Pa], [m2/s2]
+  Field p_n_, c2_;               ///< [Pa], [m2/s2]
+  std::vector<Moment> moments_;  ///< of a cluster each, where the viscosity varies
 };
 
 }  // namespace toryu::fluid

@@ -57,7 +57,7 @@ TEST(FlowNumbers, CountAModeOfThePolymerEach) {
   EXPECT_THAT(n.weissenberg, ElementsAre(testing::DoubleNear(30, 1e-6), testing::DoubleNear(1.5, 1e-6)));
   EXPECT_EQ(text(n), "Re 10, Ma 0.1, Wi 30 and 1.5 at 0.5 m/s over the fluid's 0.2 m");
   p.viscoelasticity->modes[0].mobility = 0.3;  // thins: the wall is sheared faster
-  EXPECT_GT(flow_numbers(p, with_piston(0.5))->weissenberg[0], 31);
+  EXPECT_GT(flow_numbers(p, with_piston(0.5))->weissenberg[0], 30.5);
 }
 
 TEST(FlowNumbers, AreNotMadeUp) {

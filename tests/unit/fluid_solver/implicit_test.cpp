@@ -12,6 +12,7 @@
 #include "common/sph/skin.hpp"
 #include "fluid_solver/implicit/implicit_faults.hpp"
 #include "fluid_solver/implicit/implicit_twin.hpp"
+#include "fluid_solver/implicit/krylov.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
@@ -61,10 +62,11 @@ Parameters newtonian() {
 
 /// Column by column: what unit velocities change.
 Eigen::MatrixXd matrix_of(StepSystem& system) {
-  const Eigen::Index n = system.velocities().size();
-  const Vector at_rest = system.unbalance(Vector::Zero(n));
+  const auto n = 2 * static_cast<Eigen::Index>(system.diagonal().size());
+  const Vector at_rest = system.unbalance(Vector::Zero(n), Viscosity::kept);
   Eigen::MatrixXd A(n, n);
-  for (Eigen::Index k = 0; k < n; ++k) A.col(k) = at_rest - system.unbalance(Vector::Unit(n, k));
+  for (Eigen::Index k = 0; k < n; ++k)
+    A.col(k) = at_rest - system.unbalance(Vector::Unit(n, k), Viscosity::kept);
   return A;
 }
 
@@ -109,9 +111,8 @@ TEST(ImplicitMatrix, HasTheDiagonalBlocksOfThePreconditioner) {
   Few few(three);
   const ImplicitTerms terms = terms_of(newtonian());
   StepSystem system(terms, few.fluid, few.lists.of_fluid(), few.none, dt);
-  system.evaluate();
-  const auto blocks = system.diagonal();
   const Eigen::MatrixXd A = matrix_of(system);
+  const auto blocks = system.diagonal();
   for (Eigen::Index i = 0; i < 3; ++i)
     for (int a = 0; a < dim; ++a)
       for (int b = 0; b < dim; ++b)
@@ -130,8 +131,9 @@ TEST(ImplicitMatrix, GivesAndTakesMomentumPairByPair) {
     few.fluid.eta.resize(padded(3));
     resize(few.fluid.eta_grad_v, padded(3));
     const ImplicitTerms terms = terms_of(p);
+    resize(few.fluid.a_before, padded(3));
     StepSystem system(terms, few.fluid, few.lists.of_fluid(), few.none, dt);
-    system.update_viscosity();
+    system.unbalance(system.foreseen_velocities(), Viscosity::renewed);
     const Eigen::MatrixXd A = matrix_of(system);
     for (Eigen::Index column = 0; column < 6; ++column)
       for (int a = 0; a < dim; ++a) {
@@ -184,8 +186,7 @@ TEST(ImplicitMatrix, HasTheRatesOfTheExplicitSweepsAtWallsToo) {
       const EquationOfState state{s.parameters.density, s.parameters.sound_speed, 7, 0};
       const ImplicitTerms terms(s.parameters, s.scene.gravity, W, state);
       StepSystem system(terms, fluid, lists.of_fluid(), boundaries, 0);
-      system.update_viscosity();
-      system.evaluate();
+      system.unbalance(system.foreseen_velocities(), Viscosity::renewed);
       const Particles found = fluid;
       const Dynamics dynamics(s.parameters, s.scene.gravity, W, state);
       Timers timers;
@@ -224,6 +225,63 @@ TEST(Implicit, CountsTheImpulseOfWallsToTheToleranceOfTheSolver) {
   Vec given = 10 * 4e-3 * mass * s.scene.gravity;
   for (const auto& wall : model.boundaries()) given += wall.impulse.total, scale += wall.impulse.total.norm();
   EXPECT_LT((model.momentum() - before - given).norm(), 1e-8 * scale);
+}
+
+// A field that advances (FieldKind::state) is sorted with the others, and is in checkpoints.
+TEST(Implicit, ForeseesVelocitiesByTheAccelerationOfTheLastStep) {
+  Few few(three);
+  resize(few.fluid.a_before, padded(3));
+  const ImplicitTerms terms = terms_of(newtonian());
+  Vector v(6);
+  v << 1, 2, 3, 4, 5, 6;
+  const Vec first = at(few.fluid.v, 0), last = at(few.fluid.v, 2);
+  StepSystem(terms, few.fluid, few.lists.of_fluid(), few.none, dt).finish(v);
+  EXPECT_EQ(few.fluid.a_before.kind, FieldKind::state);
+  StepSystem next(terms, few.fluid, few.lists.of_fluid(), few.none, 0.5 * dt);
+  EXPECT_NEAR(next.foreseen_velocities()[0], 1 + 0.5 * (1 - first[0]), 1e-12);
+  EXPECT_NEAR(next.foreseen_velocities()[5], 6 + 0.5 * (6 - last[1]), 1e-12);
+}
+
+TEST(Implicit, TakesFewIterationsWhereTheFlowIsSteady) {
+  Setting s = stirred_slit();
+  thin_under_shear(s);
+  Implicit model(s.parameters, s.scene);
+  for (int n = 0; n < 30; ++n) model.advance(2e-3);
+  RecordProperty("iterations", std::to_string(model.figures()[0].second));
+  RecordProperty("updates", std::to_string(model.figures()[1].second));
+  EXPECT_LT(model.figures()[0].second, 10);
+  EXPECT_LT(model.figures()[1].second, 2.8);
+}
+
+/// Of 1, 2, ... on the diagonal and ones above it.
+struct Solved {
+  long iterations;
+  double residual;  ///< |b - A x|/|b|
+};
+Solved solved(long size, double tolerance, long most) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(size, size);
+  for (long i = 0; i < size; ++i) A(i, i) = static_cast<double>(i + 1), A(i, (i + 1) % size) += 1;
+  const DiagonalBlocks ones(static_cast<std::size_t>(size / 2), Eigen::Matrix2d::Identity());
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(size);
+  const KrylovResult found = solve_by_gmres(
+      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x; }, ones, b, tolerance, most);
+  return {found.iterations, (b - A * found.x).norm() / b.norm()};
+}
+
+TEST(Gmres, SolvesInAsManyIterationsAsThereAreUnknowns) {
+  const Solved exact = solved(20, 1e-12, 100);
+  EXPECT_LT(exact.residual, 1e-12);
+  EXPECT_LE(exact.iterations, 20);
+  const Solved rough = solved(20, 0.1, 100);
+  EXPECT_LT(rough.residual, 0.1 * (1 + 1e-9));
+  EXPECT_LT(rough.iterations, exact.iterations);
+  EXPECT_EQ(solved(20, 1e-12, 3).iterations, 3);
+}
+
+TEST(Gmres, GoesOnFromWhatItHasAfterSixtyDirections) {
+  const Solved restarted = solved(400, 1e-8, 2000);
+  EXPECT_GT(restarted.iterations, 60);
+  EXPECT_LT(restarted.residual, 1e-8 * (1 + 1e-6));
 }
 
 /// Slow vortices in a periodic square, and the rate at which they decay.

@@ -5,6 +5,7 @@
 
 #include "common/case/case_file.hpp"
 #include "fluid_solver/stability_warnings.hpp"
+#include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 #include "tests/validation/developed_flow.hpp"
 
@@ -190,6 +191,38 @@ TEST(Similarity, WarnsOfAKernelWhoseRowsStickUnderThePressure) {
   EXPECT_THAT(similarity_warnings(p, scene), ElementsAre(HasSubstr("48 times the wall's shear stress")));
   p.background_pressure = BackgroundPressure{1e6};
   EXPECT_THAT(similarity_warnings(p, scene), IsEmpty());
+}
+
+TEST(Similarity, WarnsOfRingsThatAPassageDrawsTooFarApart) {
+  Parameters p = putty();  // of the radius w
+  p.similarity->passage_width = w / 1.5;
+  Scene scene = pushed(0.02);
+  EXPECT_FALSE(beyond_thinnest_rings(p, scene)) << "in the plane nothing is drawn apart";
+  scene.geometry = Geometry::axisymmetric;  // 2 w to w/1.5: sqrt(3) = 1.73
+  EXPECT_THAT(beyond_thinnest_rings(p, scene), Optional(HasSubstr("has h/d0 1.2 there")));
+  EXPECT_THAT(beyond_thinnest_rings(p, scene), Optional(HasSubstr("take smoothing_ratio = 3,")));
+  p.smoothing_ratio = 3;
+  EXPECT_FALSE(beyond_thinnest_rings(p, scene));
+  p.smoothing_ratio = 2;
+  p.similarity->passage_width = 2 * w;  // a tube
+  EXPECT_FALSE(beyond_thinnest_rings(p, scene));
+}
+
+/// The step over 0.125 h^2 rho/eta, of a medium in which sound is slow.
+double viscous_share(WallExtrapolation extrapolation) {
+  Parameters p = putty();
+  p.similarity.reset();
+  p.density = 5e6;
+  p.sound_speed = 0.01;
+  p.time_step_share = 4.5;
+  p.wall_model.extrapolation = extrapolation;
+  p.limits.largest_density_change = 1;
+  return WeaklyCompressible(p, pushed(1)).time_step_limit() / (0.125 * p.h() * p.h() * p.density / 1000);
+}
+
+TEST(Similarity, TakesShorterStepsWhereWallsAreFitted) {
+  EXPECT_NEAR(viscous_share(WallExtrapolation::mean), 2, 0.02);
+  EXPECT_NEAR(viscous_share(WallExtrapolation::fit), 1.2, 0.02);  // 1.37 is stable at 40 across, 1.44 not
 }
 
 TEST(Similarity, WarnsOfNumbersThatDoNotGoTogether) {

@@ -29,6 +29,31 @@ TEST(FluidGuards, NameTheMapBeyondWhoseEdgeACaseLies) {
   EXPECT_THAT(stability_warnings(water(6.8, Integrator::symplectic), {1}), ElementsAre(HasSubstr("at 6.7")));
 }
 
+TEST(FluidGuards, KnowNoEdgeOfImplicitSteps) {
+  Parameters p = water(10, Integrator::midpoint);
+  p.model = Model::implicit;
+  EXPECT_THAT(stability_warnings(p, {1}), ElementsAre());
+}
+
+TEST(FluidGuards, WarnOfRingsThatAPassageDrawsTooFarApart) {
+  Parameters p;
+  p.regions = {{"medium", {Vec(0, 0), Vec(0.02, 0.003)}, Vec::Zero()}};
+  p.similarity = Similarity{.passage_width = 0.002};
+  p.smoothing_ratio = 2;
+  Scene scene;
+  EXPECT_FALSE(beyond_thinnest_rings(p, scene)) << "in the plane nothing is drawn apart";
+  scene.geometry = Geometry::axisymmetric;  // from 6 to 2 mm: sqrt(3) = 1.73
+  const auto said = beyond_thinnest_rings(p, scene);
+  EXPECT_THAT(said,
+              testing::Optional(HasSubstr("stand 1.7 times as far apart: the kernel has h/d0 1.2 there")));
+  EXPECT_THAT(said, testing::Optional(HasSubstr("take smoothing_ratio = 3,")));
+  p.smoothing_ratio = 3;
+  EXPECT_FALSE(beyond_thinnest_rings(p, scene));
+  p.smoothing_ratio = 2;
+  p.similarity->passage_width = 0.006;  // a tube
+  EXPECT_FALSE(beyond_thinnest_rings(p, scene));
+}
+
 TEST(FluidGuards, KnowWhatDensityDiffusionBears) {
   Parameters p = water(2.0, Integrator::midpoint);
   p.density_diffusion->delta = 0.0125;  // an eighth: half the step
