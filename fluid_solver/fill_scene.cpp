@@ -152,7 +152,8 @@ void FluidModel::fill_walls() {
       boundary.know_faces(made.kept(lattice_face_depths(made.lattice, parameters_.spacing, 2 * reach())),
                           fit);
     if (wall && wall->work_piece)
-      boundary.make_work_piece(made.kept(lattice_faces(made.lattice, parameters_.spacing, period_.shifts())));
+      boundary.make_work_piece(
+          made.kept(lattice_faces(made.lattice, parameters_.spacing, period_.shifts(), scene_.geometry)));
   };
   for (const auto& wall : scene_.walls) {
     const WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));

@@ -3,15 +3,19 @@
 #include <cmath>
 
 #include "common/scene/occupancy_index.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
 
 namespace toryu::fluid {
 
 std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing,
-                                 const std::vector<Vec>& shifts) {
+                                 const std::vector<Vec>& shifts, Geometry geometry) {
   OccupancyIndex places(0.5 * spacing);
   for (const Vec& shift : shifts) {
     std::vector<Vec> image = points;
     for (Vec& x : image) x += shift;
+    places.take(image, "");
+    if (geometry == Geometry::plane) continue;
+    for (Vec& x : image) x[1] = -x[1];
     places.take(image, "");
   }
   std::vector<Faces> faces(points.size());
@@ -85,6 +89,13 @@ std::vector<SurfacePoint> surface_points(const Faces& faces) {
     result = sides;
   }
   return result;
+}
+
+double circumference_of(const SurfacePoint& point, const Faces& faces, const Vec& x) {
+  const Vec half = 0.5 * faces.lower.cwiseMax(faces.upper);
+  const Vec& A = point.area_vector;
+  const Vec ring(A[0] * circumference(x[1]), A[1] * circumference(x[1] + std::copysign(half[1], A[1])));
+  return ring.norm() / A.norm();
 }
 
 }  // namespace toryu::fluid
