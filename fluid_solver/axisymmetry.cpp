@@ -10,8 +10,9 @@ namespace {
 
 /// Terms that are the same about an axis, or of which terms/axisymmetry.hpp knows how.
 template <class Term>
-constexpr bool goes_about_axis = is_one_of<Term, BackgroundPressure, EnclosedMedium, DensityDiffusion,
-                                           LaminarViscosity, PowerLaw, HerschelBulkley, Carreau>;
+constexpr bool goes_about_axis =
+    is_one_of<Term, BackgroundPressure, EnclosedMedium, DensityDiffusion, LaminarViscosity, PowerLaw,
+              HerschelBulkley, Carreau, SlipLaw, Friction, Removal>;
 
 }  // namespace
 
@@ -28,9 +29,6 @@ std::vector<StartFault> axis_faults(const Parameters& p, const Scene& scene) {
   });
   require(p.model == Model::weakly_compressible, "fluid.model",
           "implicit steps are of the plane: [case] geometry = \"axisymmetric\" does not have them");
-  for (std::size_t k = 0; k < scene.walls.size(); ++k)
-    require(scene.walls[k].worn.empty(), fmt::format("wall.{}.worn", k),
-            "worn walls are of the plane: [case] geometry = \"axisymmetric\" does not have them");
   require(!p.initial_flow, "fluid.initial_flow",
           "the initial flows are of the plane: [case] geometry = \"axisymmetric\" does not have them");
   require(p.wall_model.density == WallDensity::rest && p.wall_model.suction, "fluid.wall_model",

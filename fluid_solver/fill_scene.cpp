@@ -159,7 +159,7 @@ void FluidModel::fill_walls() {
           made.kept(face_depths(made.lattice, made.outlines, parameters_.spacing, 2 * reach())), fit);
     if (wall && wall->work_piece)
       boundary.make_work_piece(
-          made.kept(faces_of(*wall, made.lattice, parameters_.spacing, period_.shifts())));
+          made.kept(faces_of(*wall, made.lattice, parameters_.spacing, period_.shifts(), scene_.geometry)));
   };
   for (const auto& wall : scene_.walls) {
     const WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));

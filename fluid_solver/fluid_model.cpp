@@ -134,7 +134,7 @@ void FluidModel::record_surface(const std::filesystem::path& out) {
   std::optional<Sticking> sticks;
   if (parameters_.wall_model.slip == WallSlip::no_slip)
     sticks = Sticking{parameters_.spacing, [p = parameters_](double gdot) { return viscosity_of(p, gdot); }};
-  state_.surface_record.emplace(*parameters_.removal, std::move(sticks));
+  state_.surface_record.emplace(*parameters_.removal, std::move(sticks), scene_.geometry);
   state_.surface_record->attach(state_.boundaries);
   state_.surface_record->open(out);
 }

@@ -77,7 +77,7 @@ void Neighbours::build_lists(std::size_t fluid_count, std::vector<Boundary>& bou
     if (geometry_ == Geometry::plane)
       list.build(targets, target_count, sources, strips, reach, shifts_);
     else
-      list.build_with_images(targets, target_count, sources, strips, reach, padded(source_count));
+      list.build_with_images(targets, target_count, sources, strips, reach, shifts_, padded(source_count));
   };
   build(of_fluid_, x, fluid_count, x, fluid_count, strips_);
   for (std::size_t b = 0; b < boundaries.size(); ++b) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "fluid_solver/work_piece.hpp"
 
@@ -137,9 +136,12 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
     for (std::size_t k = 0; k < body.count; ++k) slot[body.id[k]] = k;
     for (const std::size_t k : slot) {
       first_[b].push_back(size());
-      for (const auto& point : surface_points({at(body.lower_face, k), at(body.upper_face, k)})) {
+      const Faces faces{at(body.lower_face, k), at(body.upper_face, k)};
+      for (const auto& point : surface_points(faces)) {
         work_piece_.push_back(work_piece);
-        area_.push_back(point.area_vector.norm());
+        length_.push_back(point.area_vector.norm());
+        circumference_.push_back(
+            geometry_ == Geometry::plane ? 1.0 : circumference_of(point, faces, at(body.x, k)));
         alone_.push_back(point.alone);
         const Vec n = point.area_vector.normalized(), x = at(body.x, k) + point.shift;
         normal_.insert(normal_.end(), n.begin(), n.end());
@@ -163,9 +165,10 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
     if (first_[b].empty()) continue;
     for (std::size_t k = 0; k < body.count; ++k) {
       const std::size_t first = first_[b][body.id[k]], end = first_[b][body.id[k] + 1];
-      const double area = std::accumulate(&area_[first], &area_[end], 0.0);
+      double sum = 0;
+      for (std::size_t s = first; s < end; ++s) sum += area(s);
       for (std::size_t s = first; s < end; ++s)
-        add_point(s, body, k, area, fluid, p_offset, neighbours, kernel, dt);
+        add_point(s, body, k, sum, fluid, p_offset, neighbours, kernel, dt);
     }
   }
   state_.since_row += dt;
@@ -207,7 +210,8 @@ void SurfaceRecord::open(const std::filesystem::path& out) {
   const hsize_t count = size();
   file_->constant("start_position", "m", {count, dim}, position_);
   file_->constant("normal", "1", {count, dim}, normal_);
-  file_->constant("area", "m", {count}, area_);
+  file_->constant("area", "m", {count}, length_);
+  if (geometry_ == Geometry::axisymmetric) file_->constant("circumference", "m", {count}, circumference_);
   file_->constant("work_piece", "1", {count}, std::span<const std::uint32_t>(work_piece_));
   file_->attribute("work_piece", "names", names_);
   file_->series("time", "s", {});
@@ -243,9 +247,9 @@ std::vector<Observation> SurfaceRecord::observe() const {
   const auto& ra = removal_.roughness;
   for (std::size_t k = 0; k < size(); ++k) {
     if (!state_.wetted[k]) continue;
-    wetted += area_[k];
+    wetted += area(k);
     if (ra)
-      rough += area_[k] * (ra->final + (ra->initial - ra->final) * std::exp(-depth(k) / ra->decay_depth));
+      rough += area(k) * (ra->final + (ra->initial - ra->final) * std::exp(-depth(k) / ra->decay_depth));
   }
   const auto sums_of = [&](const DepthLaw& law) {
     struct {
@@ -254,18 +258,21 @@ std::vector<Observation> SurfaceRecord::observe() const {
     const auto& values = integral_of(law);
     for (std::size_t k = 0; k < size(); ++k)
       if (state_.wetted[k]) {
-        sums.integral += area_[k] * values[k];
+        sums.integral += area(k) * values[k];
         sums.largest = std::max(sums.largest, values[k]);
       }
     return sums;
   };
   const auto mean = [&](double integral) { return wetted > 0 ? integral / wetted : 0.0; };
   const DepthLaw& counts = laws_.front();
+  const bool in_plane = geometry_ == Geometry::plane;
   const auto removed = sums_of(counts);
-  std::vector<Observation> row{{"removed_depth_mean", "m", counts.rate * mean(removed.integral)},
-                               {"removed_depth_largest", "m", counts.rate * removed.largest},
-                               {"removed_area", "m2", counts.rate * removed.integral},
-                               {"wetted_length", "m", wetted}};
+  std::vector<Observation> row{
+      {"removed_depth_mean", "m", counts.rate * mean(removed.integral)},
+      {"removed_depth_largest", "m", counts.rate * removed.largest},
+      in_plane ? Observation{"removed_area", "m2", counts.rate * removed.integral}
+               : Observation{"removed_volume", "m3", counts.rate * removed.integral},
+      in_plane ? Observation{"wetted_length", "m", wetted} : Observation{"wetted_area", "m2", wetted}};
   for (const DepthLaw& law : std::span(laws_).subspan(1)) {
     const auto sums = sums_of(law);
     row.push_back({law.column + std::string("_mean"), "m", law.rate * mean(sums.integral)});

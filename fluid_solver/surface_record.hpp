@@ -18,8 +18,8 @@
 /// length l rubs the surface so fast: depths are in proportion to that length.
 ///
 /// Where the kernel sum of the fluid is below 1e-3 (about 0.25 at a plane interface) there is no contact: all
-/// are 0. The surface stays where it is in a run: depths are far below a particle's spacing. A study takes it
-/// on from run to run (worn_walls.hpp).
+/// are 0. About an axis A_s is the area of a ring. The surface stays where it is in a run: depths are far
+/// below a particle's spacing. A study takes it on from run to run (worn_walls.hpp).
 #pragma once
 
 #include <filesystem>
@@ -44,8 +44,9 @@ struct Sticking {
 class SurfaceRecord {
  public:
   /// `sticks`: of a fluid whose walls have no slip.
-  explicit SurfaceRecord(const Removal& removal, std::optional<Sticking> sticks = {})
-      : removal_(removal), laws_(depth_laws(removal)), sticks_(std::move(sticks)) {}
+  explicit SurfaceRecord(const Removal& removal, std::optional<Sticking> sticks = {},
+                         Geometry geometry = Geometry::plane)
+      : removal_(removal), laws_(depth_laws(removal)), sticks_(std::move(sticks)), geometry_(geometry) {}
 
   /// Takes the points (surface_points) of the work pieces among `boundaries`, as they stand.
   void attach(const std::vector<Boundary>& boundaries);
@@ -60,13 +61,14 @@ class SurfaceRecord {
   /// Gives the file its final name: no row follows.
   void complete() { file_->complete(); }
 
-  std::size_t size() const { return area_.size(); }
-  /// Removed depth (mean over what has been wetted, largest) [m], area [m2 per metre depth], the length that
-  /// was wetted [m], roughness [m]; by the law that counts, and the depths by the others.
+  std::size_t size() const { return length_.size(); }
+  /// Removed depth (mean over what has been wetted, largest) [m], area [m2], the length that was wetted [m],
+  /// or about an axis the volume [m3] and the area [m2], roughness [m]; by the law that counts, and the
+  /// depths by the others.
   std::vector<Observation> observe() const;
 
  private:
-  /// Adds the step to point s, of particle k of `body`, whose points have `area` [m] together.
+  /// Adds the step to point s, of particle k of `body`, whose points have `area` together.
   void add_point(std::size_t s, const Boundary& body, std::size_t k, double area, const Particles& fluid,
                  double p_offset, const ClusterList& neighbours, const Kernel& kernel, double dt);
   /// Depth removed so far from surface particle k, by the law that counts [m].
@@ -75,16 +77,22 @@ class SurfaceRecord {
     return law.of_shear ? state_.shear_work : state_.sliding_pressure;
   }
 
+  /// Of point s [m per metre depth], about an axis of its ring [m2].
+  double area(std::size_t s) const { return length_[s] * circumference_[s]; }
+
   Removal removal_;
   std::vector<DepthLaw> laws_;
   std::optional<Sticking> sticks_;
+  Geometry geometry_;
   std::string names_;  ///< of the work pieces, joined by ";"
   std::vector<std::uint32_t> work_piece_;
   /// By boundary: where the points of a particle begin here, by id, and where those of the last end; empty if
   /// it is no work piece.
   std::vector<std::vector<std::size_t>> first_;
   std::vector<char> alone_;  ///< whether its particle has no other point
-  std::vector<double> position_, normal_, area_;
+  std::vector<double> position_, normal_;
+  std::vector<double> length_;         ///< in the plane [m]
+  std::vector<double> circumference_;  ///< of the ring about an axis [m], else 1
   /// Integrals over time: since the last row, and since the start.
   struct State {
     std::vector<double> pressure, speed, shear, traction;             ///< [Pa s], [m], [Pa s], [Pa s]

@@ -5,15 +5,19 @@
 
 #include "common/scene/fill_outline.hpp"
 #include "common/scene/occupancy_index.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
 
 namespace toryu::fluid {
 
 std::vector<Faces> lattice_faces(const std::vector<Vec>& points, double spacing,
-                                 const std::vector<Vec>& shifts) {
+                                 const std::vector<Vec>& shifts, Geometry geometry) {
   OccupancyIndex places(0.5 * spacing);
   for (const Vec& shift : shifts) {
     std::vector<Vec> image = points;
     for (Vec& x : image) x += shift;
+    places.take(image, "");
+    if (geometry == Geometry::plane) continue;
+    for (Vec& x : image) x[1] = -x[1];
     places.take(image, "");
   }
   std::vector<Faces> faces(points.size());
@@ -34,9 +38,10 @@ constexpr double longest_piece = 1.0 / 8, beside = 0.01, furthest_particle = 4;
 
 /// The faces of points that fit an outline, as it is.
 std::vector<Faces> outline_faces(const Outline& outline, const std::vector<Vec>& points, double spacing,
-                                 const std::vector<Vec>& shifts) {
+                                 const std::vector<Vec>& shifts, Geometry geometry) {
   auto pieces = surface_pieces(outline, longest_piece * spacing);
   std::erase_if(pieces, [&](const SurfacePiece& piece) {
+    if (geometry == Geometry::axisymmetric && piece.place[1] < beside * spacing) return true;  // on the axis
     const Vec beyond = piece.place + beside * spacing * piece.area.normalized();
     return std::any_of(shifts.begin(), shifts.end(),
                        [&](const Vec& shift) { return outline.contains(beyond - shift); });
@@ -50,9 +55,9 @@ std::vector<Faces> outline_faces(const Outline& outline, const std::vector<Vec>&
 }  // namespace
 
 std::vector<Faces> faces_of(const Wall& wall, const std::vector<Vec>& points, double spacing,
-                            const std::vector<Vec>& shifts) {
-  return wall.box.outline ? outline_faces(*wall.box.outline, points, spacing, shifts)
-                          : lattice_faces(points, spacing, shifts);
+                            const std::vector<Vec>& shifts, Geometry geometry) {
+  return wall.box.outline ? outline_faces(*wall.box.outline, points, spacing, shifts, geometry)
+                          : lattice_faces(points, spacing, shifts, geometry);
 }
 
 namespace {
@@ -116,6 +121,13 @@ std::vector<SurfacePoint> surface_points(const Faces& faces) {
     result = sides;
   }
   return result;
+}
+
+double circumference_of(const SurfacePoint& point, const Faces& faces, const Vec& x) {
+  const Vec half = 0.5 * faces.lower.cwiseMax(faces.upper);
+  const Vec& A = point.area_vector;
+  const Vec ring(A[0] * circumference(x[1]), A[1] * circumference(x[1] + std::copysign(half[1], A[1])));
+  return ring.norm() / A.norm();
 }
 
 }  // namespace toryu::fluid

@@ -1,12 +1,15 @@
-"""How a slit opens under a constant pressure drop, by lubrication theory (Reynolds 1886): where its width w changes slowly
-along x, the flow is everywhere that between two plates,
+"""How a passage opens under a constant pressure drop, by lubrication theory (Reynolds 1886): where its width w changes slowly
+along x, the flow is everywhere that between two plates, or that in a tube of the radius R = w/2,
 
-    Q = w^3 G(x)/(12 eta) (1 + 6 eta b_w/w),    integral_0^L G dx = P,    tau_w = G w/2,    p(x) = integral_x^L G dx,
+    Q = w^3 G(x)/(12 eta) (1 + 6 eta b_w/w),         tau_w = G w/2,
+    Q = pi R^4 G(x)/(8 eta) (1 + 4 eta b_w/R),       tau_w = G R/2,
+    integral_0^L G dx = P,    p(x) = integral_x^L G dx,
 
 with Navier slip u_s = b_w tau_w at the walls (0: none), and each of them recedes by dh/dt = k p v, v = b tau_w. Both ways
-in turn it opens evenly, w = w_0 exp(k b P^2 t/(2 L)).
+in turn it opens evenly: a slit by w = w_0 exp(k b P^2 t/(2 L)), a tube by R = R_0 exp(k b P^2 t/(4 L)).
 
-    python3 lubrication.py RESULTS/recession.csv [b_w]     # a study's last shape against it
+    python3 lubrication.py RESULTS/recession.csv [b_w]     # a study's last shape against it: of the slit,
+    python3 lubrication.py RESULTS/recession.csv tube      # or the bore of cases/abrasive_bore
 """
 
 import csv
@@ -30,24 +33,49 @@ class Slit:
         """Width [m] after a machining time [s]."""
         return self.width * np.exp(self.preston_coefficient * self.sliding * self.pressure**2 * time / (2 * self.length))
 
+    def resistance(self, width):
+        """Pressure gradient over flow rate [Pa s/m3], of a tube [Pa s/m4]."""
+        return 12 * self.viscosity / (width**3 * (1 + 6 * self.viscosity * self.wall_slip / width))
+
+    def wall_stress(self, G, width):
+        return G * width / 2
+
     def flow(self, depth):
-        """Flow rate [m2/s], pressure gradient and pressure [Pa/m], [Pa] at the middles of as many parts as `depth` has."""
-        dx, w = self.length / len(depth), self.width + 2 * depth
-        resistance = 12 * self.viscosity / (w**3 * (1 + 6 * self.viscosity * self.wall_slip / w))
+        """Flow rate [m2/s], of a tube [m3/s], pressure gradient and pressure [Pa/m], [Pa] at the middles of as many parts as
+        `depth` has."""
+        dx, resistance = self.length / len(depth), self.resistance(self.width + 2 * depth)
         rate = self.pressure / (resistance.sum() * dx)
         G = rate * resistance
         return rate, G, dx * (np.cumsum(G[::-1])[::-1] - G / 2)
 
     def opened_one_way(self, time, parts=400, steps=2000):
-        """Places [m], the depth of each wall there [m], and the flow rate [m2/s] at the end."""
+        """Places [m], the depth of each wall there [m], and the flow rate at the end."""
         def wear(depth):
             _, G, p = self.flow(depth)
-            return self.preston_coefficient * self.sliding * p * G * (self.width + 2 * depth) / 2
+            return self.preston_coefficient * self.sliding * p * self.wall_stress(G, self.width + 2 * depth)
 
         depth, dt = np.zeros(parts), time / steps
         for _ in range(steps):
             depth = depth + dt * wear(depth + dt / 2 * wear(depth))
         return (np.arange(parts) + 0.5) * self.length / parts, depth, self.flow(depth)[0]
+
+
+@dataclass
+class Tube(Slit):
+    """Of cases/abrasive_bore; its width is the diameter."""
+
+    wall_slip: float = 3e-7
+    preston_coefficient: float = 2.5e-12
+
+    def opened_two_way(self, time):
+        return self.width * np.exp(self.preston_coefficient * self.sliding * self.pressure**2 * time / (4 * self.length))
+
+    def resistance(self, width):
+        R = width / 2
+        return 8 * self.viscosity / (np.pi * R**4 * (1 + 4 * self.viscosity * self.wall_slip / R))
+
+    def wall_stress(self, G, width):
+        return G * width / 4
 
 
 def last_shape(path, wall, length):
@@ -60,12 +88,13 @@ def last_shape(path, wall, length):
 
 
 if __name__ == "__main__":
-    slit = Slit(wall_slip=float(sys.argv[2]) if len(sys.argv) > 2 else 0.0)
-    time, x, depth = last_shape(sys.argv[1], "lower", slit.length)
+    is_tube = sys.argv[2:] == ["tube"]
+    slit = Tube() if is_tube else Slit(wall_slip=float(sys.argv[2]) if len(sys.argv) > 2 else 0.0)
+    time, x, depth = last_shape(sys.argv[1], "bore" if is_tube else "lower", slit.length)
     places, exact, rate = slit.opened_one_way(time)
     exact = np.interp(x, places, exact)
     print(f"{time:g} s: mean depth {depth.mean() * 1e6:.2f} µm, one-way {exact.mean() * 1e6:.2f} µm with the flow rate "
-          f"{rate:.5g} m2/s, two-way {(slit.opened_two_way(time) - slit.width) * 0.5e6:.2f} µm")
+          f"{rate:.5g} {'m3/s' if is_tube else 'm2/s'}, two-way {(slit.opened_two_way(time) - slit.width) * 0.5e6:.2f} µm")
     for share in np.arange(0.05, 1, 0.1):
         print(f"  x = {share * slit.length * 1e3:4.1f} mm  {np.interp(share * slit.length, x, depth) * 1e6:7.2f} µm  "
               f"one-way {np.interp(share * slit.length, x, exact) * 1e6:7.2f} µm")

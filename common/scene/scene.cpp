@@ -52,8 +52,9 @@ void check_axis(CaseFile& file, const Scene& scene) {
   if (scene.geometry != Geometry::axisymmetric) return;
   if (file.has("solid"))
     file.fault("case.geometry", "a scene with a solid cannot be axisymmetric: solids know no axis");
-  if (scene.periodic != Periodic::none)
-    file.fault("case.periodic", "a scene about an axis does not repeat itself: leave 'periodic' out");
+  if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy)
+    file.fault("case.periodic",
+               "about an axis space repeats itself along it alone: \"x\", or leave 'periodic' out");
   if (scene.gravity[1] != 0)
     file.fault("case.gravity", "gravity across the axis is not axisymmetric: give it along x alone");
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {

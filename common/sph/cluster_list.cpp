@@ -45,12 +45,13 @@ void ClusterList::build_block(Block& block, std::size_t begin, std::size_t end, 
       block.near.push_back({shifts[k], {}});
       block.ends.push_back(block.found.size());
     }
-    const std::size_t before = block.found.size();
-    if (first_image > 0) collect(beyond_axis(x_i), sources, strips, reach, block.found);
-    if (block.found.size() > before) {
-      for (std::size_t k = before; k < block.found.size(); ++k)
-        block.found[k] += static_cast<std::uint32_t>(first_image);
-      block.near.push_back({});
+    for (std::size_t k = 0; first_image > 0 && k < shifts.size(); ++k) {
+      const std::size_t before = block.found.size();
+      collect(beyond_axis(shifted(x_i, shifts[k])), sources, strips, reach, block.found);
+      if (block.found.size() == before) continue;
+      for (std::size_t j = before; j < block.found.size(); ++j)
+        block.found[j] += static_cast<std::uint32_t>(first_image);
+      block.near.push_back({shifts[k], {}});
       block.ends.push_back(block.found.size());
     }
     first[c - begin + 1] = block.near.size();
@@ -76,9 +77,8 @@ void ClusterList::build(const VecField& targets, std::size_t target_count, const
 
 void ClusterList::build_with_images(const VecField& targets, std::size_t target_count,
                                     const VecField& sources, const StripOrder& source_strips, double reach,
-                                    std::size_t first_image) {
-  const Vec unshifted = Vec::Zero();
-  build_blocks(targets, target_count, sources, source_strips, reach, std::span(&unshifted, 1), first_image);
+                                    std::span<const Vec> shifts, std::size_t first_image) {
+  build_blocks(targets, target_count, sources, source_strips, reach, shifts, first_image);
 }
 
 void ClusterList::build_blocks(const VecField& targets, std::size_t target_count, const VecField& sources,

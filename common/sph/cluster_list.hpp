@@ -32,7 +32,8 @@ class ClusterList {
              const StripOrder& source_strips, double reach, std::span<const Vec> shifts);
   /// The same where images of the sources stand beyond y = 0, that of source j as number `first_image` + j.
   void build_with_images(const VecField& targets, std::size_t target_count, const VecField& sources,
-                         const StripOrder& source_strips, double reach, std::size_t first_image);
+                         const StripOrder& source_strips, double reach, std::span<const Vec> shifts,
+                         std::size_t first_image);
 
   std::size_t clusters() const { return lists_.size(); }
   /// The first is without a shift; of the others, and of images, those that are not empty.

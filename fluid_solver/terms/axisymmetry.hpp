@@ -41,6 +41,14 @@ TORYU_INLINE Lanes circumference(const Lanes& y) {
   return (2 * std::numbers::pi) * max(y, -y);
 }
 
+/// Areas of the rings [m2] of open faces (Faces) of cells at `x`: those that look towards the axis or away
+/// from it lie half their length from the middle of the cell.
+template <class Vector>
+Vector ring_areas(const Vector& lower, const Vector& upper, const Vector& x) {
+  return {(lower[0] + upper[0]) * circumference(x[1]),
+          lower[1] * circumference(x[1] - 0.5 * lower[1]) + upper[1] * circumference(x[1] + 0.5 * upper[1])};
+}
+
 /// (v_r/r)_i [1/s].
 TORYU_INLINE Lanes hoop_rate(const Targets& i) {
   return i.v[1] * inverse(i.x[1]);

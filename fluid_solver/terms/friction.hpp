@@ -9,6 +9,8 @@
 ///     normalised   d_s = |A_s|/sum_f V_f W_sf, A_s the lengths of its open faces across x and y (none
 ///     inside)
 ///
+/// About an axis V_f and A_s are those of whole rings (ring_areas of terms/axisymmetry.hpp).
+///
 /// Normalised, a surface under the pressure p bears the traction mu_A p. As printed it bears mu_A p times a
 /// sum of kernel values, `printed_share`: 0.16, 0.22, 0.25, 0.30 at h/d_0 = 1.0, 1.2, 1.3, 1.5.
 /// eps regularises it: up to about that speed the friction is a linear drag, so that it has no direction to

@@ -55,7 +55,7 @@ Dynamics::Dynamics(const Parameters& parameters, const Vec& gravity, const Kerne
   if (parameters.carreau) rheology_ = *parameters.carreau;
   if (viscosity_varies()) terms_.viscous = VariableViscosityTerm{};
   if (const auto& f = parameters.friction; f && !parameters.wall_slip)  // else the walls have it
-    friction_.emplace(*f, parameters.spacing, c_0, medium_.kernel);
+    friction_.emplace(*f, parameters.spacing, c_0, medium_.kernel, geometry);
 }
 
 void Dynamics::allocate(Particles& fluid) const {

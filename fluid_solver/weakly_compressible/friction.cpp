@@ -3,34 +3,51 @@
 #include <fmt/format.h>
 
 #include "common/sph/neighbour_loop.hpp"
+#include "fluid_solver/axis_images.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
 
 namespace toryu::fluid {
 
 WorkPieceFriction::WorkPieceFriction(const Friction& parameters, double spacing, double sound_speed,
-                                     const Kernel& kernel)
+                                     const Kernel& kernel, Geometry geometry)
     : form_(parameters.form),
       spacing_(spacing),
       term_{parameters.coefficient, regularisation_speed(parameters, sound_speed)},
-      kernel_(kernel) {}
+      kernel_(kernel),
+      geometry_(geometry) {}
+
+double WorkPieceFriction::volume(const Particles& fluid, std::size_t f) const {
+  return geometry_ == Geometry::plane ? fluid.V[f] : fluid.V[f] * circumference(fluid.x[1][f]);
+}
+Lanes WorkPieceFriction::volumes(const Particles& fluid, std::size_t first) const {
+  const Lanes V = load(fluid.V, first);
+  return geometry_ == Geometry::plane ? V : V * circumference(load(fluid.x[1], first));
+}
 
 void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& fluid) const {
   auto& d = work_piece.friction_length;
-  d.assign(padded(work_piece.count), spacing_);
+  d.assign(work_piece.V.size(), spacing_);
   if (form_ == FrictionForm::as_printed) return;
   const auto& active = work_piece.list_for_wall.active();
   kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k) {
       const std::size_t first = active[k] * lane_count;
-      VecLanes A_s = load(work_piece.lower_face, first);
-      add_product(A_s, 1.0, load(work_piece.upper_face, first));
+      const VecLanes lower = load(work_piece.lower_face, first), upper = load(work_piece.upper_face, first);
+      VecLanes A_s = lower;
+      add_product(A_s, 1.0, upper);
+      Lanes least = least_contact;
+      if (const VecLanes x_s = load(work_piece.x, first); geometry_ == Geometry::axisymmetric)
+        A_s = ring_areas(lower, upper, x_s), least *= circumference(x_s[1]);
       Lanes sum = 0.0;
-      over_neighbours(
-          W, work_piece.list_for_wall.near(active[k]), load(work_piece.x, first), pointers(fluid.x),
-          [&](std::uint32_t f, const Neighbour& n) TORYU_INLINE_LAMBDA { sum += fluid.V[f] * W.value(n.r); });
-      store(square_root(dot(A_s, A_s)) * inverse(max(sum, least_contact)), d, first);
+      over_neighbours(W, work_piece.list_for_wall.near(active[k]), load(work_piece.x, first),
+                      pointers(fluid.x), [&](std::uint32_t f, const Neighbour& n) TORYU_INLINE_LAMBDA {
+                        sum += volume(fluid, f) * W.value(n.r);
+                      });
+      store(square_root(dot(A_s, A_s)) * inverse(max(sum, least)), d, first);
     }
   });
+  if (geometry_ == Geometry::axisymmetric) mirror(d);
 }
 
 void WorkPieceFriction::brake_fluid(Particles& fluid, double p_offset, const Boundary& work_piece,
@@ -49,7 +66,7 @@ Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, double p
                                      const Boundary& work_piece, std::size_t cluster) const {
   const std::size_t first = cluster * lane_count;
   const VecLanes v_f = load(fluid.v, first);
-  const Lanes p_f = load(fluid.p, first) + p_offset, V_f = load(fluid.V, first);
+  const Lanes p_f = load(fluid.p, first) + p_offset, V_f = volumes(fluid, first);
   VecLanes sum = zero_vector();
   over_neighbours(kernel, work_piece.list_for_fluid.near(cluster), load(fluid.x, first),
                   pointers(work_piece.x), [&](std::uint32_t s, const Neighbour& n) TORYU_INLINE_LAMBDA {
@@ -89,7 +106,7 @@ void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, cons
                     VecLanes v_fs;
                     for (int a = 0; a < dim; ++a) v_fs[a] = fluid.v[a][f] - v_s[a];
                     const VecLanes on_s = term_.per_volume(kernel, d_s, fluid.p[f] + p_offset, n.r, v_fs);
-                    for (int a = 0; a < dim; ++a) sum[a] += fluid.V[f] * on_s[a];
+                    for (int a = 0; a < dim; ++a) sum[a] += volume(fluid, f) * on_s[a];
                   });
   store(sum, work_piece.friction_force, first);
 }
@@ -119,7 +136,7 @@ double WorkPieceFriction::power_of_cluster(const W& kernel, const Particles& flu
                     const VecLanes v_fs = difference(v_f, v_s, s);
                     sum += dot(term_.per_volume(kernel, work_piece.friction_length[s], p_f, n.r, v_fs), v_fs);
                   });
-  return sum_of(load(fluid.V, first) * sum);  // V_f = 0 in idle lanes
+  return sum_of(volumes(fluid, first) * sum);  // V_f = 0 in idle lanes
 }
 
 double WorkPieceFriction::rate(double p, double rho) const {

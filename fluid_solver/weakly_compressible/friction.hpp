@@ -9,7 +9,8 @@ namespace toryu::fluid {
 
 class WorkPieceFriction {
  public:
-  WorkPieceFriction(const Friction& parameters, double spacing, double sound_speed, const Kernel& kernel);
+  WorkPieceFriction(const Friction& parameters, double spacing, double sound_speed, const Kernel& kernel,
+                    Geometry geometry = Geometry::plane);
 
   /// Fills `work_piece.friction_length`, the d_s, for the fluid's places and volumes.
   void measure_contact(Boundary& work_piece, const Particles& fluid) const;
@@ -38,10 +39,15 @@ class WorkPieceFriction {
   void drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid, double p_offset,
                     std::size_t cluster) const;
 
+  /// Of a particle of the fluid [m2], about an axis of its ring [m3].
+  double volume(const Particles& fluid, std::size_t f) const;
+  Lanes volumes(const Particles& fluid, std::size_t first) const;
+
   FrictionForm form_;
   double spacing_;
   FrictionTerm term_;
   Kernel kernel_;
+  Geometry geometry_;
 };
 
 }  // namespace toryu::fluid

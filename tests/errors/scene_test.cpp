@@ -82,17 +82,20 @@ const std::string round_scene =
 TEST(SceneFaults, AboutAnAxis) {
   EXPECT_EQ(CaseText(round_scene + "[[wall]]\nname = 'pin'\nbox = {min=[0,0], max=[1,1]}\n").scene_faults(),
             "");
+  EXPECT_EQ(CaseText(round_scene + "periodic = 'x'\n").scene_faults(), "");
   EXPECT_EQ(CaseText(round_scene + "[[wall]]\nname = 'pin'\nbox = {min=[0,-1], max=[1,1]}\n").scene_faults(),
             "case.toml:8:1: error: the wall 'pin' crosses the axis: y is the distance from it, at least 0");
   EXPECT_EQ(CaseText(round_scene + "[[wall]]\nname = 'pin'\nbox = {min=[0,0], max=[1,1]}\n"
                                    "motion = {velocity = [[0, 0, 0.5]]}\n")
                 .scene_faults(),
             "case.toml:9:1: error: the wall 'pin' moves across the axis: it can move along x alone");
-  EXPECT_EQ(CaseText(round_scene + "periodic = 'x'\ngravity = [0, 1]\n[solid]\n").scene_faults(),
-            "case.toml:4:1: error: a scene with a solid cannot be axisymmetric: solids know no axis\n"
-            "case.toml:6:1: error: a scene about an axis does not repeat itself: leave 'periodic' out\n"
-            "case.toml:6:1: error: a scene with a solid cannot be periodic: solids know no periods\n"
-            "case.toml:7:1: error: gravity across the axis is not axisymmetric: give it along x alone");
+  EXPECT_EQ(
+      CaseText(round_scene + "periodic = 'xy'\ngravity = [0, 1]\n[solid]\n").scene_faults(),
+      "case.toml:4:1: error: a scene with a solid cannot be axisymmetric: solids know no axis\n"
+      "case.toml:6:1: error: about an axis space repeats itself along it alone: \"x\", or leave 'periodic' "
+      "out\n"
+      "case.toml:6:1: error: a scene with a solid cannot be periodic: solids know no periods\n"
+      "case.toml:7:1: error: gravity across the axis is not axisymmetric: give it along x alone");
 }
 
 TEST(SceneFaults, MotionWithoutRows) {

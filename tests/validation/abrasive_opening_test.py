@@ -1,4 +1,4 @@
-"""A passage that its medium opens at a constant pressure, over 200 cycles: cases/abrasive_opening.
+"""Passages that their medium opens at a constant pressure, over 200 cycles: cases/abrasive_opening and cases/abrasive_bore.
 
     abrasive_opening_test.py CASES BUILD/bin [--long]
 """
@@ -17,18 +17,18 @@ PATHS = {}
 
 
 class Study:
-    """A study of the case, run."""
+    """A study of a case, run."""
 
-    def __init__(self, name, *options):
+    def __init__(self, name, *options, case="abrasive_opening", wall="lower"):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder)
             run = subprocess.run([sys.executable, "-m", "toryu.launch", "--bin", PATHS["bin"],
-                                  PATHS["cases"] / "abrasive_opening" / name, "--out", out, *options],
+                                  PATHS["cases"] / case / name, "--out", out, *options],
                                  capture_output=True, text=True, timeout=900)
             assert run.returncode == 0, run.stderr
             with open(out / "table.csv", newline="", encoding="utf-8") as file:
                 self.rows = list(csv.DictReader(file))
-            self.time, self.place, self.depth = lubrication.last_shape(out / "recession.csv", "lower", 0.02)
+            self.time, self.place, self.depth = lubrication.last_shape(out / "recession.csv", wall, 0.02)
             self.last = [row for row in self.rows if row["machining_time[s]"]][-1]
 
 
@@ -46,10 +46,32 @@ class TwoWay(unittest.TestCase):
         self.assertAlmostEqual(float(study.last["flow[m2/s]"]) / first / 1.2**3, 1, delta=0.01)
 
 
+def bore(name):
+    """At 5 particles across the radius."""
+    return Study(name, "--set", "fluid.spacing=0.0002", case="abrasive_bore", wall="bore")
+
+
+class Bore(unittest.TestCase):
+    def test_there_and_back_its_radius_grows_by_a_fifth(self):
+        """R = R_0 exp(k b P^2 t/(4 L)), +20 % after 2160 s, in at most 10 solutions of the flow."""
+        study, tube = bore("two_way.toml"), lubrication.Tube()
+        self.assertLessEqual(len(study.rows), 10)
+        self.assertEqual(study.time, 2160)
+        opened = (tube.opened_two_way(2160) - tube.width) / 2
+        self.assertAlmostEqual(opened, 1.999e-4, delta=1e-7)
+        self.assertLess(np.abs(study.depth / opened - 1).max(), 0.01)
+        self.assertLess(abs(float(study.last["balance_error"])), 1e-9)
+        R, length = 1e-3 + study.depth.mean(), 0.02
+        self.assertAlmostEqual(float(study.last["removed_volume[m3]"]) / (np.pi * (R**2 - 1e-6) * length), 1, delta=1e-4)
+        self.assertAlmostEqual(float(study.last["diameter_mean[m]"]) / (2 * R), 1, delta=1e-5)
+        flow = 1.5e8 * np.pi * R**4 / 8e3 * (1 + 4 * 1000 * 3e-7 / R)
+        self.assertAlmostEqual(float(study.last["flow[m3/s]"]) / flow, 1, delta=0.02)
+
+
 class OneWay(unittest.TestCase):
-    def check(self, study, shape, mean):
+    def check(self, study, shape, mean, slit=None):
         """`shape`: largest difference over the mean depth, the ends apart, where the wall bends."""
-        slit = lubrication.Slit()
+        slit = slit or lubrication.Slit()
         places, exact, rate = slit.opened_one_way(study.time)
         exact = np.interp(study.place, places, exact)
         self.assertAlmostEqual(study.depth.mean() / exact.mean(), 1, delta=mean)
@@ -62,6 +84,12 @@ class OneWay(unittest.TestCase):
         self.check(Study("one_way.toml", "--set", "fluid.spacing=0.0002"), 0.01, 0.03)
 
 
+class OneWayBore(OneWay):
+    def test_10_across_it_is_the_funnel_of_lubrication(self):
+        """At 5 across the radius."""
+        self.assertAlmostEqual(self.check(bore("one_way.toml"), 0.01, 0.01, lubrication.Tube()), 1, delta=0.02)
+
+
 class OneWayAtFullSize(OneWay):
     def test_10_across_it_is_the_funnel_of_lubrication(self):
         """At 20 across: V8 wants 3 %."""
@@ -70,5 +98,5 @@ class OneWayAtFullSize(OneWay):
 
 if __name__ == "__main__":
     PATHS["cases"], PATHS["bin"] = map(pathlib.Path, sys.argv[1:3])
-    chosen = ["OneWay", "OneWayAtFullSize"] if "--long" in sys.argv else ["TwoWay"]
+    chosen = ["OneWay", "OneWayBore", "OneWayAtFullSize"] if "--long" in sys.argv else ["TwoWay", "Bore"]
     unittest.main(argv=[sys.argv[0], *chosen])

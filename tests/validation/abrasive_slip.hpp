@@ -1,4 +1,5 @@
-/// cases/abrasive_slip: a medium that slides along its plates, in real pascals.
+/// cases/abrasive_slip: a medium that slides along its plates, and cases/axisymmetric_tube: along a tube; in
+/// real pascals.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,20 +10,20 @@
 
 namespace toryu::fluid {
 
-/// Means over the last 12 ms; on the lower plate within a width of the middle of the slit.
+/// Means over the last 12 ms; on the lower plate or the tube within a width of the middle.
 struct SlidingFlow {
   double pressure_gradient = 0;  ///< [Pa/m]
   double slip_speed = 0;         ///< [m/s]
   double wall_stress = 0;        ///< [Pa]
   double log_slope = 0;          ///< d ln p/dx [1/m], of the pressure with what holds the medium
-  double removed_depth = 0;      ///< Preston's, mean of the plate since the start [m]
+  double removed_depth = 0;      ///< Preston's, mean of the work piece since the start [m]
 };
 
 class SlidingMeans {
  public:
   explicit SlidingMeans(const FluidCase& the_case) : the_case_(the_case) {
     const Box& medium = the_case.parameters.regions.front().box;
-    width_ = medium.max[1] - medium.min[1];
+    width_ = the_case.parameters.similarity->passage_width;
     middle_ = 0.5 * (medium.min[0] + medium.max[0]);
     for (const auto& wall : the_case.scene.walls)
       if (wall.motion) motion_ = *wall.motion;
@@ -45,9 +46,10 @@ class SlidingMeans {
     sum_.log_slope += log.value();
     double n = 0, u_s = 0, tau_w = 0;
     for (const Boundary& boundary : solver.boundaries()) {
-      if (boundary.name != "lower" || !boundary.is_slippery()) continue;
+      if ((boundary.name != "lower" && boundary.name != "tube") || !boundary.is_slippery()) continue;
+      const auto& face = (boundary.name == "lower" ? boundary.upper_face : boundary.lower_face)[1];
       for (std::size_t k = 0; k < boundary.count; ++k)
-        if (boundary.upper_face[1][k] > 0 && std::abs(boundary.x[0][k] - middle) < width_) {
+        if (face[k] > 0 && std::abs(boundary.x[0][k] - middle) < width_) {
           n += 1;
           u_s += boundary.slip_velocity[0][k];
           tau_w += boundary.shear_stress[k];
@@ -72,10 +74,15 @@ class SlidingMeans {
   int samples_ = 0;
 };
 
+/// `name`: of a case file, in cases/abrasive_slip if it says no folder.
+inline FluidCase sliding_case(const std::string& name, const std::vector<std::string>& overrides) {
+  return FluidCase(name.find('/') == std::string::npos ? "abrasive_slip/" + name : name, overrides);
+}
+
 inline SlidingFlow run_abrasive_slip(const std::string& name, double spacing,
                                      std::vector<std::string> overrides = {}) {
   overrides.push_back("fluid.spacing=" + std::to_string(spacing));
-  const FluidCase the_case("abrasive_slip/" + name, overrides);
+  const FluidCase the_case = sliding_case(name, overrides);
   WeaklyCompressible solver = the_case.solver();
   const auto out = std::filesystem::path(testing::TempDir()) / ("abrasive_slip_" + std::to_string(getpid()));
   std::filesystem::create_directories(out);
@@ -95,9 +102,9 @@ inline SlidingFlow run_abrasive_slip(const std::string& name, double spacing,
 
 /// Of the case's medium and slip law.
 inline DevelopedFlow exact_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  const FluidCase the_case("abrasive_slip/" + name, overrides);
+  const FluidCase the_case = sliding_case(name, overrides);
   const Parameters& p = the_case.parameters;
-  return {viscosity_of(p), p.similarity->passage_width, p.similarity->mean_speed, Geometry::plane,
+  return {viscosity_of(p), p.similarity->passage_width, p.similarity->mean_speed, the_case.scene.geometry,
           [law = *p.wall_slip](double tau) { return slip_speed(law, tau); }};
 }
 

@@ -49,7 +49,7 @@ def check(surface):
     """Raises ValueError if the arrays of an open surface.h5 do not belong together; what cannot be read raises too."""
     points = len(surface["area"][:])
     shapes = {"time": (len(surface["time"]),), "start_position": (points, 2), "normal": (points, 2),
-              "area": (points,), "work_piece": (points,)}
+              "area": (points,), "circumference": (points,), "work_piece": (points,)}
     names(surface)
     for name, values in surface.items():
         shape = shapes.get(name, (len(surface["time"]), points))

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "fluid_solver/axis_images.hpp"
 #include "fluid_solver/terms/axisymmetry.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
@@ -153,6 +155,17 @@ TEST(AxisymmetricFluid, WeighsWhatItsWholeRingsDo) {
   EXPECT_NEAR(std::accumulate(m.begin(), m.begin() + solver.particles().count, 0.0), 1000 * pi * 0.25, 1e-9);
 }
 
+TEST(AxisymmetricFluid, FillsABoreAsFarAsItHasWorn) {
+  Setting s = closed_vessel();
+  for (const double depth : {0.02, 0.08}) {  // rows widen, or there is one more
+    s.scene.walls[0].worn = {{.face = Side::lower, .depth = {{-0.2, depth}, {1.2, depth}}}};
+    const WeaklyCompressible solver = s.solver();
+    const Field& m = solver.particles().m;
+    EXPECT_NEAR(std::accumulate(m.begin(), m.begin() + solver.particles().count, 0.0),
+                1000 * pi * (0.5 + depth) * (0.5 + depth), 1e-9);
+  }
+}
+
 Setting colliding_rings() {
   Setting s = about_axis();
   s.parameters.regions = {{"left", {Vec(0, 0), Vec(0.5, 0.4)}, Vec(1.0, 0)},
@@ -167,6 +180,29 @@ TEST(AxisymmetricFluid, KeepsItsMomentumAlongTheAxis) {
   run_until(solver, 0.03);
   EXPECT_GT((positions(solver).front() - first).norm(), 0.01);
   EXPECT_NEAR(solver.momentum()[0], before, 1e-12 * std::abs(before));
+}
+
+/// A tube that repeats itself knows no seam: in each row the medium is alike, beside the axis too.
+TEST(AxisymmetricFluid, IsAlikeAllAlongAPeriod) {
+  Setting s = about_axis();
+  s.parameters.background_pressure = BackgroundPressure{5e4};
+  s.scene.domain = {Vec(0, -0.5), Vec(1, 1)};
+  s.scene.periodic = Periodic::x;
+  s.scene.gravity = Vec(50, 0);
+  s.parameters.laminar_viscosity->dynamic_viscosity = 2000;
+  s.parameters.regions = {{"medium", {Vec(0, 0), Vec(1, 0.4)}, Vec::Zero()}};
+  s.scene.walls = {{"tube", {Vec(0, 0.4), Vec(1, 0.6)}, {}}};
+  WeaklyCompressible solver = s.solver();
+  for (int step = 0; step < 40; ++step) solver.advance(1e-4);
+  const auto v = by_id(solver, solver.particles().v), x = positions(solver);
+  std::map<long, Vec> of_row;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const auto [row, first] = of_row.emplace(std::lround((x[i][1] - 0.025) / 0.05), v[i]);
+    EXPECT_LT((v[i] - row->second).norm(), 1e-9) << "at " << x[i].transpose();
+  }
+  ASSERT_EQ(of_row.size(), 8u);
+  EXPECT_NEAR(of_row[0][0], 50 * 4e-3, 1e-3) << "on the axis it still falls freely";
+  EXPECT_LT(of_row[7][0], 0.8 * 50 * 4e-3) << "beside the tube it is held back";
 }
 
 /// The force along the axis on a fluid that a piston pushes is what its boundaries say.
@@ -194,9 +230,30 @@ TEST(AxisImages, AreFoundByTheListsOfWhoIsNearTheAxis) {
   StripOrder strips(1.0);
   strips.index(x[0], places.size());
   ClusterList list;
-  list.build_with_images(x, places.size(), x, strips, 0.15, first_image);
+  const Vec unshifted = Vec::Zero();
+  list.build_with_images(x, places.size(), x, strips, 0.15, std::span(&unshifted, 1), first_image);
   ASSERT_EQ(list.near(0).size(), 2);
   EXPECT_THAT(list.near(0)[1].sources, testing::ElementsAre(first_image, first_image + 1));
+}
+
+TEST(AxisImages, StandAcrossAPeriodToo) {
+  const std::vector<Vec> places = {{0.02, 0.03}, {0.97, 0.04}};
+  VecField x;
+  resize(x, 2 * padded(places.size()));
+  for (std::size_t k = 0; k < padded(places.size()); ++k) set(x, k, places[std::min<std::size_t>(k, 1)]);
+  mirror(x);
+  const std::size_t first_image = padded(places.size());
+  StripOrder strips(1.0);
+  strips.index(x[0], places.size());
+  const std::vector<Vec> shifts{Vec(0, 0), Vec(-1, 0), Vec(1, 0)};
+  ClusterList list;
+  list.build_with_images(x, places.size(), x, strips, 0.1, shifts, first_image);
+  double found = 0;  // of target 0 and the image of 1, a period away: (0.05, 0.07)
+  for (const ShiftedNeighbours& near : list.near(0))
+    for (const std::uint32_t j : near.sources)
+      if (j == first_image + 1 && (places[0] + near.shift - at(x, j) - Vec(0.05, 0.07)).norm() < 1e-12)
+        ++found;
+  EXPECT_EQ(found, 1);
 }
 
 TEST(AxisImages, MirrorWhatHasADirection) {

@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <numbers>
+
+#include "fluid_solver/axis_images.hpp"
+#include "fluid_solver/terms/axisymmetry.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
@@ -16,8 +20,8 @@ namespace {
 constexpr double d_0 = 0.1, h = 1.2 * d_0, mu_A = 0.4, eps = 1e-3;
 const CubicSpline kernel(h);
 
-WorkPieceFriction friction(FrictionForm form) {
-  return {{.coefficient = mu_A, .form = form, .regularisation_speed = eps}, d_0, 20, kernel};
+WorkPieceFriction friction(FrictionForm form, Geometry geometry) {
+  return {{.coefficient = mu_A, .form = form, .regularisation_speed = eps}, d_0, 20, kernel, geometry};
 }
 
 struct SurfacePoint {
@@ -31,12 +35,22 @@ struct Rubbed {
   Vec momentum_rate;  ///< of the fluid's particles, sum m a
 };
 
+/// Of particles that have their images beyond the axis, if there is one.
+void mirror_all(Particles& fluid, Boundary& boundary) {
+  for (VecField* field : {static_cast<VecField*>(&fluid.x), static_cast<VecField*>(&fluid.v),
+                          static_cast<VecField*>(&boundary.x), static_cast<VecField*>(&boundary.v)})
+    mirror(*field);
+  mirror(fluid.p);
+  mirror(fluid.V);
+}
+
 Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& points, FrictionForm form,
-           double p_offset = 0) {
+           double p_offset = 0, Geometry geometry = Geometry::plane) {
   Particles fluid;
   fluid.count = points.size();
-  for (auto* field : {&fluid.x, &fluid.v, &fluid.a}) resize(*field, padded(fluid.count));
-  for (auto* field : {&fluid.p, &fluid.rho, &fluid.V, &fluid.m}) field->resize(padded(fluid.count), 0.0);
+  const std::size_t room = room_of(fluid.count, geometry);
+  for (auto* field : {&fluid.x, &fluid.v, &fluid.a}) resize(*field, room);
+  for (auto* field : {&fluid.p, &fluid.rho, &fluid.V, &fluid.m}) field->resize(room, 0.0);
   Field x, y;
   for (const Point& point : points) x.push_back(point.x[0]), y.push_back(point.x[1]);
   StripOrder strips(0.3);
@@ -50,6 +64,7 @@ Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& poi
     fluid.rho[k] = point.rho;
     fluid.m[k] = point.m;
     fluid.V[k] = point.m / point.rho;
+    if (geometry == Geometry::axisymmetric) fluid.V[k] /= circumference(point.x[1]);
   }
   strips.index(fluid.x[0], fluid.count);
 
@@ -57,13 +72,21 @@ Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& poi
   std::vector<Vec> places;
   std::vector<Faces> faces;
   for (const auto& s : piece) places.push_back(s.x), faces.push_back(faces_of(s.area_vector));
-  boundary.place(places, std::vector<double>(piece.size(), d_0 * d_0), 1000, 0.3);
+  boundary.place(places, std::vector<double>(piece.size(), d_0 * d_0), 1000, 0.3, geometry);
   boundary.make_work_piece(faces);
   boundary.move_to([&](std::uint32_t k) { return Kinematics{piece[k].x, piece[k].v, Vec::Zero()}; });
-  boundary.list_for_wall.build(boundary.x, boundary.count, fluid.x, strips, 1.1 * kernel.support());
-  boundary.list_for_fluid.build(fluid.x, fluid.count, boundary.x, boundary.strips, 1.1 * kernel.support());
+  const Vec unshifted = Vec::Zero();
+  const bool about_axis = geometry == Geometry::axisymmetric;
+  if (about_axis) mirror_all(fluid, boundary);
+  const auto build = [&](ClusterList& list, const VecField& targets, std::size_t target_count,
+                         const VecField& sources, std::size_t source_count, const StripOrder& order_of) {
+    list.build_with_images(targets, target_count, sources, order_of, 1.1 * kernel.support(),
+                           std::span(&unshifted, 1), about_axis ? padded(source_count) : 0);
+  };
+  build(boundary.list_for_wall, boundary.x, boundary.count, fluid.x, fluid.count, strips);
+  build(boundary.list_for_fluid, fluid.x, fluid.count, boundary.x, boundary.count, boundary.strips);
 
-  const WorkPieceFriction term = friction(form);
+  const WorkPieceFriction term = friction(form, geometry);
   std::vector<Vec> by_cluster;
   term.measure_contact(boundary, fluid);
   term.brake_fluid(fluid, p_offset, boundary, by_cluster);
@@ -105,6 +128,45 @@ TEST(Friction, OfOnePairNormalisedIsTheCoefficientTimesPressureTimesArea) {
   const Vec force = mu_A * 800 * std::hypot(0.02, 0.09) * direction(f_point, s_point);
   expect_near(rubbed.on_piece[0], force);
   expect_near(rubbed.on_fluid, -force);
+}
+
+/// Moved so far from the axis that no image is near.
+Rubbed rub_far_out(FrictionForm form) {
+  SurfacePoint s = s_point;
+  Point f = f_point;
+  s.x[1] += 1, f.x[1] += 1;
+  f.m *= circumference(f.x[1]);
+  return rub({s}, {f}, form, 0, Geometry::axisymmetric);
+}
+
+TEST(FrictionAboutAnAxis, IsTheCoefficientTimesPressureTimesTheAreaOfTheRing) {
+  const Rubbed rubbed = rub_far_out(FrictionForm::normalised);
+  const double pi = std::numbers::pi, side = 2 * pi * 0.95 * 0.02, outside = 2 * pi * (0.95 + 0.045) * 0.09;
+  const Vec force = mu_A * 800 * std::hypot(side, outside) * direction(f_point, s_point);
+  expect_near(rubbed.on_piece[0], force);
+  expect_near(rubbed.on_fluid, -force);
+  expect_near(rubbed.momentum_rate, -force);
+}
+
+TEST(FrictionAboutAnAxis, AsPrintedIsThatOfTheFluidsRing) {
+  const Rubbed rubbed = rub_far_out(FrictionForm::as_printed);
+  const double ring = 2 * std::numbers::pi * 1.05;
+  const Vec force = ring * mu_A * V_W(f_point, s_point) * 800 * d_0 * direction(f_point, s_point);
+  expect_near(rubbed.on_piece[0], force);
+  expect_near(rubbed.momentum_rate, -force);
+}
+
+/// A pin's last row and the medium on it, which all reach beyond the axis.
+TEST(FrictionAboutAnAxis, IsEqualAndOppositeAlongItAmongImages) {
+  const std::vector<SurfacePoint> pin{{{0.01, 0.05}, {0, 0}, {0, 0.1}}, {{0.11, 0.05}, {0, 0}, {0.1, 0.1}}};
+  const std::vector<Point> medium{{.x = {0.0, 0.14}, .v = {0.7, -0.2}, .rho = 1010, .m = 9, .p = 800},
+                                  {.x = {0.2, 0.03}, .v = {0.4, 0.1}, .rho = 1000, .m = 2, .p = 500}};
+  const Rubbed rubbed = rub(pin, medium, FrictionForm::normalised, 0, Geometry::axisymmetric);
+  double on_pin = 0;
+  for (const Vec& force : rubbed.on_piece) on_pin += force[0];
+  EXPECT_GT(on_pin, 10);
+  EXPECT_NEAR(rubbed.on_fluid[0], -on_pin, 1e-12 * on_pin);
+  EXPECT_NEAR(rubbed.momentum_rate[0], -on_pin, 1e-12 * on_pin);
 }
 
 TEST(Friction, IsThatOfThePressureAtWhichTheMediumIsHeld) {

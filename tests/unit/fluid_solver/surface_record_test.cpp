@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 
 #include "tests/unit/fluid_solver/scenes.hpp"
 
@@ -141,6 +142,28 @@ TEST(SurfaceRecord, ContactHasThePressureAtWhichTheMediumIsHeld) {
   Contacting one({{Vec(0, 0.08), Vec(3, 0), 50, 0.01}});
   EXPECT_NEAR(one.after(preston, 1, {}, 150)["removed_depth_mean"], 1e-6 * 200 * 3 * dt, 1e-15);
   EXPECT_EQ(one.after(preston, 1, {}, -60)["removed_depth_mean"], 0);
+}
+
+/// A work piece of which one particle looks away from the axis, to a face at r = 0.05, and one towards it.
+TEST(SurfaceRecord, AboutAnAxisWeighsItsPointsByTheirRings) {
+  Contacting one({{Vec(0, 0.15), Vec(3, 0), 50, 0.01}, {Vec(0, -0.25), Vec(1, 0), 20, 0.01}});
+  Boundary& body = one.boundaries.front();
+  body.make_work_piece({faces_of(Vec(0, d_0)), faces_of(Vec(0, -d_0))});
+  for (std::size_t k = 0; k < body.count; ++k) body.x[1][k] += 1;
+  for (std::size_t f = 0; f < one.fluid.count; ++f) one.fluid.x[1][f] += 1;
+  SurfaceRecord record(preston, {}, Geometry::axisymmetric);
+  record.attach(one.boundaries);
+  record.add(one.boundaries, one.fluid, 0, one.neighbours, kernel, dt);
+  std::map<std::string, Observation> seen;
+  for (const auto& observation : record.observe()) seen[observation.name] = observation;
+  const double outer = 2 * std::numbers::pi * 1.05 * d_0, inner = 2 * std::numbers::pi * 0.85 * d_0;
+  const double outer_depth = 1e-6 * 50 * 3 * dt, inner_depth = 1e-6 * 20 * 1 * dt;
+  const double volume = outer * outer_depth + inner * inner_depth;
+  EXPECT_NEAR(seen.at("wetted_area").value, outer + inner, 1e-12);
+  EXPECT_EQ(seen.at("wetted_area").unit, "m2");
+  EXPECT_NEAR(seen.at("removed_volume").value, volume, 1e-9 * volume);
+  EXPECT_EQ(seen.at("removed_volume").unit, "m3");
+  EXPECT_NEAR(seen.at("removed_depth_mean").value, volume / (outer + inner), 1e-15);
 }
 
 TEST(SurfaceRecord, SlidingIsRelativeToTheSurface) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "common/scene/fill_outline.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
@@ -67,6 +69,44 @@ TEST(WorkPiece, OfAPeriodicSceneGoesOnBeyondItsEnds) {
   setting.parameters.regions = {{"medium", {Vec(0, 0), Vec(1, 0.2)}, Vec::Zero()}};
   const WeaklyCompressible solver = setting.solver();
   for (const Vec& face : faces(boundary_of(solver, "piece"))) EXPECT_EQ(face[0], 0);
+}
+
+/// Spacing 0.05, about an axis: a pin of 2 rows of 4 on it, and a bore of radius 0.3.
+Setting pin_in_a_bore() {
+  Setting setting = empty_space();
+  setting.scene.geometry = Geometry::axisymmetric;
+  setting.scene.walls = {
+      {.name = "pin", .box = {Vec(0, 0), Vec(0.2, 0.1)}, .motion = {}, .work_piece = true},
+      {.name = "bore", .box = {Vec(0, 0.3), Vec(0.2, 0.35)}, .motion = {}, .work_piece = true}};
+  setting.parameters.regions = {{"medium", {Vec(0, 0.1), Vec(0.2, 0.3)}, Vec::Zero()}};
+  return setting;
+}
+
+TEST(WorkPiece, HasNoFaceOnTheAxis) {
+  const WeaklyCompressible solver = pin_in_a_bore().solver();
+  expect_near(faces(boundary_of(solver, "pin")),
+              {{-1, 0}, {0, 0}, {0, 0}, {1, 0}, {-1, 1}, {0, 1}, {0, 1}, {1, 1}});
+}
+
+TEST(WorkPiece, HasTheAreasOfItsRings) {
+  const WeaklyCompressible solver = pin_in_a_bore().solver();
+  const double pi = std::numbers::pi;
+  const auto ring_of = [](const Boundary& body, std::uint32_t id, std::size_t point) {
+    for (std::size_t k = 0; k < body.count; ++k) {
+      if (body.id[k] != id) continue;
+      const Faces faces{at(body.lower_face, k), at(body.upper_face, k)};
+      const SurfacePoint found = surface_points(faces).at(point);
+      return found.area_vector.norm() * circumference_of(found, faces, at(body.x, k));
+    }
+    return 0.0;
+  };
+  const Boundary &pin = boundary_of(solver, "pin"), &bore = boundary_of(solver, "bore");
+  EXPECT_NEAR(ring_of(pin, 5, 0), 2 * pi * 0.1 * 0.05, 1e-15) << "its side is at r = 0.1, not at 0.075";
+  EXPECT_NEAR(ring_of(pin, 0, 0), pi * 0.05 * 0.05, 1e-15) << "the disc on the axis";
+  EXPECT_NEAR(ring_of(pin, 4, 0), std::hypot(pi * (0.1 * 0.1 - 0.05 * 0.05), 2 * pi * 0.1 * 0.05), 1e-15)
+      << "the edge";
+  EXPECT_NEAR(ring_of(bore, 1, 0), 2 * pi * 0.3 * 0.05, 1e-15) << "one row thick: inside";
+  EXPECT_NEAR(ring_of(bore, 1, 1), 2 * pi * 0.35 * 0.05, 1e-15) << "and outside";
 }
 
 TEST(WorkPiece, IsABodyOfItsOwnWithOpenFacesOnly) {

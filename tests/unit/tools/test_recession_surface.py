@@ -60,6 +60,20 @@ class OfABlock(unittest.TestCase):
         allowed = view.march(lambda: found).allowed(np.zeros(8))
         np.testing.assert_allclose(allowed, [50, 0.25, 50, 0.25, 0.25, 50, 50, 0.25])
 
+    def test_about_an_axis_rings_come_off(self):
+        """Of the block of 4 x 2 cells, a disc of radius 2 m with its flat sides: 0.2 m off all around."""
+        file = block() | {"circumference": Column(np.full(6, 1.0))}
+        found = wetted(file)
+        left, right, outside = found.parts(found.removed(np.full(8, 0.2)))
+        np.testing.assert_allclose(outside, np.pi * (2**2 - 1.8**2))
+        np.testing.assert_allclose([left.sum(), right.sum()], np.pi * 2**2 * 0.2)
+        rings = [np.pi, 3 * np.pi] * 2 + [4 * np.pi] * 4  # flat, and outside
+        self.assertAlmostEqual(found.mean(np.arange(8.0)), np.average(np.arange(8.0), weights=rings))
+        diameters, _ = found.diameters(np.full(8, 0.2), np.full(8, True))
+        np.testing.assert_allclose(diameters, 3.6)
+        bore = wetted(file | {"normal": Column(file["normal"].values * [1, -1])})  # open towards the axis
+        np.testing.assert_allclose(bore.parts(bore.removed(np.full(8, 0.2)))[2], np.pi * (1.2**2 - 1))
+
     def test_the_image_of_a_face_is_the_opposite_one(self):
         found = wetted(block())
         np.testing.assert_allclose(found.mirrored(np.arange(8.0), 0), [2, 3, 0, 1, 7, 6, 5, 4])

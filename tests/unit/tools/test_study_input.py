@@ -13,6 +13,12 @@ class BadInput(Study):
         self.assertEqual(self.starts(), [])
         return ended.stderr.replace(str(self.case) + "/", "").splitlines()
 
+    def test_removal_a_cycle_about_an_axis_is_refused(self):
+        path = self.case / "case.toml"
+        path.write_text(path.read_text().replace("[case]", '[case]\ngeometry = "axisymmetric"'))
+        self.assertIn('[removal] is of the plane: a case with geometry = "axisymmetric" goes with [recession]',
+                      "\n".join(self.faults('[removal]\npistons = ["piston"]\npiston_area = 0.1\ncycle = 1.0\n')))
+
     def test_all_faults_of_the_file_at_once_with_their_lines(self):
         self.assertEqual(self.faults("""keep_frame = true
 [[axis]]

@@ -2,9 +2,12 @@
 
 import csv
 import math
+import pathlib
 import unittest
 
 from toryu_testing.study_case import HEAD, Study
+
+CASES = pathlib.Path(__file__).resolve().parents[3] / "cases"
 
 CASE = """[case]
 title = "passage"
@@ -114,6 +117,34 @@ class Recession(Study):
         self.assertAlmostEqual(depths[0] / (1e-8 * 13.5 * 0.975), 1, delta=1e-4)
         self.assertAlmostEqual(depths[19] / (1e-8 * 13.5 * 0.025), 1, delta=1e-3)
 
+    def test_a_calibration_tells_how_uncertain_the_shape_is(self):
+        """A slip that opens the passage is uncertain by 10 %, k by 5 %, with a correlation of -0.5."""
+        (self.case / "calibration.toml").write_text(
+            "[fluid]\nopens = 6.75e-5\n[fluid.removal]\npreston_coefficient = 1e-12\n")
+        (self.case / "calibration.csv").write_text(
+            "parameter,unit,scale,proportional,keys,value,error,covariance with slip,covariance with k\n"
+            "slip,,logarithm,,fluid.opens,6.75e-5,0.1,0.01,-0.0025\n"
+            "k,1/Pa,logarithm,preston_depth,fluid.removal.preston_coefficient,1e-12,0.05,-0.0025,0.0025\n")
+        self.write(RECESSION.replace("200", "100") + TWO_WAY + 'calibration = "calibration.toml"\ndensity = 8000.0\n', "fluid.y = 1")
+        ended = self.done()
+        row = next(row for row in self.table() if row["depth_mean_error[m]"])
+        self.assertEqual((row["calibration"], row["cycles"]), ("fitted", "100"))
+
+        def depth(opening):
+            return 1e-3 * (math.exp(opening * 1350) - 1)
+
+        by_slip = (depth(6.75e-5 * math.exp(0.1)) - depth(6.75e-5 * math.exp(-0.1))) / 2
+        by_k = 0.05 * 1350 * 6.75e-5 * 1e-3 * math.exp(6.75e-5 * 1350)  # a longer time
+        error = math.sqrt(by_slip**2 + by_k**2 - by_slip * by_k)
+        self.assertAlmostEqual(float(row["depth_mean_error[m]"]) / error, 1, delta=5e-3)
+        self.assertAlmostEqual(float(row["removed_area_error[m2]"]) / (2e-2 * error), 1, delta=5e-3)
+        self.assertAlmostEqual(float(row["removed_mass[kg/m]"]) / (8000 * float(row["removed_area[m2]"])), 1, delta=1e-5)
+        self.assertIn("one standard error by what the calibration leaves open", ended.stdout)
+        with open(self.out / "recession.csv", newline="") as file:
+            last = list(csv.DictReader(file))[-1]
+        self.assertAlmostEqual(float(last["depth_error[m]"]) / error, 1, delta=0.01)
+        self.assertFalse((self.out / "charts/shape_02.png").exists(), "its neighbours are no settings")
+
     def test_over_another_axis_a_line_each(self):
         self.write(SHORT + TWO_WAY + "[[axis]]\nname = 'speed'\nvalues = [1, 2]\nkeys = ['fluid.x']\n")
         self.done()
@@ -154,6 +185,13 @@ class Faults(Study):
         (self.case / "case.toml").write_text(CASE)
         self.write(RECESSION + "pressure = [[0, 1e6], [0.02, -5]]\n")
         self.assertIn("must be at least 0, found -5", self.study("--check").stderr)
+
+    def test_a_target_does_not_go_with_a_calibration(self):
+        (self.case / "case.toml").write_text(CASE)
+        for name in ("calibration.toml", "calibration.csv"):
+            (self.case / name).write_bytes((CASES / "abrasive_coupon" / name).read_bytes())
+        self.write(RECESSION + 'target_depth = 1e-4\ncalibration = "calibration.toml"\n')
+        self.assertIn("it does not go with 'target_depth'", self.study("--check").stderr)
 
     def test_reverse_goes_with_both_ways(self):
         (self.case / "case.toml").write_text(CASE)

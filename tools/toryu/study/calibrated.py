@@ -26,6 +26,10 @@ class Fitted:
     value: float
     error: float  # standard error, of the logarithm if log
 
+    @property
+    def relative_error(self):
+        return self.error if self.log else self.error / self.value
+
     def moved(self, sign):
         """The value a standard error away."""
         return self.value * math.exp(sign * self.error) if self.log else self.value + sign * self.error
@@ -56,13 +60,21 @@ class Calibrated:
     def error(self, value, neighbours, law):
         """Standard error of a figure or of an array, to first order; nan without a neighbour. `neighbours`: value of the
         axis -> the figure there. `law`: the depth that the figure is, None if it is none."""
-        moves = [np.asarray(value) * (p.error if p.log else p.error / p.value) * (p.law == law) if p.law else
-                 (np.asarray(neighbours.get(p.neighbour(1), math.nan)) -
-                  np.asarray(neighbours.get(p.neighbour(-1), math.nan))) / 2 for p in self.parameters]
+        return self.error_of(value, lambda p: np.asarray(value) * p.relative_error * (p.law == law) if p.law else
+                             half_difference(neighbours, p))
+
+    def error_of(self, value, move):
+        """The same, `move(parameter)`: by how much a standard error of the parameter moves the figure."""
         errors = np.sqrt(np.diag(self.covariance))
         correlation = self.covariance / np.outer(errors, errors)
-        moves = np.stack(np.broadcast_arrays(value, *moves)[1:])
+        moves = np.stack(np.broadcast_arrays(value, *map(move, self.parameters))[1:])
         return np.sqrt(np.maximum(np.einsum("i...,ij,j...->...", moves, correlation, moves), 0.0))
+
+
+def half_difference(neighbours, parameter):
+    """Of the figures at a standard error of the parameter to either side; nan without one."""
+    up, down = (np.asarray(neighbours.get(parameter.neighbour(sign), math.nan)) for sign in (1, -1))
+    return (up - down) / 2
 
 
 def read(table, study):

@@ -1,25 +1,23 @@
 """Surfaces that recede: what the table [recession] of a study file says, and what came of it. README.md describes the
 keys."""
 
-import csv
 import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from toryu.program import whole_file
-from toryu.report import tables
-from toryu.study import recession_charts, study_file
-from toryu.study.answer import Answer
+from toryu.study import calibrated, recession_answer, recession_charts, study_file
+from toryu.study.calibrated import Calibrated
 from toryu.study.document import found, is_number
 from toryu.study.recession_steps import March
 from toryu.study.recession_surface import Pressure
-from toryu.study.removal_answer import in_words
-from toryu.study.table import text
 
 AXIS = "solution"  # of the study: the solutions of the flow
 UNITS = {"machining_time": "s", "cycles": "", "depth_mean": "m", "depth_largest": "m", "taper": "", "removed_area": "m2",
-         "balance_error": "", "removal_rate": "m/s", "jump_error": "", "unsteadiness": ""}
+         "removed_mass": "kg/m", "balance_error": "", "removal_rate": "m/s", "jump_error": "", "unsteadiness": ""}
+ABOUT_AXIS = {"removed_area": {"removed_volume": "m3"}, "removed_mass": {"removed_mass": "kg"},
+              "depth_largest": {"depth_largest": "m", "diameter_mean": "m", "diameter_smallest": "m",
+                                "diameter_largest": "m"}}  # in place of those
 WAYS = ("one_way", "first_half", "mirrored", "both")
 
 
@@ -42,6 +40,9 @@ class Recession:
     window: tuple = (0.5, 1.0)  # shares of a run's time within which its rate is taken
     steady_within: float = 0.01
     walls: list[str] = field(default_factory=list)  # of the case
+    density: float | None = None  # of the work pieces [kg/m3]
+    about_axis: bool = False
+    calibrated: Calibrated | None = None
     chains: list = field(default_factory=list)  # recession_search.Chain, a combination of the other axes each
 
     def march(self, surface):
@@ -63,8 +64,22 @@ class Recession:
         names = dict.fromkeys(name for chain in self.chains for name in chain.records)
         self.axis.values = [study_file.Value(name, {"wall.N.worn": "as far as it has come"}) for name in names]
 
+    @property
+    def removed(self):
+        return "removed_volume" if self.about_axis else "removed_area"
+
     def units(self):
-        return {name: unit for name, unit in UNITS.items() if name != "cycles" or self.cycle}
+        units = {}
+        for name, unit in UNITS.items():
+            units |= ABOUT_AXIS.get(name, {name: unit}) if self.about_axis else {name: unit}
+        if self.calibrated:
+            units |= {f"{name}_error": units[name] for name in recession_answer.uncertain(self)}
+        left_out = {"cycles": not self.cycle, "removed_mass": not self.density, "removed_mass_error": not self.density}
+        return {name: unit for name, unit in units.items() if not left_out.get(name)}
+
+    def shown(self):
+        """The lines that are settings of the study, not ones that tell the uncertainty of such."""
+        return [chain for chain in self.chains if chain.states() and (not self.calibrated or chain.is_fitted())]
 
     def figures(self, study, row):
         """Of a solution at the end of a jump; a predicted one has its rate alone."""
@@ -75,50 +90,30 @@ class Recession:
     def charts(self, study, table, folder):
         return recession_charts.draw(self, study, folder)
 
+    def relate(self, study, rows):
+        """Adds to the last row of each line how uncertain its figures are by what the calibration leaves open."""
+        for chain in self.shown() if self.calibrated else ():
+            run = chain.states()[-1].record.folder.name
+            for row in rows:
+                if row["record"].folder.name == run:
+                    row |= recession_answer.uncertainty(self, chain)
+
     def answers(self, study, table, out):
-        self.write(out / "recession.csv")
-        return [self.answer(study, chain) for chain in self.chains if chain.states()]
-
-    def write(self, path):
-        """The shape over time, a row a point."""
-        with whole_file(path) as file:
-            writer = csv.writer(file)
-            writer.writerow(["line", "solution", "machining_time[s]", "wall", "face", "position[m]", "depth[m]", "rate[m/s]",
-                             "x[m]", "y[m]"])
-            for chain in self.chains:
-                for solved in chain.states():
-                    outline = chain.surface.outline(solved.state.depth)
-                    columns = map(chain.surface.parts, (solved.state.depth, solved.state.rate, *outline.T))
-                    for face, *values_of in zip(chain.surface.faces, *columns):
-                        for values in zip(face.position, *values_of):
-                            writer.writerow([chain.label, solved.name, text(solved.state.time), face.wall, face.side,
-                                             *(f"{float(value):.9g}" for value in values)])
-
-    def answer(self, study, chain):
-        first, last = chain.states()[0], chain.states()[-1]
-        figures = last.figures()
-        when = f"After {figures['machining_time']:.4g} s" + (f", {figures['cycles']:.4g} cycles," if self.cycle else "")
-        sentence = (f"{when} {in_words(figures['depth_mean'], 'm')} are off on the mean and "
-                    f"{in_words(figures['depth_largest'], 'm')} at most, {figures['removed_area'] * 1e6:.4g} mm² in all; the "
-                    f"taper is {round(figures['taper'], 2) + 0.0:.2f} of the mean depth. It took {len(chain.solved)} solutions of "
-                    "the flow")
-        began = first.mean_rate()
-        sentence += f"; the rate has changed by {(last.mean_rate() / began - 1) * 100:+.1f} %." if began else ": nothing comes off."
-        if chain.failure:
-            sentence += f" There it ended: {chain.failure}"
-        rows = [[solved.name, *(text(value) for value in solved.figures().values())] for solved in chain.states()]
-        return Answer(f"The surface after wear{f': {chain.label}' if chain.label else ''}", sentence,
-                      tables.table(["solution", *(f"{n} [{u}]" if u else n for n, u in self.units().items())], rows))
+        recession_answer.write(self, out / "recession.csv")
+        return [recession_answer.answer(self, chain) for chain in self.shown()]
 
 
 def add_axes(table, study):
     axis = study_file.Axis(AXIS, "", [study_file.Value("0", {})], table.document.line(table.path, ""))
     study.axes.append(axis)
-    study.recession = Recession(axis)
+    study.recession = Recession(axis, calibrated=calibrated.read(table, study))
+    if study.recession.calibrated:
+        study.axes.append(study.recession.calibrated.axis(table.document.line(table.path, "calibration")))
 
 
 def read(table, study):
     made = study.recession
+    table.known.append("calibration")  # add_axes has read it
     made.cycle = _positive(table, "cycle", None)
     made.time = _positive(table, "time") if not made.cycle else made.cycle * (_positive(table, "cycles") or math.nan)
     made.gap = _positive(table, "gap")
@@ -127,6 +122,10 @@ def read(table, study):
         if not 0 < value <= most:
             table.fault(f"'{name}' must be above 0 and at most {most:g}, found {value}", name)
     made.target = _positive(table, "target_depth", math.inf)
+    if made.calibrated and math.isfinite(made.target):
+        table.fault("'calibration' tells how uncertain a depth is after a time: it does not go with 'target_depth'",
+                    "target_depth")
+    made.density = _positive(table, "density", None)
     made.way = table.get("way", str, "one_way", allowed=WAYS)
     made.along = "xy".index(table.get("axis", str, "x", allowed=["x", "y"]) or "x")
     made.reverse = study_file.flat(table.get("reverse", dict, {}))
@@ -168,6 +167,7 @@ def _pressure(table):
 
 def _read_case(table, study, made):
     """What the study needs of its case."""
+    made.about_axis = study.about_axis
     walls = study.content.get("wall", [])
     made.walls = [wall.get("name") for wall in walls if isinstance(wall, dict)]
     values = [value for axis in study.axes if axis.name != AXIS for value in axis.values]

@@ -13,12 +13,12 @@ SCALE = "viridis"
 
 
 def draw(view, study, folder):
-    drawn = []
-    for number, chain in enumerate((chain for chain in view.chains if len(chain.states()) > 1), 1):
+    drawn, shown = [], [chain for chain in view.shown() if len(chain.states()) > 1]
+    for number, chain in enumerate(shown, 1):
         of = f": {chain.label}" if chain.label else ""
         for title, name, make in (("The shape over time", "shape", shape), ("The profile over time", "profile", profile),
                                   ("Depth over time", "depth", over_time)):
-            name = name if len(view.chains) == 1 else f"{name}_{number:02}"
+            name = name if len(view.shown()) == 1 else f"{name}_{number:02}"
             drawn.append((title + of, drawing.save(make(view, chain), folder / name), f"charts/{name}"))
     return drawn
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from toryu.processes import DONE
-from toryu.study import page, recession_surface
+from toryu.study import calibrated, page, recession_surface
 from toryu.study.recession_steps import State
+from toryu.study.removed_depth import law_of
 from toryu.study.settings import left_out
 from toryu.study.study_file import Value
 
@@ -34,13 +35,24 @@ class Solved:
         if self.state.predicted:
             return rate
         surface, depth, view = self.chain.surface, self.state.depth, self.chain.view
-        counts = view.counts(surface)
-        figures = {"machining_time": self.state.time, "depth_mean": surface.mean(depth), "depth_largest": float(depth.max()),
-                   "taper": taper(surface, depth, view), "removed_area": float((depth * surface.length)[counts].sum()),
-                   "balance_error": self.balance_error, "jump_error": self.state.jump_error} | rate
+        figures = {"machining_time": self.state.time, "depth_largest": float(depth.max()),
+                   "taper": taper(surface, depth, view), "balance_error": self.balance_error,
+                   "jump_error": self.state.jump_error} | rate | shape_figures(surface, depth, view)
         if view.cycle:
             figures["cycles"] = self.state.time / view.cycle
         return {name: figures[name] for name in view.units() if name in figures}
+
+
+def shape_figures(surface, depth, view):
+    """What a shape alone tells."""
+    counts = view.counts(surface)
+    removed = float(surface.removed(depth)[counts].sum())
+    figures = {"depth_mean": surface.mean(depth), view.removed: removed, "removed_mass": removed * (view.density or 0.0)}
+    diameters, lengths = surface.diameters(depth, counts)
+    if view.about_axis and len(diameters):
+        figures |= {"diameter_mean": float(np.average(diameters, weights=lengths)),
+                    "diameter_smallest": float(diameters.min()), "diameter_largest": float(diameters.max())}
+    return figures
 
 
 def taper(surface, depth, view):
@@ -53,6 +65,11 @@ def taper(surface, depth, view):
     return float(-slope * (s.max() - s.min() + np.median(w)) / mean) if mean > 0 else 0.0
 
 
+def label(chosen):
+    """Of axes and their values."""
+    return ", ".join(f"{axis.name.replace('_', ' ')} {page.text(value.name)} {axis.unit}".strip() for axis, value in chosen)
+
+
 class Failed(Exception):
     """The surface cannot be taken further."""
 
@@ -62,14 +79,20 @@ class Chain:
 
     def __init__(self, study, make, others):
         self.view, self.make, self.others = study.recession, make, others
-        self.label = ", ".join(f"{axis.name.replace('_', ' ')} {page.text(value.name)} {axis.unit}".strip()
-                               for axis, value in zip([a for a in study.axes if a is not self.view.axis], others))
+        chosen = list(zip([a for a in study.axes if a is not self.view.axis], others))
+        self.calibration = next((v.name for axis, v in chosen if axis.name == calibrated.AXIS), calibrated.FITTED)
+        self.line = label([(axis, value) for axis, value in chosen if axis.name != calibrated.AXIS])
+        self.label = self.line if self.is_fitted() else label(chosen)
         self.end_time = study.overrides.get("case.end_time", study.content.get("case", {}).get("end_time"))
         self.longer = 1  # times that
         self.surface, self.failure, self.failed_code = None, "", DONE
+        self.law = None  # the depth that counts
         self.solved = {}  # folder of the run -> Solved, in the order of time; of two directions the first
         self.records = {}  # name of the solution -> record
         self.place = study.axes.index(self.view.axis)
+
+    def is_fitted(self):
+        return self.calibration == calibrated.FITTED
 
     def states(self):
         """Those at the end of jumps."""
@@ -125,7 +148,7 @@ class Chain:
         for record in records:
             with recession_surface.open_file(record.folder) as file:
                 if self.surface is None:
-                    self.surface = recession_surface.wetted(file)
+                    self.surface, self.law = recession_surface.wetted(file), law_of(file)
                 found.append(recession_surface.rates(self.surface, file, view.window, view.pressure))
         rates = [np.maximum(rate, 0.0) for rate, _ in found]
         if view.way == "mirrored":
@@ -136,8 +159,8 @@ class Chain:
 
     def keep(self, state, name, record, unsteadiness):
         with recession_surface.open_file(record.folder) as file:
-            found = float(recession_surface.depth_read_back(self.surface, file) @ self.surface.length)
-        removed = float(state.depth @ self.surface.length)
+            found = float(self.surface.removed(recession_surface.depth_read_back(self.surface, file)).sum())
+        removed = float(self.surface.removed(state.depth).sum())
         error = found / removed - 1 if removed > 0 else 0.0
         self.solved[record.folder.name] = Solved(state, name, record, self, unsteadiness, error)
 

@@ -40,13 +40,25 @@ class Surface:
     faces: list[Face]
     place: np.ndarray  # n x 2 [m], at the start
     normal: np.ndarray = field(default=None)  # n x 2, of the face
+    about_axis: bool = False  # y is the distance from it
 
     @property
     def length(self):
         return np.concatenate([face.length for face in self.faces])
 
+    @property
+    def circumference(self):
+        """Of the ring of each point at the start [m]; 1 in the plane, of which a slice of a metre counts."""
+        if not self.about_axis:
+            return np.ones(len(self.length))
+        return 2 * np.pi * (self.place[:, 1] + self.normal[:, 1] * self.length / 2)
+
     def mean(self, values):
-        return float(np.average(values, weights=self.length))
+        return float(np.average(values, weights=self.length * self.circumference))
+
+    def removed(self, depth):
+        """What is off of each point at a depth [m], as the volume of its ring [m3], or the area in the plane [m2]."""
+        return self.length * depth * (self.circumference - self.about_axis * np.pi * self.normal[:, 1] * depth)
 
     def parts(self, values):
         """Of each face."""
@@ -63,6 +75,12 @@ class Surface:
     def outline(self, depth):
         """Where the surface is once `depth` [m] is off, n x 2 [m]: its points are half a cell behind it at the start."""
         return self.place + self.normal * (self.length / 2 - depth)[:, None]
+
+    def diameters(self, depth, counts):
+        """Of bores about an axis at their points among `counts` [m], where there are none of pins."""
+        outward = self.normal[:, 1]
+        across = (outward < 0 if (outward < 0).any() else outward > 0) & counts
+        return 2 * self.outline(depth)[across, 1], self.length[across]
 
     def middle(self, axis):
         return (self.place[:, axis].min() + self.place[:, axis].max()) / 2
@@ -107,7 +125,7 @@ def wetted(file):
         raise NoRate("the medium touches no work piece")
     rows = np.concatenate([face.rows for face in faces])
     outward = [np.tile(np.where(np.arange(2) == SIDES[f.side][0], SIDES[f.side][1], 0.0), (len(f.rows), 1)) for f in faces]
-    return Surface(faces, place[rows], np.concatenate(outward))
+    return Surface(faces, place[rows], np.concatenate(outward), "circumference" in file)
 
 
 def same_points(first, file):

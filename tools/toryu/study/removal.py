@@ -137,6 +137,8 @@ def read(table, study):
     pistons = table.texts("pistons", allowed=study.names_in_case("wall", "name"))
     if table.has("pistons") and not pistons:
         table.fault("'pistons' needs at least one wall", "pistons")
+    if study.about_axis:
+        table.fault("[removal] is of the plane: a case with geometry = \"axisymmetric\" goes with [recession]")
     answer = table.table("answer")
     wanted = Wanted.read(answer) if answer else None
     table.close()

@@ -65,6 +65,12 @@ class Study:
     def name(self):
         return self.file_name + ("_small" if self.small else "")
 
+    @property
+    def about_axis(self):
+        """Whether the scene of the case is axisymmetric."""
+        said = self.content.get("case", {})
+        return self.overrides.get("case.geometry", said.get("geometry") if isinstance(said, dict) else None) == "axisymmetric"
+
     def names_in_case(self, table, key):
         """What the [[table]] of the case have under `key`."""
         items = self.content.get(table, [])
