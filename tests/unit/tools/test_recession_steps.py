@@ -68,8 +68,8 @@ class Steps(unittest.TestCase):
         states = go(March(1.0, lambda _: allowed, 1.0), lambda depth: np.full(3, 0.1))
         self.assertEqual(sum(not s.predicted for s in states) - 1, 10)
 
-    def test_it_ends_at_the_target(self):
-        states = go(March(1e9, of_gap(0.1), 0.1, target=1e-4), opening)
+    def test_it_ends_at_the_goal(self):
+        states = go(March(1e9, of_gap(0.1), 0.1, lambda depth: 1e-4 - depth.mean()), opening)
         self.assertAlmostEqual(states[-1].depth.mean() / 1e-4, 1, places=9)
         self.assertAlmostEqual(states[-1].time / (math.log(1.1) / RATE), 1, delta=2e-3)
 

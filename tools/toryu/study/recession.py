@@ -1,25 +1,22 @@
 """Surfaces that recede: what the table [recession] of a study file says, and what came of it. README.md describes the
 keys."""
 
-import csv
+import functools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from toryu.program import whole_file
-from toryu.report import tables
-from toryu.study import recession_charts, study_file
-from toryu.study.answer import Answer
+from toryu.study import recession_charts, recession_faults, recession_goals, recession_output, study_file
 from toryu.study.document import found, is_number
 from toryu.study.recession_steps import March
 from toryu.study.recession_surface import Pressure
-from toryu.study.removal_answer import in_words
-from toryu.study.table import text
 
 AXIS = "solution"  # of the study: the solutions of the flow
-UNITS = {"machining_time": "s", "cycles": "", "depth_mean": "m", "depth_largest": "m", "taper": "", "removed_area": "m2",
-         "balance_error": "", "removal_rate": "m/s", "jump_error": "", "unsteadiness": ""}
+UNITS = {"machining_time": "s", "cycles": "", "depth_mean": "m", "depth_largest": "m", "gap": "m", "edge_radius": "m",
+         "roughness": "m", "taper": "", "removed_area": "m2", "balance_error": "", "removal_rate": "m/s", "jump_error": "", "unsteadiness": ""}
+LONGEST = 8
 WAYS = ("one_way", "first_half", "mirrored", "both")
 
 
@@ -34,25 +31,35 @@ class Recession:
     jump: float = 0.1  # largest change of the gap in a jump, as a share of it
     edge_jump: float = 0.25  # most that comes off an edge in a jump [spacings]
     tolerance: float = 0.1  # of State.jump_error
-    target: float = math.inf  # mean depth [m] at which it ends
+    until: list = field(default_factory=list)  # recession_goals.Goal: at the first that is reached it ends
     way: str = "one_way"
     along: int = 0  # axis of the flow: 0 is x
     reverse: dict = field(default_factory=dict)  # overrides of the case that turn the flow
     pressure: Pressure | None = None  # where the contact pressure of a run is not the medium's
     window: tuple = (0.5, 1.0)  # shares of a run's time within which its rate is taken
     steady_within: float = 0.01
+    longest: tuple = (LONGEST, "")  # times the case's end time within which a flow must become steady; what is against more
+    line: Callable = None  # key -> line of the file
     walls: list[str] = field(default_factory=list)  # of the case
     chains: list = field(default_factory=list)  # recession_search.Chain, a combination of the other axes each
 
-    def march(self, surface):
-        """`surface()`: the Surface, once the first run has told it."""
+    def march(self, chain):
+        """Of a Chain, whose first run tells its surface."""
         def allowed(depth):
+            surface = chain.surface
             across = 0.5 * self.jump * (self.gap + 2 * float(depth.min()))
-            rows = np.concatenate([face.rows for face in surface().faces])
+            rows = np.concatenate([face.rows for face in surface.faces])
             edges = np.isin(rows, [row for row in set(rows) if (rows == row).sum() > 1])
-            return np.where(edges, min(across, self.edge_jump * float(np.median(surface().length))), across)
+            return np.where(edges, min(across, self.edge_jump * float(np.median(surface.length))), across)
 
-        return March(self.time, allowed, self.tolerance, self.target, lambda depth: surface().mean(depth))
+        return March(self.time, allowed, self.tolerance, chain.missing)
+
+    def is_new(self, setting):
+        """Whether it is a case as it was given: others have the walls that the study wears."""
+        return setting.values[AXIS].startswith("0")
+
+    def faults(self, case):
+        return [(self.line(key), words) for key, words in recession_faults.of(self, case)]
 
     def counts(self, surface):
         """Which points tell of the passage; the others are its image."""
@@ -64,7 +71,9 @@ class Recession:
         self.axis.values = [study_file.Value(name, {"wall.N.worn": "as far as it has come"}) for name in names]
 
     def units(self):
-        return {name: unit for name, unit in UNITS.items() if name != "cycles" or self.cycle}
+        told = {"cycles": self.cycle, "edge_radius": any(chain.edges for chain in self.chains),
+                "roughness": any(chain.roughness_law for chain in self.chains)}
+        return {name: unit for name, unit in UNITS.items() if told.get(name, True)}
 
     def figures(self, study, row):
         """Of a solution at the end of a jump; a predicted one has its rate alone."""
@@ -76,39 +85,10 @@ class Recession:
         return recession_charts.draw(self, study, folder)
 
     def answers(self, study, table, out):
-        self.write(out / "recession.csv")
-        return [self.answer(study, chain) for chain in self.chains if chain.states()]
-
-    def write(self, path):
-        """The shape over time, a row a point."""
-        with whole_file(path) as file:
-            writer = csv.writer(file)
-            writer.writerow(["line", "solution", "machining_time[s]", "wall", "face", "position[m]", "depth[m]", "rate[m/s]",
-                             "x[m]", "y[m]"])
-            for chain in self.chains:
-                for solved in chain.states():
-                    outline = chain.surface.outline(solved.state.depth)
-                    columns = map(chain.surface.parts, (solved.state.depth, solved.state.rate, *outline.T))
-                    for face, *values_of in zip(chain.surface.faces, *columns):
-                        for values in zip(face.position, *values_of):
-                            writer.writerow([chain.label, solved.name, text(solved.state.time), face.wall, face.side,
-                                             *(f"{float(value):.9g}" for value in values)])
-
-    def answer(self, study, chain):
-        first, last = chain.states()[0], chain.states()[-1]
-        figures = last.figures()
-        when = f"After {figures['machining_time']:.4g} s" + (f", {figures['cycles']:.4g} cycles," if self.cycle else "")
-        sentence = (f"{when} {in_words(figures['depth_mean'], 'm')} are off on the mean and "
-                    f"{in_words(figures['depth_largest'], 'm')} at most, {figures['removed_area'] * 1e6:.4g} mm² in all; the "
-                    f"taper is {round(figures['taper'], 2) + 0.0:.2f} of the mean depth. It took {len(chain.solved)} solutions of "
-                    "the flow")
-        began = first.mean_rate()
-        sentence += f"; the rate has changed by {(last.mean_rate() / began - 1) * 100:+.1f} %." if began else ": nothing comes off."
-        if chain.failure:
-            sentence += f" There it ended: {chain.failure}"
-        rows = [[solved.name, *(text(value) for value in solved.figures().values())] for solved in chain.states()]
-        return Answer(f"The surface after wear{f': {chain.label}' if chain.label else ''}", sentence,
-                      tables.table(["solution", *(f"{n} [{u}]" if u else n for n, u in self.units().items())], rows))
+        recession_output.write(out / "recession.csv", self)
+        if self.until:
+            recession_goals.write(out / "goals.csv", self, study)
+        return [recession_output.answer(self, study, chain) for chain in self.chains if chain.states()]
 
 
 def add_axes(table, study):
@@ -126,7 +106,7 @@ def read(table, study):
         setattr(made, name, value := table.get(name, float, getattr(made, name)))
         if not 0 < value <= most:
             table.fault(f"'{name}' must be above 0 and at most {most:g}, found {value}", name)
-    made.target = _positive(table, "target_depth", math.inf)
+    made.until = recession_goals.read(table, study, UNITS)
     made.way = table.get("way", str, "one_way", allowed=WAYS)
     made.along = "xy".index(table.get("axis", str, "x", allowed=["x", "y"]) or "x")
     made.reverse = study_file.flat(table.get("reverse", dict, {}))
@@ -168,16 +148,7 @@ def _pressure(table):
 
 def _read_case(table, study, made):
     """What the study needs of its case."""
-    walls = study.content.get("wall", [])
-    made.walls = [wall.get("name") for wall in walls if isinstance(wall, dict)]
-    values = [value for axis in study.axes if axis.name != AXIS for value in axis.values]
-    changed = [key for thing in [study, *values] for key in thing.overrides]
-    if any(isinstance(wall, dict) and wall.get("worn") for wall in walls) or any(
-            key.startswith("wall.") and ".worn" in key for key in changed):
-        table.fault("the case has walls that are 'worn': the study says how far they are")
-    removal = study.content.get("fluid", {}).get("removal")
-    given = [value for key, value in study.overrides.items() if key.startswith("fluid.removal")]
-    if not removal and not any(given) or study.overrides.get("fluid.removal") is False:
-        table.fault("nothing comes off: the case needs [fluid.removal] and a [[wall]] with 'work_piece = true'")
+    made.walls = study.names_in_case("wall", "name")
     if study.kind == "coupled":
         table.fault("surfaces recede on rigid walls alone: the case has a [solid]")
+    made.line = functools.partial(table.document.line, table.path)
