@@ -8,6 +8,7 @@
 
 #include "common/scene/fill.hpp"
 #include "common/scene/occupancy_index.hpp"
+#include "common/scene/worn_box.hpp"
 
 namespace toryu::solid {
 
@@ -15,39 +16,72 @@ static_assert(dim == 2, "regions are filled row by row in the plane");
 
 namespace {
 
-/// How far a fitted spacing may be from the stated one.
-constexpr double largest_misfit = 0.1;
+/// How far a fitted spacing may be from the stated one: within a worn region any depth fits from two and a
+/// half rows on.
+double largest_misfit(const Region& region) {
+  return region.worn.empty() ? 0.1 : 0.2;
+}
 
-/// Number of cells along a side; 0, told as a fault, if they do not fill it.
-long cells(const Region& region, int axis, double spacing, const TellFault& tell_fault) {
-  const double side = region.box.max[axis] - region.box.min[axis];
+/// Number of cells on `side` [m] of a region; 0, told as a fault, if they do not fill it.
+long cells(const Region& region, int axis, double side, double spacing, const TellFault& tell_fault) {
   const long n = std::lround(side / spacing);
-  if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit) return n;
+  if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit(region)) return n;
   tell_fault(
       "solid.region",
       fmt::format("region '{}' is {:.3g} spacings long along {}; rows of particles fill it only if that is "
                   "within {:.0f} % of a whole number",
-                  region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit));
+                  region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit(region)));
   return 0;
+}
+
+/// Particles of a region one behind the other across it: from face to face, worn as they are.
+struct Line {
+  double place, begin;  ///< along the region, and where the first cell begins [m]
+  double cell = 0;      ///< [m]
+  long count = 0;
+};
+
+std::vector<Line> lines_across(const Region& region, int across, double spacing,
+                               const TellFault& tell_fault) {
+  const int along = 1 - across;
+  const double length = region.box.max[along] - region.box.min[along];
+  const long count = cells(region, along, length, spacing, tell_fault);
+  std::vector<Line> lines;
+  for (long k = 0; k < count; ++k) {
+    const double place =
+        region.box.min[along] + (static_cast<double>(k) + 0.5) * (length / static_cast<double>(count));
+    const Remains left = remains_at(region.box, region.worn, across, place);
+    Line line{place, left.low};
+    line.count = cells(region, across, left.high - left.low, spacing, tell_fault);
+    if (line.count == 0) return {};
+    line.cell = (left.high - left.low) / static_cast<double>(line.count);
+    lines.push_back(line);
+  }
+  return lines;
 }
 
 void fill_region(std::size_t index, const Parameters& parameters, Body& body, const TellFault& tell_fault) {
   const Region& region = parameters.regions[index];
-  const long n_x = cells(region, 0, parameters.spacing, tell_fault);
-  const long n_y = cells(region, 1, parameters.spacing, tell_fault);
-  const Vec side = region.box.max - region.box.min;
-  const Vec cell(side[0] / static_cast<double>(n_x), side[1] / static_cast<double>(n_y));
-  for (long b = 0; b < n_y; ++b)
-    for (long a = 0; a < n_x; ++a) {
-      const Vec X = region.box.min +
-                    Vec((static_cast<double>(a) + 0.5) * cell[0], (static_cast<double>(b) + 0.5) * cell[1]);
-      const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
-                                   [&](const NamedBox& hole) { return hole.box.contains(X); });
-      if (cut || !region.box.contains(X)) continue;
-      body.X.push_back(X);
-      body.cell.push_back(cell);
-      body.region.push_back(static_cast<std::uint32_t>(index));
-    }
+  const int across = region.worn.empty() ? 1 : region.worn.front().axis(), along = 1 - across;
+  const std::vector<Line> lines = lines_across(region, across, parameters.spacing, tell_fault);
+  const auto place = [&](const Line& line, long k) {
+    Vec X, cell;
+    X[along] = line.place;
+    X[across] = line.begin + (static_cast<double>(k) + 0.5) * line.cell;
+    cell[along] = (region.box.max[along] - region.box.min[along]) / static_cast<double>(lines.size());
+    cell[across] = line.cell;
+    const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
+                                 [&](const NamedBox& hole) { return hole.box.contains(X); });
+    if (cut || !region.box.contains(X)) return;
+    body.X.push_back(X);
+    body.cell.push_back(cell);
+    body.region.push_back(static_cast<std::uint32_t>(index));
+  };
+  long longest = 0;
+  for (const Line& line : lines) longest = std::max(longest, line.count);
+  for (long k = 0; k < longest; ++k)
+    for (const Line& line : lines)
+      if (k < line.count) place(line, k);
 }
 
 /// Whether regions a and b have more than an edge in common; of round ones, whether a particle of one lies in

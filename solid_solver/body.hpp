@@ -17,6 +17,11 @@ namespace toryu::solid {
 /// at (i + 1/2) spacings from its faces, and their volumes sum to its area. A clamp line that is the common
 /// face of two regions therefore lies between rows. Of a round region, or about a round hole, the particles
 /// whose centre is inside are there.
+///
+/// Between worn faces each line across the region fits what is left of it in the same way: its cells are as
+/// much shorter as is off, and a row fewer where that comes nearer to the spacing. Mass is the density times
+/// the area that is left. Slopes of the faces should be gentle over a spacing; bonds take the box for the
+/// shape.
 struct Body {
   std::vector<Vec> X;                 ///< positions [m]
   std::vector<Vec> cell;              ///< sides of each particle's cell [m]

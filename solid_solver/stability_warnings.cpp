@@ -37,7 +37,8 @@ double thickness(const Parameters& p, const Region& region, int axis) {
   double low = region.box.min[axis], high = region.box.max[axis];
   for (bool grows = true; grows;) {
     grows = false;
-    for (const auto& [name, box, velocity, observed] : p.regions) {
+    for (const Region& other : p.regions) {
+      const Box& box = other.box;
       const bool touches = !box.round && box.min[across] <= middle && box.max[across] > middle &&
                            box.min[axis] <= high + rounding && box.max[axis] >= low - rounding;
       if (!touches || (box.min[axis] >= low && box.max[axis] <= high)) continue;
