@@ -21,10 +21,11 @@ def corner():
 
 
 def rounded(arc, recess=0.0):
-    """Depth along a face that has receded by `recess`, and meets the other one in an arc."""
+    """Depth along a face that has receded by `recess`, and meets the other one in an arc. Beyond the other one, where
+    nothing is left, it says nothing."""
     x = S - recess
     inside = np.sqrt(np.maximum(arc**2 - (arc - x)**2, 0))
-    return recess + np.where(x < 0, arc - x, np.where(x < arc, arc - inside, 0))
+    return recess + np.where(x < 0, arc / 2, np.where(x < arc, arc - inside, 0))
 
 
 def found(depth_left, depth_upper):
