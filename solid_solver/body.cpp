@@ -11,6 +11,7 @@
 #include "common/scene/fill.hpp"
 #include "common/scene/fill_outline.hpp"
 #include "common/scene/occupancy_index.hpp"
+#include "common/scene/worn_box.hpp"
 
 namespace toryu::solid {
 
@@ -18,23 +19,25 @@ static_assert(dim == 2, "regions are filled row by row in the plane");
 
 namespace {
 
-/// How far a fitted spacing may be from the stated one.
-constexpr double largest_misfit = 0.1;
+/// How far a fitted spacing may be from the stated one: within a worn region any depth fits from two and a
+/// half rows on.
+double largest_misfit(const Region& region) {
+  return region.worn.empty() ? 0.1 : 0.2;
+}
 constexpr std::chrono::seconds between_words{2};  // while particles are fitted
 /// Over the spacing: pieces of a surface, how far beyond it is looked for another region, and how far the
 /// particle of a piece may be, in a sharp corner.
 constexpr double longest_piece = 1.0 / 8, beside = 0.01, furthest_particle = 4;
 
-/// Number of cells along a side; 0, told as a fault, if they do not fill it.
-long cells(const Region& region, int axis, double spacing, const TellFault& tell_fault) {
-  const double side = region.box.max[axis] - region.box.min[axis];
+/// Number of cells on `side` [m] of a region; 0, told as a fault, if they do not fill it.
+long cells(const Region& region, int axis, double side, double spacing, const TellFault& tell_fault) {
   const long n = std::lround(side / spacing);
-  if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit) return n;
+  if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit(region)) return n;
   tell_fault(
       "solid.region",
       fmt::format("region '{}' is {:.3g} spacings long along {}; rows of particles fill it only if that is "
                   "within {:.0f} % of a whole number",
-                  region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit));
+                  region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit(region)));
   return 0;
 }
 
@@ -82,86 +85,115 @@ void fit_region(std::size_t index, const Outline& outline, const Parameters& par
   body.X.insert(body.X.end(), filling.points.begin(), filling.points.end());
   body.cell.resize(body.size(), Vec::Constant(std::sqrt(filling.volume)));
   body.region.resize(body.size(), static_cast<std::uint32_t>(index));
-}
+  /// Particles of a region one behind the other across it: from face to face, worn as they are.
+  struct Line {
+    double place, begin;  ///< along the region, and where the first cell begins [m]
+    double cell = 0;      ///< [m]
+    long count = 0;
+  };
 
-void fill_region(std::size_t index, const Parameters& parameters, Body& body, const TellFault& tell_fault) {
-  const Region& region = parameters.regions[index];
-  const long n_x = cells(region, 0, parameters.spacing, tell_fault);
-  const long n_y = cells(region, 1, parameters.spacing, tell_fault);
-  const Vec side = region.box.max - region.box.min;
-  const Vec cell(side[0] / static_cast<double>(n_x), side[1] / static_cast<double>(n_y));
-  for (long b = 0; b < n_y; ++b)
-    for (long a = 0; a < n_x; ++a) {
-      const Vec X = region.box.min +
-                    Vec((static_cast<double>(a) + 0.5) * cell[0], (static_cast<double>(b) + 0.5) * cell[1]);
+  std::vector<Line> lines_across(const Region& region, int across, double spacing,
+                                 const TellFault& tell_fault) {
+    const int along = 1 - across;
+    const double length = region.box.max[along] - region.box.min[along];
+    const long count = cells(region, along, length, spacing, tell_fault);
+    std::vector<Line> lines;
+    for (long k = 0; k < count; ++k) {
+      const double place =
+          region.box.min[along] + (static_cast<double>(k) + 0.5) * (length / static_cast<double>(count));
+      const Remains left = remains_at(region.box, region.worn, across, place);
+      Line line{place, left.low};
+      line.count = cells(region, across, left.high - left.low, spacing, tell_fault);
+      if (line.count == 0) return {};
+      line.cell = (left.high - left.low) / static_cast<double>(line.count);
+      lines.push_back(line);
+    }
+    return lines;
+  }
+
+  void fill_region(std::size_t index, const Parameters& parameters, Body& body, const TellFault& tell_fault) {
+    const Region& region = parameters.regions[index];
+    const int across = region.worn.empty() ? 1 : region.worn.front().axis(), along = 1 - across;
+    const std::vector<Line> lines = lines_across(region, across, parameters.spacing, tell_fault);
+    const auto place = [&](const Line& line, long k) {
+      Vec X, cell;
+      X[along] = line.place;
+      X[across] = line.begin + (static_cast<double>(k) + 0.5) * line.cell;
+      cell[along] = (region.box.max[along] - region.box.min[along]) / static_cast<double>(lines.size());
+      cell[across] = line.cell;
       const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
                                    [&](const NamedBox& hole) { return hole.box.contains(X); });
-      if (cut || !region.box.contains(X)) continue;
+      if (cut || !region.box.contains(X)) return;
       body.X.push_back(X);
       body.cell.push_back(cell);
       body.region.push_back(static_cast<std::uint32_t>(index));
+    };
+    long longest = 0;
+    for (const Line& line : lines) longest = std::max(longest, line.count);
+    for (long k = 0; k < longest; ++k)
+      for (const Line& line : lines)
+        if (k < line.count) place(line, k);
+  }
+
+  /// Whether regions a and b have more than an edge in common; of round ones, whether a particle of one lies
+  /// in the other.
+  bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std::size_t b) {
+    const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
+    if (A.is_rectangle() && B.is_rectangle()) {
+      const double tolerance = 1e-6 * parameters.spacing;
+      return ((A.max - B.min).array() > tolerance).all() && ((B.max - A.min).array() > tolerance).all();
     }
-}
-
-/// Whether regions a and b have more than an edge in common; of round ones, whether a particle of one lies in
-/// the other.
-bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std::size_t b) {
-  const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
-  if (A.is_rectangle() && B.is_rectangle()) {
-    const double tolerance = 1e-6 * parameters.spacing;
-    return ((A.max - B.min).array() > tolerance).all() && ((B.max - A.min).array() > tolerance).all();
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if ((body.region[i] == a && B.contains(body.X[i])) || (body.region[i] == b && A.contains(body.X[i])))
+        return true;
+    return false;
   }
-  for (std::size_t i = 0; i < body.size(); ++i)
-    if ((body.region[i] == a && B.contains(body.X[i])) || (body.region[i] == b && A.contains(body.X[i])))
-      return true;
-  return false;
-}
 
-void find_outlined_surface(Body& body) {
-  Box bounds = body.outlines[0].bounds();
-  for (const Outline& outline : body.outlines) {
-    bounds.min = bounds.min.cwiseMin(outline.bounds().min);
-    bounds.max = bounds.max.cwiseMax(outline.bounds().max);
-  }
-  const Vec margin = Vec::Constant(body.spacing);
-  const auto pieces = body.surface({bounds.min - margin, bounds.max + margin});
-  body.area_vector = area_vectors(body.X, pieces, furthest_particle * body.spacing);
-  for (const SurfacePiece& piece : pieces)
-    body.outside.push_back(piece.place + 0.5 * body.spacing * piece.area.normalized());
-}
-
-void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
-  if (load.pressure == 0) {
-    if (body.inside(load.box).empty())
-      tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
-    return;
-  }
-  const auto surface = body.surface(load.box);
-  if (surface.empty())
-    tell_fault("solid.load", fmt::format("load '{}' acts on no surface of the solid", load.name));
-  for (const SurfacePiece& piece : surface) try {
-      MaterialPoint(piece.place, body.X, 2.0 * h, body.shape);
-    } catch (const std::invalid_argument& error) {
-      return tell_fault("solid.load", fmt::format("load '{}': {}", load.name, error.what()));
+  void find_outlined_surface(Body & body) {
+    Box bounds = body.outlines[0].bounds();
+    for (const Outline& outline : body.outlines) {
+      bounds.min = bounds.min.cwiseMin(outline.bounds().min);
+      bounds.max = bounds.max.cwiseMax(outline.bounds().max);
     }
-}
+    const Vec margin = Vec::Constant(body.spacing);
+    const auto pieces = body.surface({bounds.min - margin, bounds.max + margin});
+    body.area_vector = area_vectors(body.X, pieces, furthest_particle * body.spacing);
+    for (const SurfacePiece& piece : pieces)
+      body.outside.push_back(piece.place + 0.5 * body.spacing * piece.area.normalized());
+  }
 
-void find_surface(Body& body) {
-  body.area_vector.assign(body.size(), Vec::Zero());
-  if (body.has_outline()) return find_outlined_surface(body);
-  // Half a spacing and a little: where regions meet, their columns need not face each other.
-  OccupancyIndex places(0.6 * body.spacing);
-  places.take(body.X, "");
-  for (std::size_t i = 0; i < body.size(); ++i)
-    for (int axis = 0; axis < dim; ++axis)
-      for (const double side : {-1.0, 1.0}) {
-        const Vec normal = side * Vec::Unit(axis);
-        const Vec site = body.X[i] + body.cell[i][axis] * normal;
-        if (places.taken(site)) continue;
-        body.area_vector[i] += body.volume(i) / body.cell[i][axis] * normal;
-        body.outside.push_back(site);
+  void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
+    if (load.pressure == 0) {
+      if (body.inside(load.box).empty())
+        tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
+      return;
+    }
+    const auto surface = body.surface(load.box);
+    if (surface.empty())
+      tell_fault("solid.load", fmt::format("load '{}' acts on no surface of the solid", load.name));
+    for (const SurfacePiece& piece : surface) try {
+        MaterialPoint(piece.place, body.X, 2.0 * h, body.shape);
+      } catch (const std::invalid_argument& error) {
+        return tell_fault("solid.load", fmt::format("load '{}': {}", load.name, error.what()));
       }
-}
+  }
+
+  void find_surface(Body & body) {
+    body.area_vector.assign(body.size(), Vec::Zero());
+    if (body.has_outline()) return find_outlined_surface(body);
+    // Half a spacing and a little: where regions meet, their columns need not face each other.
+    OccupancyIndex places(0.6 * body.spacing);
+    places.take(body.X, "");
+    for (std::size_t i = 0; i < body.size(); ++i)
+      for (int axis = 0; axis < dim; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+          const Vec normal = side * Vec::Unit(axis);
+          const Vec site = body.X[i] + body.cell[i][axis] * normal;
+          if (places.taken(site)) continue;
+          body.area_vector[i] += body.volume(i) / body.cell[i][axis] * normal;
+          body.outside.push_back(site);
+        }
+  }
 
 }  // namespace
 
@@ -236,6 +268,10 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
       if (!outline) continue;
       body.outlines.push_back(std::move(*outline));
     }
+    if (is_fitted(regions[a], parameters.holes) && !regions[a].worn.empty())
+      tell_fault("solid.region",
+                 fmt::format("region '{}' has 'worn' faces and a hole that is no box: it cannot have both",
+                             regions[a].name));
     if (is_fitted(regions[a], parameters.holes))
       fit_region(a, body.outlines.back(), parameters, body, tell_fault);
     else

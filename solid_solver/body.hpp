@@ -19,6 +19,10 @@ namespace toryu::solid {
 /// face of two regions therefore lies between rows. Of a round region, or about a round hole, the particles
 /// whose centre is inside are there.
 ///
+/// Between worn faces each line across the region fits what is left of it in the same way: its cells are as
+/// much shorter as is off, and a row fewer where that comes nearer to the spacing. Mass is the density times
+/// the area that is left. Slopes of the faces should be gentle over a spacing; bonds take the box for the
+/// shape.
 /// A region that is an outline, or that a hole with an outline cuts, is fitted instead: fill_outline.hpp says
 /// how. The surface of a body that has such a region is its outline, each piece of which belongs to the
 /// particle nearest to it.

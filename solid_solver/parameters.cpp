@@ -1,6 +1,9 @@
 #include "solid_solver/parameters.hpp"
 
+#include <algorithm>
 #include <limits>
+
+#include "common/scene/worn_box.hpp"
 
 namespace toryu::solid {
 
@@ -16,6 +19,11 @@ void describe(ParameterTable& table, Region& region) {
                  "velocity of this region at the start; absent: that of the whole solid");
   table.flag("observed", region.observed,
              "whether the displacement and the velocity of its centre of mass go to solid.csv");
+  table.list("worn", region.worn, "faces that lie behind those of the box: what has come off");
+  require_remains(table, region.box, region.worn, "region");
+  table.require(std::all_of(region.worn.begin(), region.worn.end(),
+                            [&](const WornFace& worn) { return worn.axis() == region.worn.front().axis(); }),
+                "worn", "a region has one worn face, or two opposite ones: make the body of two regions");
 }
 
 void describe(ParameterTable& table, BoxLoad& load) {

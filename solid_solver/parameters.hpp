@@ -40,6 +40,7 @@ struct Region {
   std::optional<InitialVelocity> initial_velocity = std::nullopt;  ///< absent: that of the whole solid
   bool observed = false;  ///< whether a run reports where its centre of mass is and how fast
   BodyShape shape = {};
+  std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box, across one axis
 };
 void describe(ParameterTable& table, Region& region);
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "common/case/text_file.hpp"
 #include "common/scene/bodies.hpp"
 #include "common/scene/rows.hpp"
+#include "common/scene/worn_box.hpp"
 
 namespace toryu {
 
@@ -152,40 +152,6 @@ void describe(ParameterTable& table, Motion& motion) {
   require_rising(table, "velocity", motion.velocity, "times");
 }
 
-namespace {
-
-std::string name_of(const WornFace& worn) {
-  return std::array{"left", "right", "lower", "upper"}[static_cast<std::size_t>(worn.face)];
-}
-
-/// What is worn lies on the wall, and leaves something of it.
-void require_remains(ParameterTable& table, const Wall& wall) {
-  if (wall.worn.empty()) return;
-  table.require(wall.box.is_rectangle(), "worn",
-                "a wall that is no box has no faces that could be 'worn'");
-  Vec largest = Vec::Zero();  // off either axis
-  for (const WornFace& worn : wall.worn) {
-    largest[worn.axis()] += worn.largest_depth();
-    const auto same = [&](const WornFace& other) { return other.face == worn.face; };
-    table.require(&worn == &*std::find_if(wall.worn.begin(), wall.worn.end(), same), "worn",
-                  fmt::format("the {} face is 'worn' twice", name_of(worn)));
-    const double low = wall.box.min[worn.along()], high = wall.box.max[worn.along()];
-    const double rounding = 1e-6 * (high - low);
-    for (const auto& row : worn.depth)
-      table.require(row[0] >= low - rounding && row[0] <= high + rounding, "worn",
-                    fmt::format("positions along the {} face lie between {} and {} [m], found {}",
-                                name_of(worn), low, high, row[0]));
-  }
-  for (int axis = 0; axis < dim; ++axis) {
-    const double thickness = wall.box.max[axis] - wall.box.min[axis];
-    table.require(largest[axis] < thickness, "worn",
-                  fmt::format("the depths along {} add up to {} [m]: the wall is only {:.6g} [m] thick",
-                              "xy"[axis], largest[axis], thickness));
-  }
-}
-
-}  // namespace
-
 void describe(ParameterTable& table, Wall& wall) {
   table.text("name", wall.name,
              {.required = true, .help = "as the log and the report call it", .names_columns = true});
@@ -198,7 +164,7 @@ void describe(ParameterTable& table, Wall& wall) {
   table.flag("work_piece", wall.work_piece, "a rigid work piece: the fluid's friction acts on it");
   table.list("worn", wall.worn,
              "faces that the fluid finds behind those of the box; of two opposite ones that it wets, both");
-  require_remains(table, wall);
+  require_remains(table, wall.box, wall.worn, "wall");
 }
 
 void describe(ParameterTable& table, Reference& reference) {
@@ -226,6 +192,11 @@ Scene read_scene(CaseFile& file) {
     if (!scene.walls[i].worn.empty())
       file.fault(fmt::format("wall.{}.worn", i),
                  "a scene with a solid cannot have worn walls: the solid finds the faces of their boxes");
+  for (std::size_t i = 0; file.has("fluid") && i < file.count("solid.region"); ++i)
+    if (file.has(fmt::format("solid.region[{}].worn", i)))
+      file.fault(
+          fmt::format("solid.region.{}.worn", i),
+          "a solid in a fluid cannot have worn regions: the fluid fills up to the faces of their boxes");
   return scene;
 }
 

@@ -76,6 +76,16 @@ TEST(SceneFaults, OfAWornFace) {
             "case.toml:8:1: error: the upper face is 'worn' twice");
 }
 
+TEST(SceneFaults, OfAWornSolidInAFluid) {
+  const std::string solid =
+      "[solid]\n[[solid.region]]\nname = 'plate'\nbox = {min=[0,1], max=[1,2]}\n"
+      "worn = [{ face = 'upper', depth = [[0, 0.1]] }]\n";
+  EXPECT_EQ(CaseText(sound_scene + solid).scene_faults(), "");
+  EXPECT_EQ(CaseText(sound_scene + solid + "[fluid]\n").scene_faults(),
+            "case.toml:12:1: error: a solid in a fluid cannot have worn regions: the fluid fills up to the "
+            "faces of their boxes");
+}
+
 const std::string round_scene =
     "[case]\ntitle = 'A'\nend_time = 1\ngeometry = 'axisymmetric'\ndomain = {min=[0,-2], max=[2,2]}\n";
 

@@ -144,6 +144,29 @@ TEST(Cantilever, BendsUnderALoadAtItsEnd) {
                     0.810e-4);
 }
 
+/// The same under the load at its end once `worn` of the region is off, which leaves `h` [m] of it: the
+/// deflection of the thinner plate, in bending as 1/h^3.
+void expect_worn_deflection(const std::string& worn, double h) {
+  const auto plate =
+      solid_case("cantilever_static/end_load.toml",
+                 {"solid.spacing=0.0025", "solid.damping.rate=18.0", "solid.region.plate.worn=" + worn});
+  run_to(*plate, 1.2);
+  const double P = 0.05, a = 0.195, B = D * std::pow(h / H, 3);
+  const double beam = P * a * a * a / (3 * B) + P * a * a * (L - a) / (2 * B) + P * a / (shear * h / H);
+  const double tip = -observed(*plate, "tip_displacement_y");
+  std::printf("tip %.5g mm, Timoshenko's beam %.5g mm (%+.2f %%)\n", 1e3 * tip, 1e3 * beam,
+              100 * (tip / beam - 1));
+  EXPECT_NEAR(tip / beam, 1.0, 0.015);
+  EXPECT_LT(observed(*plate, "kinetic_energy"), 1e-6 * observed(*plate, "elastic_energy")) << "it is at rest";
+}
+
+TEST(Cantilever, BendsAsTheThinnerPlateThatWearLeaves) {
+  expect_worn_deflection("[{ face = \"upper\", depth = [[0.0, 0.005]] }]", 0.015);
+  expect_worn_deflection("[{ face = \"upper\", depth = [[0.0, 0.0031]] }]", 0.0169);  // 6.8 rows
+  expect_worn_deflection(
+      "[{ face = \"upper\", depth = [[0.0, 0.002]] }, { face = \"lower\", depth = [[0.0, 0.003]] }]", 0.015);
+}
+
 /// A plate 0.02 m thick between x = 0 and `length`, 8 rows, held at one end or both, under gravity at rest:
 /// the displacement where it is largest, or at a quarter if it is pulled between two clamps.
 struct ClampedPlate {

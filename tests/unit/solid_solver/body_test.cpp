@@ -36,6 +36,54 @@ TEST(Body, FitsTheSpacingToTheSidesSoThatMassIsDensityTimesArea) {
   EXPECT_NEAR(body.X.back()[1], 0.079 - 0.5 * 0.079 / 126, 1e-15);
 }
 
+/// A block 0.08 m x 0.02 m, 4 rows of 5 mm, worn.
+Parameters worn_plate(std::vector<WornFace> worn) {
+  Parameters p = free_plate(4);
+  p.regions.front().worn = std::move(worn);
+  return p;
+}
+
+TEST(Body, BetweenWornFacesIsThatOfAThinnerBox) {
+  // 2 mm off above and 3 below leave 3 rows of 5 mm
+  const Body body = body_of(worn_plate({{Side::upper, {{0, 2e-3}}}, {Side::lower, {{0, 3e-3}}}}));
+  Parameters thinner = free_plate(4);
+  thinner.regions.front().box = {Vec(0, 3e-3), Vec(0.08, 0.018)};
+  const Body same = body_of(thinner);
+  ASSERT_EQ(body.size(), same.size());
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    EXPECT_NEAR((body.X[i] - same.X[i]).norm(), 0, 1e-16);
+    EXPECT_NEAR((body.cell[i] - same.cell[i]).norm(), 0, 1e-16);
+    EXPECT_NEAR((body.area_vector[i] - same.area_vector[i]).norm(), 0, 1e-16);
+  }
+}
+
+TEST(Body, LosesTheAreaThatIsOff) {
+  // a wedge: 0 to 4 mm over 80 mm, so 160 mm2 of 1600
+  for (const Side face : {Side::upper, Side::lower}) {
+    const Body body = body_of(worn_plate({{face, {{0, 0}, {0.08, 4e-3}}}}));
+    EXPECT_NEAR(body.total_volume(), 0.9 * 0.08 * 0.02, 1e-15);
+    const auto mean = [&](int axis) {
+      double sum = 0;
+      for (std::size_t i = 0; i < body.size(); ++i) sum += body.volume(i) * body.X[i][axis];
+      return sum / body.total_volume();
+    };
+    // less the wedge's own moment, whose centre is at 2/3 of the length and a third of its height from the
+    // face
+    EXPECT_NEAR(mean(0), (1600 * 0.04 - 160 * 0.08 * 2 / 3) / 1440, 2e-5);
+    const double wedge = face == Side::upper ? 0.02 - 4e-3 / 3 : 4e-3 / 3;
+    EXPECT_NEAR(mean(1), (1600 * 0.01 - 160 * wedge) / 1440, 2e-5);
+  }
+  // 1 mm off the right face: 15.8 columns, 16 a little narrower
+  const Body shorter = body_of(worn_plate({{Side::right, {{0, 1e-3}}}}));
+  EXPECT_EQ(shorter.size(), 64u);
+  EXPECT_NEAR(shorter.total_volume(), 0.079 * 0.02, 1e-15);
+}
+
+TEST(Body, CannotBeWornToLessThanRowsFill) {
+  EXPECT_THAT(faults_of(worn_plate({{Side::upper, {{0, 0}, {0.08, 0.018}}}})),
+              ElementsAre(testing::HasSubstr("solid.region: region 'plate' is")));
+}
+
 TEST(Body, CountsTheParticlesOfRegionsAndClamps) {
   Parameters p = free_plate(4);
   p.clamps = {{"root", {Vec(-1, -1), Vec(0.01, 1)}}};  // a clamp line between rows 2 and 3

@@ -68,10 +68,14 @@ class Steps(unittest.TestCase):
         states = go(March(1.0, lambda _: allowed, 1.0), lambda depth: np.full(3, 0.1))
         self.assertEqual(sum(not s.predicted for s in states) - 1, 10)
 
-    def test_it_ends_at_the_target(self):
-        states = go(March(1e9, of_gap(0.1), 0.1, target=1e-4), opening)
+    def test_it_ends_at_the_goal(self):
+        states = go(March(1e9, of_gap(0.1), 0.1, lambda depth: 1e-4 - depth.mean()), opening)
         self.assertAlmostEqual(states[-1].depth.mean() / 1e-4, 1, places=9)
         self.assertAlmostEqual(states[-1].time / (math.log(1.1) / RATE), 1, delta=2e-3)
+
+    def test_the_last_jump_is_no_longer_than_to_the_goal(self):
+        predicted = go(March(1e9, of_gap(0.1), 0.1, lambda depth: 5e-5 - depth.mean()), opening)[1]
+        self.assertAlmostEqual(predicted.depth.mean() / 5e-5, 1, places=9)
 
     def test_what_nothing_wears_stays(self):
         states = go(March(100, of_gap(0.1), 0.1), lambda depth: np.zeros(3))

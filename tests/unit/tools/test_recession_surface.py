@@ -1,6 +1,7 @@
 """The faces of work pieces that recede: their points, images and edges, and the pressure of the medium along them."""
 
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 from toryu.study.recession import Recession
@@ -57,7 +58,7 @@ class OfABlock(unittest.TestCase):
     def test_an_edge_holds_a_jump(self):
         found = wetted(block())
         view = Recession(None, time=100, gap=1000, jump=0.1, edge_jump=0.25)
-        allowed = view.march(lambda: found).allowed(np.zeros(8))
+        allowed = view.march(SimpleNamespace(surface=found, missing=None)).allowed(np.zeros(8))
         np.testing.assert_allclose(allowed, [50, 0.25, 50, 0.25, 0.25, 50, 50, 0.25])
 
     def test_about_an_axis_rings_come_off(self):

@@ -15,11 +15,16 @@ from toryu_testing.study_case import HEAD, Study
 
 CASE = """[case]
 title = "coupon"
+end_time = 1e9
 [[wall]]
 name = "left_piece"
+box = { min = [0.0, -0.012], max = [0.004, 0.012] }
+work_piece = true
 [[wall]]
 name = "piston"
 [fluid]
+[fluid.removal]
+preston_coefficient = 1e-12
 """
 PARAMETERS = """
 [[calibration.parameter]]
@@ -189,10 +194,21 @@ class Ends(Calibration):
         self.write()
         self.assertIn("is not proportional to the coefficient of removal", self.ended(1).stderr)
 
+    def test_what_the_case_does_not_have_is_told_before_it_runs(self):
+        for case, depth, words in (
+                (CASE.replace("work_piece = true\n", ""), DEPTH, "36: error: the wall 'left_piece' is no work piece"),
+                (CASE, DEPTH + "law = 'shear'\n", "39: error: the case tells no shear depth: [fluid.removal] has no such law"),
+                (CASE.replace("end_time = 1e9", "end_time = 3.0"), DEPTH.replace("seconds = 100", "cycles = 9\ncycle = 2.0"),
+                 "39: error: the case ends at 3 s and holds fewer than two cycles of 2 s")):
+            (self.case / "case.toml").write_text(case)
+            self.write(DROP + PARAMETERS + MEASURED + depth)
+            self.assertIn(words, self.ended(2).stderr)
+            self.assertEqual(self.starts(), [])
+
     def test_a_place_beyond_the_face(self):
         (self.case / "depths.csv").write_text(DEPTHS.replace("0.003", "0.3"))
         self.write()
-        self.assertIn("depths.csv: the place 0.3 m lies beyond the right face of 'left_piece', -0.0115 to 0.0115 m",
+        self.assertIn("depths.csv: the place 0.3 m lies beyond the right face of 'left_piece', -0.012 to 0.012 m",
                       self.ended(2).stderr)
 
 

@@ -12,11 +12,18 @@ CASES = pathlib.Path(__file__).resolve().parents[3] / "cases"
 CASE = """[case]
 title = "passage"
 end_time = 3.0
+series_interval = 0.01
 [[wall]]
 name = "lower"
+box = { min = [0.0, -0.0025], max = [0.010, -0.001] }
+work_piece = true
 [[wall]]
 name = "upper"
+box = { min = [0.0, 0.001], max = [0.010, 0.0025] }
+work_piece = true
 [fluid]
+[[fluid.region]]
+box = { min = [0.0, -0.001], max = [0.010, 0.001] }
 [fluid.removal]
 preston_coefficient = 1e-12
 """
@@ -144,6 +151,56 @@ class Recession(Study):
             last = list(csv.DictReader(file))[-1]
         self.assertAlmostEqual(float(last["depth_error[m]"]) / error, 1, delta=0.01)
         self.assertFalse((self.out / "charts/shape_02.png").exists(), "its neighbours are no settings")
+    def goals(self):
+        with open(self.out / "goals.csv", newline="") as file:
+            return {row["figure"]: float(row["cycles"] or "nan") for row in csv.DictReader(file)}
+
+    def test_it_ends_at_a_goal_of_the_shape_and_counts_the_cycles(self):
+        # w = 2 mm exp(6.75e-5 t): 2.2 mm after ln(1.1)/6.75e-5 s; Ra falls by exp(-depth/decay_depth)
+        (self.case / "case.toml").write_text(CASE + "roughness = { initial = 2e-6, final = 5e-7, decay_depth = 1e-5 }\n")
+        cycles = math.log(1.1) / 6.75e-5 / 13.5
+        self.write(RECESSION + TWO_WAY + "until = { gap = 2.2e-3, depth_mean = 2e-4 }\n")
+        ended = self.done()
+        self.assertAlmostEqual(self.goals()["gap"] / cycles, 1, delta=2e-3)
+        self.assertTrue(math.isnan(self.goals()["depth_mean"]))
+        self.assertIn(f"The gap comes to 0.0022 m after {self.goals()['gap']:.4g} cycles.", ended.stdout)
+        self.assertIn("The depth mean does not come to 0.0002 m: it is 0.0001 m in the end.", ended.stdout)
+        row = self.last()
+        self.assertAlmostEqual(float(row["gap[m]"]) / 2.2e-3, 1, delta=1e-6)
+        self.assertAlmostEqual(float(row["roughness[m]"]) / (5e-7 + 1.5e-6 * math.exp(-10)), 1, delta=1e-4)
+        self.assertTrue((self.out / "charts/roughness.png").is_file())
+        self.write(RECESSION + TWO_WAY + f"until = {{ roughness = {5e-7 + 1.5e-6 * math.exp(-2)} }}\n")
+        self.done()
+        self.assertAlmostEqual(self.goals()["roughness"] / (math.log(1.02) / 6.75e-5 / 13.5), 1, delta=2e-3)
+
+    def test_a_metric_of_the_flow_counts_them_too(self):
+        # the made-up flow: speed = x, and it opens until x = 3 after the second jump
+        program = (self.bin / "fluid_solver").read_text()
+        (self.bin / "fluid_solver").write_text(program.replace("END = end or 3.0", """END = end or 3.0
+opened = 2e-3 + 2 * worn[0][0][1] if worn[0] else 2e-3
+values['fluid.x'] = (opened / 2e-3) ** 3"""))
+        self.write(RECESSION + TWO_WAY + 'until = { speed = 1.5 }\n[[metric]]\nname = "speed"\n'
+                   'series = "fluid.csv:speed[m/s]"\n', "fluid.opens = 6.75e-5, fluid.y = 0")
+        self.done()
+        self.assertAlmostEqual(self.goals()["speed"] / (math.log(1.5) / 3 / 6.75e-5 / 13.5), 1, delta=0.01)
+
+    def test_a_piston_at_its_stop_ends_it(self):
+        program = (self.bin / "fluid_solver").read_text()
+        (self.bin / "fluid_solver").write_text(program.replace("END = end or 3.0", """END = end or 3.0
+print("[warning] the wall 'piston' has come to the end of its travel, 0.01 m, at t = 2 s: its stop holds it")"""))
+        self.write(SHORT + TWO_WAY)
+        self.assertIn("in the solution '0' the wall 'piston' has come to the end of its travel, 0.01 m, at t = 2 s: its stop "
+                      "holds it: nothing flows from then on", self.study().stderr)
+
+    def test_it_runs_no_longer_than_the_case_can(self):
+        program = (self.bin / "fluid_solver").read_text()
+        (self.bin / "fluid_solver").write_text(program.replace('if "--check" in arguments:\n', """if (end or 0) > 7:
+    print("case.toml: error: two pistons meet", file=sys.stderr)
+    sys.exit(2)
+if "--check" in arguments:\n"""))
+        self.write(SHORT + TWO_WAY + "steady_within = 1e-12\n", "fluid.opens = 6.75e-5, fluid.unsteady = 0.2")
+        self.assertIn("within 'shares' of 2 times the case's end time, and it cannot run longer: case.toml: error: two pistons "
+                      "meet", self.study().stderr)
 
     def test_over_another_axis_a_line_each(self):
         self.write(SHORT + TWO_WAY + "[[axis]]\nname = 'speed'\nvalues = [1, 2]\nkeys = ['fluid.x']\n")
@@ -154,7 +211,7 @@ class Recession(Study):
 
 class Faults(Study):
     def test_all_are_told_with_their_line(self):
-        (self.case / "case.toml").write_text(CASE.replace('name = "upper"', 'name = "upper"\nworn = [{}]'))
+        (self.case / "case.toml").write_text(CASE)
         self.write('[recession]\ncycles = 0\ncycle = 1.0\njump = 2\nway = "to and fro"\npressure = [[1, 2], [0, 2]]\n'
                    'gapp = 1\n')
         ended = self.study("--check")
@@ -162,14 +219,49 @@ class Faults(Study):
         for words in ("window.toml:5: error: 'cycles' must be above 0, found 0", "[recession] needs 'gap', a finite number",
                       "window.toml:7: error: 'jump' must be above 0 and at most 0.5, found 2",
                       "'way' must be one of 'one_way', 'first_half', 'mirrored', 'both', found 'to and fro'",
-                      "the places ascending, found [[1, 2], [0, 2]]", "the case has walls that are 'worn'",
+                      "the places ascending, found [[1, 2], [0, 2]]",
                       "unknown key 'gapp' in [recession]; did you mean 'gap'?"):
             self.assertIn(words, ended.stderr)
 
-    def test_worn_walls_of_the_study_are_refused_too(self):
-        (self.case / "case.toml").write_text(CASE)
-        self.write(RECESSION, HEAD + 'set = { "wall.upper.worn" = [] }\n')
-        self.assertIn("the case has walls that are 'worn'", self.study("--check").stderr)
+    def told(self, text=RECESSION, head=HEAD, case=CASE, *options):
+        """What is said before any flow is computed."""
+        (self.case / "case.toml").write_text(case)
+        self.write(text, head)
+        said = self.study(*options).stderr
+        self.assertEqual(self.starts(), [])
+        return said
+
+    def test_worn_walls_are_refused_whoever_sets_them(self):
+        words = "the case has walls that are 'worn'"
+        self.assertIn(words, self.told(case=CASE.replace('name = "upper"', 'name = "upper"\nworn = [{}]')))
+        self.assertIn(words, self.told(RECESSION, HEAD + 'set = { "wall.upper.worn" = [] }\n'))
+        self.assertIn(words, self.told(RECESSION, HEAD, CASE, "--set", "wall.lower.worn=[]"))
+
+    def test_a_gap_that_is_no_passage_of_the_case(self):
+        self.assertIn("window.toml:8: error: 'gap' is the narrowest passage at the start: it is 2 m here, and 0.002 m are "
+                      "between 'lower' and 'upper'", self.told(RECESSION.replace("0.002", "2.0")))
+        alone = CASE.replace("work_piece = true\n", "", 1).replace("[0.0, -0.0025]", "[0.02, -0.0025]").replace(
+            "[0.010, -0.001]", "[0.03, -0.001]")
+        self.assertIn("0.002 m are the width of the fluid", self.told(RECESSION.replace("0.002", "0.02"), case=alone))
+
+    def test_rows_and_places_that_are_not_there(self):
+        self.assertIn("window.toml:5: error: 'shares' holds fewer than three rows of surface.h5",
+                      self.told(case=CASE.replace("series_interval = 0.01", "series_interval = 2.0")))
+        self.assertIn("window.toml:9: error: 'pressure' has a row at 0.2 m, and no work piece lies there along x",
+                      self.told(RECESSION + "pressure = [[0, 1e6], [0.2, 0]]\n"))
+        self.assertIn("'pressure' needs a law of pressure times speed, and shear_depth is none", self.told(
+            RECESSION + "pressure = [[0, 1e6], [0.01, 0]]\n", case=CASE.replace("preston", "shear")))
+
+    def test_goals_that_cannot_be_reached(self):
+        rough = CASE + "roughness = { initial = 2e-6, final = 5e-7, decay_depth = 1e-5 }\n"
+        for goal, words in (("gap = 1e-3", "the gap grows: 'until' must name more than 'gap', 0.002 m, found 0.001"),
+                            ("roughness = 1e-6", "'until' names a roughness, and the case has no [fluid.removal.roughness]")):
+            self.assertIn(f"window.toml:9: error: {words}", self.told(RECESSION + f"until = {{ {goal} }}\n"))
+        self.assertIn("the roughness falls from 2e-06 towards 5e-07 m: 'until' must name one in between, found 4e-07",
+                      self.told(RECESSION + "until = { roughness = 4e-7 }\n", case=rough))
+        said = self.told(RECESSION + "until = { gapp = 1, depth_mean = -1 }\n")
+        self.assertIn("'until' names no figure 'gapp'; did you mean 'gap'?", said)
+        self.assertIn("'depth_mean' of 'until' must be a number above 0, found -1", said)
 
     def test_a_case_from_which_nothing_comes_off_is_refused(self):
         (self.case / "case.toml").write_text(CASE)
@@ -190,8 +282,8 @@ class Faults(Study):
         (self.case / "case.toml").write_text(CASE)
         for name in ("calibration.toml", "calibration.csv"):
             (self.case / name).write_bytes((CASES / "abrasive_coupon" / name).read_bytes())
-        self.write(RECESSION + 'target_depth = 1e-4\ncalibration = "calibration.toml"\n')
-        self.assertIn("it does not go with 'target_depth'", self.study("--check").stderr)
+        self.write(RECESSION + 'until = { depth_mean = 1e-4 }\ncalibration = "calibration.toml"\n')
+        self.assertIn("it does not go with 'until'", self.study("--check").stderr)
 
     def test_reverse_goes_with_both_ways(self):
         (self.case / "case.toml").write_text(CASE)

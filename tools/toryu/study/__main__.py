@@ -82,6 +82,8 @@ def run(options):
         program.must_be_printed()
         return DONE
     checks.settings(study, runs, [s for s in known if s.key not in done], options.set)
+    if study.recession and known:
+        study.recession.longest = checks.longest(study, runs, known[0], recession.LONGEST)
     if options.check:
         print(f"{study.path}: no errors; {number_of_runs(study, make, known)} runs, {len(done)} of them done")
         return DONE

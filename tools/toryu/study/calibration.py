@@ -82,6 +82,14 @@ class Calibration:
     def units(self):
         return {}
 
+    def is_new(self, _):
+        return True
+
+    def faults(self, case):
+        """Of the coupons, whose tables are in the file."""
+        return [(datum.coupon.line(key), words) for datum in self.data if datum.coupon
+                for key, words in datum.coupon.faults(case, datum.place)]
+
     def figures(self, _study, _row):
         return {}
 

@@ -1,8 +1,10 @@
 """The depth of a coupon that was worked longer than a run: at the places where it was measured."""
 
 import csv
+import functools
 import math
 import pathlib
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,6 +35,26 @@ class Coupon:
     cycle: float  # [s] in the run, of which the first starts from rest
     seconds: float | None  # or at the rate that the run has within
     shares: tuple[float, float]  # of its time
+    line: Callable = None  # key -> line of the study
+
+    def faults(self, case, place):
+        """What a case lacks for the depth at a place, (key of the table, words)."""
+        wall = next((wall for wall in case.get("wall", []) if wall.get("name") == self.work_piece), {})
+        if not wall.get("work_piece"):
+            yield "work_piece", f"the wall '{self.work_piece}' is no work piece: it needs 'work_piece = true'"
+        if removed_depth.law_in(case, [self.law] if self.law else LAWS) is None:
+            yield "law", f"the case tells no {(self.law or 'depth').replace('_', ' ')}: [fluid.removal] has no such law"
+        end = case.get("case", {}).get("end_time", math.inf)
+        if self.cycles and end < 2 * self.cycle * (1 - 1e-3):
+            yield "cycle", f"the case ends at {end:g} s and holds fewer than two cycles of {self.cycle:g} s"
+        if self.seconds and removed_depth.rows_inside(case, self.shares) < 0.5:
+            yield "shares", "'shares' holds fewer than two rows of surface.h5: give the case a smaller 'series_interval'"
+        axis = 1 - SIDES[self.face][0]
+        low, high = (wall.get("box", {}).get(key, [default] * 2)[axis] for key, default in (("min", -math.inf),
+                                                                                           ("max", math.inf)))
+        if not low <= place <= high:
+            yield "file", (f"{self.file}: the place {place:g} m lies beyond the {self.face} face of '{self.work_piece}', "
+                           f"{low:g} to {high:g} m")
 
     def depths(self, folder, places):
         """[m] at the places [m] along the face, and the name of the depth."""
@@ -89,7 +111,7 @@ def read_coupon(table, study):
                     "'seconds'")
     coupon = Coupon(name, table.get("work_piece", str, allowed=study.names_in_case("wall", "name")),
                     table.get("face", str, allowed=SIDES), laws.get(law), given["cycles"], given["cycle"], given["seconds"],
-                    shares)
+                    shares, functools.partial(table.document.line, table.path))
     return coupon, _read_depths(table, study, name) if name is not None else []
 
 

@@ -7,8 +7,9 @@ import pathlib
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 
-from toryu.case import PROGRAMS_OF
+from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.processes import DONE
 from toryu.study import timing
 from toryu.study.document import BadStudy
@@ -39,6 +40,7 @@ def versions(executables):
 
 def settings(study, runs, waiting, extra):
     """Runs `--check` on settings that hold every value of every axis once; lists all faults."""
+    refuse(study, waiting)
     seen, chosen = set(), []
     for setting in waiting:
         values = set(setting.values.items())
@@ -58,6 +60,37 @@ def settings(study, runs, waiting, extra):
     faults = dict.fromkeys(line for text in words for line in text.splitlines() if line.strip())
     if faults:
         raise BadStudy("\n".join(placed(study, line, extra) for line in faults))
+
+
+def content(study, setting):
+    """The case as a setting runs it; None where the programs' own check tells what is wrong."""
+    try:
+        return resolve(study.case, study.coupler, tuple(f"{key}={value}" for key, value in setting.overrides.items())).content
+    except BadCase:
+        return None
+
+
+def refuse(study, waiting):
+    """What the special views cannot do with the case as it will run, and say before it does."""
+    views = [view for view in (study.recession, study.calibration) if view]
+    told = dict.fromkeys(fault for view in views for setting in waiting if view.is_new(setting)
+                         if (case := content(study, setting)) for fault in view.faults(case))
+    if told:
+        raise BadStudy("\n".join(f"{study.path}{f':{line}' if line else ''}: error: {words}" for line, words in sorted(
+            told, key=lambda fault: fault[0] or 0)))
+
+
+def longest(study, runs, setting, most):
+    """How many times as long as its end time the case may run, 1, 2, 4 to `most`, and what is against more."""
+    end = ((content(study, setting) or {}).get("case", {})).get("end_time")
+    factor = 1
+    while isinstance(end, (int, float)) and factor < most:
+        longer = replace(setting, overrides=setting.overrides | {"case.end_time": repr(2.0 * factor * end)})
+        done = subprocess.run(runs.command(longer, "--check"), capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        if done.returncode != DONE:
+            return factor, "; ".join((done.stdout + done.stderr).split("\n")).strip("; ")[:LONGEST_FAULT]
+        factor *= 2
+    return most, ""
 
 
 def placed(study, line, extra):

@@ -1,23 +1,27 @@
 """Surfaces that recede: what the table [recession] of a study file says, and what came of it. README.md describes the
 keys."""
 
+import functools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from toryu.study import calibrated, recession_answer, recession_charts, study_file
+from toryu.study import calibrated, recession_answer, recession_charts, recession_faults, recession_goals, study_file
 from toryu.study.calibrated import Calibrated
 from toryu.study.document import found, is_number
 from toryu.study.recession_steps import March
 from toryu.study.recession_surface import Pressure
 
 AXIS = "solution"  # of the study: the solutions of the flow
-UNITS = {"machining_time": "s", "cycles": "", "depth_mean": "m", "depth_largest": "m", "taper": "", "removed_area": "m2",
-         "removed_mass": "kg/m", "balance_error": "", "removal_rate": "m/s", "jump_error": "", "unsteadiness": ""}
+UNITS = {"machining_time": "s", "cycles": "", "depth_mean": "m", "depth_largest": "m", "gap": "m", "edge_radius": "m",
+         "roughness": "m", "taper": "", "removed_area": "m2", "removed_mass": "kg/m", "balance_error": "",
+         "removal_rate": "m/s", "jump_error": "", "unsteadiness": ""}
 ABOUT_AXIS = {"removed_area": {"removed_volume": "m3"}, "removed_mass": {"removed_mass": "kg"},
               "depth_largest": {"depth_largest": "m", "diameter_mean": "m", "diameter_smallest": "m",
                                 "diameter_largest": "m"}}  # in place of those
+LONGEST = 8
 WAYS = ("one_way", "first_half", "mirrored", "both")
 
 
@@ -32,28 +36,38 @@ class Recession:
     jump: float = 0.1  # largest change of the gap in a jump, as a share of it
     edge_jump: float = 0.25  # most that comes off an edge in a jump [spacings]
     tolerance: float = 0.1  # of State.jump_error
-    target: float = math.inf  # mean depth [m] at which it ends
+    until: list = field(default_factory=list)  # recession_goals.Goal: at the first that is reached it ends
     way: str = "one_way"
     along: int = 0  # axis of the flow: 0 is x
     reverse: dict = field(default_factory=dict)  # overrides of the case that turn the flow
     pressure: Pressure | None = None  # where the contact pressure of a run is not the medium's
     window: tuple = (0.5, 1.0)  # shares of a run's time within which its rate is taken
     steady_within: float = 0.01
+    longest: tuple = (LONGEST, "")  # times the case's end time within which a flow must become steady; what is against more
+    line: Callable = None  # key -> line of the file
     walls: list[str] = field(default_factory=list)  # of the case
     density: float | None = None  # of the work pieces [kg/m3]
     about_axis: bool = False
     calibrated: Calibrated | None = None
     chains: list = field(default_factory=list)  # recession_search.Chain, a combination of the other axes each
 
-    def march(self, surface):
-        """`surface()`: the Surface, once the first run has told it."""
+    def march(self, chain):
+        """Of a Chain, whose first run tells its surface."""
         def allowed(depth):
+            surface = chain.surface
             across = 0.5 * self.jump * (self.gap + 2 * float(depth.min()))
-            rows = np.concatenate([face.rows for face in surface().faces])
+            rows = np.concatenate([face.rows for face in surface.faces])
             edges = np.isin(rows, [row for row in set(rows) if (rows == row).sum() > 1])
-            return np.where(edges, min(across, self.edge_jump * float(np.median(surface().length))), across)
+            return np.where(edges, min(across, self.edge_jump * float(np.median(surface.length))), across)
 
-        return March(self.time, allowed, self.tolerance, self.target, lambda depth: surface().mean(depth))
+        return March(self.time, allowed, self.tolerance, chain.missing)
+
+    def is_new(self, setting):
+        """Whether it is a case as it was given: others have the walls that the study wears."""
+        return setting.values[AXIS].startswith("0")
+
+    def faults(self, case):
+        return [(self.line(key), words) for key, words in recession_faults.of(self, case)]
 
     def counts(self, surface):
         """Which points tell of the passage; the others are its image."""
@@ -74,8 +88,10 @@ class Recession:
             units |= ABOUT_AXIS.get(name, {name: unit}) if self.about_axis else {name: unit}
         if self.calibrated:
             units |= {f"{name}_error": units[name] for name in recession_answer.uncertain(self)}
-        left_out = {"cycles": not self.cycle, "removed_mass": not self.density, "removed_mass_error": not self.density}
-        return {name: unit for name, unit in units.items() if not left_out.get(name)}
+        told = {"cycles": self.cycle, "removed_mass": self.density, "removed_mass_error": self.density,
+                "edge_radius": any(chain.edges for chain in self.chains),
+                "roughness": any(chain.roughness_law for chain in self.chains)}
+        return {name: unit for name, unit in units.items() if told.get(name, True)}
 
     def shown(self):
         """The lines that are settings of the study, not ones that tell the uncertainty of such."""
@@ -100,7 +116,9 @@ class Recession:
 
     def answers(self, study, table, out):
         recession_answer.write(self, out / "recession.csv")
-        return [recession_answer.answer(self, chain) for chain in self.shown()]
+        if self.until:
+            recession_goals.write(out / "goals.csv", self, study)
+        return [recession_answer.answer(self, study, chain) for chain in self.shown()]
 
 
 def add_axes(table, study):
@@ -121,10 +139,9 @@ def read(table, study):
         setattr(made, name, value := table.get(name, float, getattr(made, name)))
         if not 0 < value <= most:
             table.fault(f"'{name}' must be above 0 and at most {most:g}, found {value}", name)
-    made.target = _positive(table, "target_depth", math.inf)
-    if made.calibrated and math.isfinite(made.target):
-        table.fault("'calibration' tells how uncertain a depth is after a time: it does not go with 'target_depth'",
-                    "target_depth")
+    made.until = recession_goals.read(table, study, UNITS)
+    if made.calibrated and made.until:
+        table.fault("'calibration' tells how uncertain a depth is after a time: it does not go with 'until'", "until")
     made.density = _positive(table, "density", None)
     made.way = table.get("way", str, "one_way", allowed=WAYS)
     made.along = "xy".index(table.get("axis", str, "x", allowed=["x", "y"]) or "x")
@@ -168,16 +185,7 @@ def _pressure(table):
 def _read_case(table, study, made):
     """What the study needs of its case."""
     made.about_axis = study.about_axis
-    walls = study.content.get("wall", [])
-    made.walls = [wall.get("name") for wall in walls if isinstance(wall, dict)]
-    values = [value for axis in study.axes if axis.name != AXIS for value in axis.values]
-    changed = [key for thing in [study, *values] for key in thing.overrides]
-    if any(isinstance(wall, dict) and wall.get("worn") for wall in walls) or any(
-            key.startswith("wall.") and ".worn" in key for key in changed):
-        table.fault("the case has walls that are 'worn': the study says how far they are")
-    removal = study.content.get("fluid", {}).get("removal")
-    given = [value for key, value in study.overrides.items() if key.startswith("fluid.removal")]
-    if not removal and not any(given) or study.overrides.get("fluid.removal") is False:
-        table.fault("nothing comes off: the case needs [fluid.removal] and a [[wall]] with 'work_piece = true'")
+    made.walls = study.names_in_case("wall", "name")
     if study.kind == "coupled":
         table.fault("surfaces recede on rigid walls alone: the case has a [solid]")
+    made.line = functools.partial(table.document.line, table.path)

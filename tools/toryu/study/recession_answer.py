@@ -1,4 +1,4 @@
-"""What a study of surfaces that recede says at its end: a sentence and a table for each line, the shapes as a file, and how
+"""What a study of surfaces that recede says at its end: sentences and tables for each line, the shapes as a file, and how
 uncertain they are by a calibration."""
 
 import csv
@@ -9,7 +9,7 @@ import numpy as np
 
 from toryu.program import whole_file
 from toryu.report import tables
-from toryu.study import calibrated
+from toryu.study import calibrated, recession_edges, recession_goals
 from toryu.study.answer import Answer
 from toryu.study.recession_search import shape_figures
 from toryu.study.removal_answer import in_words
@@ -76,7 +76,7 @@ def write_shape(writer, view, chain, solved):
                              *("" if value != value else f"{float(value):.9g}" for value in row)])
 
 
-def answer(view, chain):
+def answer(view, study, chain):
     first, last = chain.states()[0], chain.states()[-1]
     figures = last.figures()
     errors = uncertainty(view, chain) if view.calibrated else {}
@@ -91,10 +91,29 @@ def answer(view, chain):
         sentence += " ±: one standard error by what the calibration leaves open."
     if chain.failure:
         sentence += f" There it ended: {chain.failure}"
+    words = [sentence, *(recession_goals.sentence(goal, view, *chain.course(study, goal)) for goal in view.until)]
     names = [name for name in view.units() if not name.endswith("_error") or name in figures]
     rows = [[solved.name, *(text(solved.figures()[name]) for name in names)] for solved in chain.states()]
-    return Answer(f"The surface after wear{f': {chain.label}' if chain.label else ''}", sentence,
-                  tables.table(["solution", *(f"{n} [{u}]" if (u := view.units()[n]) else n for n in names)], rows))
+    html = tables.table(["solution", *(f"{n} [{u}]" if (u := view.units()[n]) else n for n in names)], rows)
+    return Answer(f"The surface after wear{f': {chain.label}' if chain.label else ''}", "\n".join(words),
+                  html + faces(view, chain, last.state.depth) + edges(chain, last.state.depth))
+
+
+def faces(view, chain, depth):
+    """What came off each face in the end."""
+    surface, rows, counts = chain.surface, [], view.counts(chain.surface)
+    removed, weight = surface.removed(depth) * counts, surface.length * surface.circumference * counts
+    for face, *of_face in zip(surface.faces, *map(surface.parts, (depth * weight, weight, removed))):
+        deep, ring, off = (float(part.sum()) for part in of_face)
+        rows.append([face.wall, face.side, text(deep / ring if ring > 0 else 0.0), text(off),
+                     text(off / float(removed.sum()) if removed.sum() > 0 else 0.0)])
+    return tables.table(["wall", "face", "depth_mean [m]", f"{view.removed} [{view.units()[view.removed]}]", "share"], rows)
+
+
+def edges(chain, depth):
+    """The radius of each edge in the end."""
+    rows = [[edge.name, text(float(recession_edges.radius(chain.surface, depth, edge)))] for edge in chain.edges]
+    return tables.table(["edge", "edge_radius [m]"], rows) if rows else ""
 
 
 def what_is_off(view, figures, errors):

@@ -1,13 +1,11 @@
 """Charts of surfaces that recede: the depth along each face over machining time, and what comes of it."""
 
-import math
-
 import matplotlib
 import matplotlib.colors
 import numpy as np
 
 from toryu.report import data
-from toryu.study import drawing
+from toryu.study import drawing, recession_edges, removed_depth
 
 SCALE = "viridis"
 
@@ -16,8 +14,11 @@ def draw(view, study, folder):
     drawn, shown = [], [chain for chain in view.shown() if len(chain.states()) > 1]
     for number, chain in enumerate(shown, 1):
         of = f": {chain.label}" if chain.label else ""
-        for title, name, make in (("The shape over time", "shape", shape), ("The profile over time", "profile", profile),
-                                  ("Depth over time", "depth", over_time)):
+        parts = [("The shape over time", "shape", shape), ("The profile over time", "profile", profile),
+                 ("Depth over time", "depth", over_time)]
+        parts += [("Radius of the edges over time", "edge_radius", edge_radius)] * bool(chain.edges)
+        parts += [("Roughness over time", "roughness", roughness)] * bool(chain.roughness_law)
+        for title, name, make in parts:
             name = name if len(view.shown()) == 1 else f"{name}_{number:02}"
             drawn.append((title + of, drawing.save(make(view, chain), folder / name), f"charts/{name}"))
     return drawn
@@ -71,17 +72,39 @@ def profile(view, chain):
 
 
 def over_time(view, chain):
-    """Mean, largest and smallest depth; where a target is set, the line."""
+    """Mean, largest and smallest depth."""
+    return lines(view, chain, "removed depth", "depth_mean", {
+        "mean": chain.surface.mean, "largest": np.max, "smallest": np.min})
+
+
+def edge_radius(view, chain):
+    return lines(view, chain, "edge radius", "edge_radius", {
+        edge.name: lambda depth, edge=edge: recession_edges.radius(chain.surface, depth, edge) for edge in chain.edges})
+
+
+def roughness(view, chain):
+    """Mean, and that of the places from which most and least is off."""
+    def ra(depth):
+        return removed_depth.roughness(depth, chain.roughness_law)
+
+    return lines(view, chain, "roughness Ra", "roughness", {
+        "mean": chain.shape["roughness"], "largest": lambda depth: ra(np.min(depth)),
+        "smallest": lambda depth: ra(np.max(depth))})
+
+
+def lines(view, chain, what, goal, figures):
+    """Figures of the depth over the cycles, with the goal of that name as a line."""
     states = [solved.state for solved in chain.states()]
-    depths = np.array([[chain.surface.mean(s.depth), s.depth.max(), s.depth.min()] for s in states])
-    factor, unit = data.scaled("m", float(depths.max()))
+    values = {name: np.array([float(of(state.depth)) for state in states]) for name, of in figures.items()}
+    goals = [g.value for g in view.until if g.name == goal]
+    factor, unit = data.scaled("m", max(np.nanmax([0.0, *v]) for v in values.values()))
     made, (panel,) = drawing.figure()
     times = [moment(view, state.time)[0] for state in states]
-    for column, name, marker in zip(depths.T, ("mean", "largest", "smallest"), drawing.MARKERS):
-        panel.plot(times, column * factor, marker=marker, label=name)
-    if math.isfinite(view.target):
-        panel.axhline(view.target * factor, color=drawing.PALETTE["soft"], linestyle="--", linewidth=0.9)
+    for number, (name, of) in enumerate(values.items()):
+        panel.plot(times, of * factor, marker=drawing.MARKERS[number % len(drawing.MARKERS)], label=name)
+    for value in goals:
+        panel.axhline(value * factor, color=drawing.PALETTE["soft"], linestyle="--", linewidth=0.9)
     panel.set_xlabel(moment(view, 0.0)[1])
-    panel.set_ylabel(f"removed depth  [{unit}]")
+    panel.set_ylabel(f"{what}  [{unit}]")
     panel.legend()
     return made

@@ -38,15 +38,14 @@ class March:
     until: float  # [s]
     allowed: Callable  # depth [m] so far -> what may come off in a jump [m], of each point or of all
     tolerance: float  # of State.jump_error
-    target: float = math.inf  # mean depth [m] at which it ends
-    mean: Callable = np.mean  # of a depth over the points
+    missing: Callable = lambda depth: math.inf  # what a depth lacks of the goal: it ends where that falls to 0
 
     def __call__(self):
         """A generator of states; it is sent the rate of each [m/s], and ends after that of the last."""
         state = State(0.0, None, 0)
         state.rate = yield state
         state.depth = np.zeros_like(state.rate)
-        while state.time < self.until * (1 - 1e-12) and self.mean(state.depth) < self.target * (1 - 1e-9):
+        while state.time < self.until * (1 - 1e-12) and self.missing(state.depth) > 0:
             dt = self.length(state)
             if dt == 0:
                 return
@@ -57,9 +56,7 @@ class March:
     def length(self, state):
         """Of the next jump [s]: as many equal ones as the present rate asks for; 0 if nothing comes off."""
         left = self.until - state.time
-        if math.isfinite(self.target):
-            mean_rate = self.mean(state.rate)
-            left = min(left, (self.target - self.mean(state.depth)) / mean_rate) if mean_rate > 0 else left
+        left = first_zero(lambda passed: self.missing(state.depth + passed * state.rate), left)
         wears = state.rate > 0
         if not wears.any():
             return 0.0
@@ -77,13 +74,20 @@ class March:
             dt *= max(SHORTER[0], SHORTER[1] * self.tolerance / error)
 
     def end(self, state, dt, rate, error):
-        """The state after the jump, or within it where the target is reached: the rate is taken as linear in time."""
+        """The state after the jump, or within it where the goal is reached: the rate is taken as linear in time."""
         def depth(passed):
             return state.depth + passed * state.rate + passed**2 / (2 * dt) * (rate - state.rate)
 
-        passed = dt
-        if self.mean(depth(dt)) > self.target:
-            missing, first = self.target - self.mean(state.depth), self.mean(state.rate)
-            growth = self.mean(rate - state.rate) / dt
-            passed = 2 * missing / (first + math.sqrt(first**2 + 2 * growth * missing))
+        passed = first_zero(lambda passed: self.missing(depth(passed)), dt)
         return State(state.time + passed, depth(passed), state.number + 1, jump_error=error)
+
+
+def first_zero(missing, end):
+    """Where `missing`, above 0 at 0, has fallen to 0 within `end`, by bisection; `end` if it has not."""
+    if missing(end) > 0:
+        return end
+    low, high = 0.0, end
+    while high - low > 1e-12 * end:
+        middle = (low + high) / 2
+        low, high = (middle, high) if missing(middle) > 0 else (low, middle)
+    return high

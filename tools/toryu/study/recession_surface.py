@@ -81,6 +81,24 @@ class Surface:
         outward = self.normal[:, 1]
         across = (outward < 0 if (outward < 0).any() else outward > 0) & counts
         return 2 * self.outline(depth)[across, 1], self.length[across]
+    def along_normal(self, rate, depth):
+        """How fast the depth grows [m/s] where the surface recedes along its own normal at `rate`: by sqrt(1 + p^2) of it, p
+        the slope towards a deeper neighbour (Godunov's upwind scheme, Osher & Sethian 1988)."""
+        slopes = []
+        for face, h in zip(self.faces, self.parts(depth)):
+            steps = np.diff(h) / np.maximum(np.diff(face.position), 1e-300)
+            slopes.append(np.maximum(np.append(steps, 0.0), np.append(0.0, -steps)).clip(0.0))
+        return rate * np.sqrt(1 + np.concatenate(slopes) ** 2)
+
+    def gap(self, depth, along):
+        """The narrowest distance across the flow between two faces that look at each other [m]; None where none do."""
+        outline, looks = self.outline(depth), self.normal[:, 1 - along]
+        near = 0.5 * float(np.median(self.length))
+        widths = []
+        for place in outline[looks > 0.5]:
+            opposite = outline[(looks < -0.5) & (np.abs(outline[:, along] - place[along]) < near), 1 - along]
+            widths.extend(opposite[opposite > place[1 - along]] - place[1 - along])
+        return float(min(widths)) if widths else None
 
     def middle(self, axis):
         return (self.place[:, axis].min() + self.place[:, axis].max()) / 2

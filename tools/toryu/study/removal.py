@@ -46,11 +46,8 @@ class Removed:
         return removed_depth.after(self.depth, cycles)
 
     def roughness_at(self, depth):
-        """Mean roughness [m] once `depth` is off: each point decays as fluid_solver's removal says; nan without it."""
-        if self.roughness is None:
-            return math.nan
-        first, last, decay = (self.roughness[name] for name in ("initial", "final", "decay_depth"))
-        return self.mean(last + (first - last) * np.exp(-depth / decay))
+        """Mean roughness [m] once `depth` is off; nan without it."""
+        return math.nan if self.roughness is None else self.mean(removed_depth.roughness(depth, self.roughness))
 
 
 @dataclass

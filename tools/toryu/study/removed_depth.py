@@ -11,9 +11,31 @@ LAWS = {"preston_depth": "fluid.removal.preston_coefficient", "archard_depth": "
         "shear_depth": "fluid.removal.shear_coefficient"}
 
 
+def law_in(case, laws=LAWS):
+    """The depth that counts in the runs of a case, None if it has none of the laws."""
+    def value(key):
+        found = case
+        for part in key.split("."):
+            found = found.get(part) if isinstance(found, dict) else None
+        return found
+
+    return next((law for law in laws if value(LAWS[law])), None)
+
+
 def law_of(file):
     """The depth that counts in an open surface.h5, None if it has none."""
     return next((name for name in LAWS if name in file), None)
+
+
+def rows_inside(case, shares):
+    """How many intervals of the series the shares of the run's time hold."""
+    end, interval = (case.get("case", {}).get(key, 0.0) for key in ("end_time", "series_interval"))
+    return (shares[1] - shares[0]) * end / interval if interval > 0 else float("inf")
+
+
+def roughness(depth, law):
+    """Ra [m] where `depth` [m] is off: it decays as fluid_solver/terms/removal.hpp says, by [fluid.removal.roughness]."""
+    return law["final"] + (law["initial"] - law["final"]) * np.exp(-depth / law["decay_depth"])
 
 
 def at_ends_of_cycles(time, depth, period):

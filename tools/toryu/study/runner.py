@@ -21,7 +21,7 @@ RECORD = "run.json"  # in the folder of a run that is done: without it the run g
 # of a Record, in its file
 KEPT = {"exit_code": int, "cause": str, "elapsed": (int, float), "threads": int, "jobs": int, "loops": list, "files": dict}
 LOCK = "study.lock"
-WRITTEN = ("table.csv", "study.html", "edges.csv", "terms.csv", "recession.csv", "table.md", "calibration.toml",
+WRITTEN = ("table.csv", "study.html", "edges.csv", "terms.csv", "recession.csv", "goals.csv", "table.md", "calibration.toml",
            "calibration.csv", "charts", "runs")  # by studies
 OUTPUT = "output.txt"  # what the run printed
 POLL = 0.05  # [s]
