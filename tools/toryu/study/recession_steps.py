@@ -87,7 +87,7 @@ def first_zero(missing, end):
     if missing(end) > 0:
         return end
     low, high = 0.0, end
-    while high - low > 1e-12 * end:
+    while high - low > 1e-12 * high:
         middle = (low + high) / 2
         low, high = (middle, high) if missing(middle) > 0 else (low, middle)
     return high
