@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/error/counted.hpp"
 #include "common/error/failure.hpp"
 #include "common/run/log.hpp"
 #include "common/state/serialize.hpp"
@@ -60,15 +61,15 @@ void CoupledRecord::note_convergence(const Window& window, const Exchange& done)
   state_.unconverged_in_a_row = done.converged ? 0 : state_.unconverged_in_a_row + 1;
   if (done.converged) return;
   if (state_.unconverged++ == 0)
-    log::warn(
-        "window {}: not converged after {} iterations, residual {:.3g}; the summary counts such windows",
-        window.number, done.iterations, done.residual);
+    log::warn("window {}: not converged after {}, residual {:.3g}; the summary counts such windows",
+              window.number, counted(done.iterations, "iteration"), done.residual);
   if (state_.unconverged_in_a_row < settings_.coupling.implicit->unconverged_windows_to_stop) return;
-  throw PhysicsFailure(fmt::format(
-      "coupling: {} windows in a row have not converged in {} iterations each, the last at t = {:.6g} s with "
-      "a residual of {:.3g} (tolerance {:.3g})",
-      state_.unconverged_in_a_row, done.iterations, window.time + window.dt, done.residual,
-      settings_.coupling.implicit->tolerance));
+  throw PhysicsFailure(
+      fmt::format("coupling: {} in a row {} not converged in {} each, the last at t = {:.6g} s with "
+                  "a residual of {:.3g} (tolerance {:.3g})",
+                  counted(state_.unconverged_in_a_row, "window"),
+                  state_.unconverged_in_a_row == 1 ? "has" : "have", counted(done.iterations, "iteration"),
+                  window.time + window.dt, done.residual, settings_.coupling.implicit->tolerance));
 }
 
 void CoupledRecord::note_times(const Exchange& done, double elapsed) {

@@ -38,8 +38,10 @@ double thickness(const CaseFile& file) {
   }
 }
 
-/// Viscosity of the medium at rest [Pa s], 0 if the case gives none.
-double viscosity_at_rest(const CaseFile& file) {
+/// Viscosity of the medium at rest [Pa s], 0 if the case gives none; nothing where only the fluid knows it.
+std::optional<double> viscosity_at_rest(const CaseFile& file) {
+  for (const char* section : {"fluid.medium", "fluid.temperature", "fluid.viscoelasticity"})
+    if (file.has(section)) return std::nullopt;
   const bool thickens = file.value<double>("fluid.power_law.exponent").value_or(0.0) > 1;
   for (const char* key :
        {"fluid.laminar_viscosity.dynamic_viscosity", "fluid.carreau.zero_shear_viscosity",
@@ -49,9 +51,11 @@ double viscosity_at_rest(const CaseFile& file) {
   return 0;
 }
 
-/// Length of a window of the fluid at rest [s], as far as the case tells it.
+/// Length of a window of the fluid at rest [s]; 0 where the case does not tell it, and the run alone will.
 double foreseen_window(const CaseFile& file, const FluidTraits& fluid, int steps) {
-  const double h = 0.5 * fluid.reach, nu = viscosity_at_rest(file) / fluid.density;
+  const auto viscosity = viscosity_at_rest(file);
+  if (!viscosity) return 0;
+  const double h = 0.5 * fluid.reach, nu = *viscosity / fluid.density;
   double limit = acoustic_share * h / fluid.sound_speed;
   if (nu > 0) limit = std::min(limit, viscous_share * h * h / nu);
   return steps * file.value<double>("fluid.time_step_share").value_or(1.0) * limit;

@@ -57,6 +57,25 @@ void Boundary::know_faces(const FaceDepths& depths, bool fit) {
   for (std::size_t k = 0; k < count; ++k) set(to_outline, k, depths.to_outline[id[k]]);
 }
 
+bool Boundary::covers(const Vec& point, double spacing) const {
+  const double half = 0.501 * spacing;
+  bool found = false;
+  strips.in_box(x[1], point[0] - half, point[0] + half, point[1] - half, point[1] + half,
+                [&](std::size_t first, std::size_t last) {
+                  for (std::size_t k = first; k < last && !found; ++k)
+                    found = (at(x, k) - point).lpNorm<Eigen::Infinity>() < half;
+                });
+  return found;
+}
+
+void Boundary::keep(const std::vector<std::uint32_t>& kept) {
+  reorder_fields(*this, kept);
+  for (std::size_t k = 0; k < kept.size(); ++k) id[k] = id[kept[k]];
+  count = kept.size();
+  id.resize(count);
+  strips.index(x[0], count);
+}
+
 void Boundary::sort() {
   const auto order = strips.sort(x[0], x[1], count);
   reorder_fields(*this, order);

@@ -119,6 +119,10 @@ struct Boundary {
     return near.size() > 1 || !near[0].sources.empty();
   }
   bool is_interface() const { return std::holds_alternative<MovingInterface>(motion); }
+  /// Whether `point` lies in the cell of a particle; cells are `spacing` [m] wide.
+  bool covers(const Vec& point, double spacing) const;
+  /// Takes away all particles but those at `kept`, which rises.
+  void keep(const std::vector<std::uint32_t>& kept);
   /// Puts the particles in strip order again after they moved.
   void sort();
   /// Sets position, velocity and acceleration to those at `time` [s].

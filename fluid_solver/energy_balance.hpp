@@ -6,13 +6,13 @@
 ///
 /// phi is the potential of gravity and of a central force. A boundary w that moves gives sum F_iw . v_w; a
 /// term with forces F_ij between pairs takes - sum F_ij . v_ij, and density diffusion, D_i of it at particle
-/// i, takes - sum_i m_i p_i/rho_i^2 D_i. The work of the boundaries is summed at each step, with the forces
-/// by which the velocity advances. The powers of the terms are found where a row is written, at most every
-/// tenth step, for they cost about half a step, and integrated by the trapezoidal rule.
+/// i, takes - sum_i m_i p_i/rho_i^2 D_i. The pressure takes something where rho_i and rho_j differ, for
+/// only else its force is the gradient of e. The work of the boundaries is summed at each step, with the
+/// forces by which the velocity advances. The powers of the terms are found where a row is written, at most
+/// every tenth step, for they cost about half a step, and integrated by the trapezoidal rule.
 ///
-/// What remains is of the discretisation: the pressure force is the gradient of e only where rho_i = rho_j;
-/// a wall particle has a pressure and stores no energy; particle shifting, tensile control and consistent
-/// gradients; the time step; the rule above, where rows are too few for what happens between them.
+/// What remains is of the time step, by its square; of particle shifting, tensile control and consistent
+/// gradients; of the rule above, where rows are too few for what happens between them.
 #pragma once
 
 #include <optional>

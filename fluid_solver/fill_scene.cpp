@@ -182,6 +182,25 @@ void FluidModel::fill_walls() {
       cover_faces(boundary, parameters_.spacing, state_.boundaries, parameters_.spacing);
 }
 
+/// A wall that holds the solid lies where the solid's clamp does: either would act on the fluid as a wall. Of
+/// the wall go the particles of which the solid covers more than a half.
+void FluidModel::leave_out_walls_in(const Boundary& solid, double spacing) {
+  for (Boundary& wall : state_.boundaries) {
+    if (wall.moves()) continue;
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t k = 0; k < wall.count; ++k) {
+      const double quarter = 0.25 * std::sqrt(wall.V[k]);
+      int covered = 0;
+      for (int axis = 0; axis < dim; ++axis)
+        for (const double side : {-quarter, quarter})
+          covered += solid.covers(at(wall.x, k) + side * Vec::Unit(axis), spacing);
+      if (covered < 2 * dim) kept.push_back(k);
+    }
+    if (kept.size() < wall.count) wall.keep(kept);
+  }
+  std::erase_if(state_.boundaries, [](const Boundary& wall) { return wall.count == 0; });
+}
+
 void FluidModel::check_overlaps() const {
   const double nearest = nearest_bodies * parameters_.spacing;
   StripOrder strips(parameters_.strip_width());

@@ -66,12 +66,14 @@ void FluidModel::attach(const Interface& interface) {
     positions.push_back(vector_of(interface.position, k));
     faces.push_back(faces_of(vector_of(interface.area_vector, k)));
   }
-  Boundary& boundary = state_.boundaries.emplace_back();
+  Boundary boundary;
   boundary.name = "interface";
   boundary.motion = MovingInterface(interface, reach() / parameters_.sound_speed);
   boundary.place(positions, interface.volume, parameters_.density, parameters_.strip_width());
   boundary.make_work_piece(faces);
   cover_faces(boundary, interface.spacing, state_.boundaries, parameters_.spacing);
+  leave_out_walls_in(boundary, interface.spacing);
+  state_.boundaries.push_back(std::move(boundary));
   check_overlaps();
   state_.balance = EnergyBalance(powers());
 }

@@ -151,6 +151,7 @@ class FluidModel : public Solver {
   PressedMotion pressed(const Wall& wall, const std::vector<Vec>& points) const;
   void fill_walls();
   void check_overlaps() const;
+  void leave_out_walls_in(const Boundary& solid, double spacing);
   void move_back_into_domain();
   void watch_suction(double time);
   void watch_stops(double time);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/error/counted.hpp"
 #include "common/link/participant.hpp"
 #include "common/loop/outlook.hpp"
 #include "common/loop/time_loop.hpp"
@@ -83,7 +84,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
                   .used_case = file.used()});
   try {
     const Interface interface = link.join(model.traits());
-    log::info("the solid's interface has {} particles of spacing {:g} m", interface.size(),
+    log::info("the solid's interface has {} of spacing {:g} m", counted(interface.size(), "particle"),
               interface.spacing);
     model.attach(interface);
     warn_of_thin_wall(model.boundaries().back(), interface.spacing, parameters);
@@ -207,7 +208,7 @@ ExitCode solve(const Options& options) {
     if (options.outlook) print("[fluid]: " + made + '\n');
   }
   if (options.outlook && !file.has("solid")) tell_flow(parameters, scene);
-  for (const auto& [key, message] : fluid::start_faults(parameters, scene.gravity)) file.fault(key, message);
+  for (const auto& [key, message] : fluid::start_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
   const auto made = fluid::make_model(parameters, scene);
   FluidModel& model = *made;
@@ -223,6 +224,11 @@ ExitCode solve(const Options& options) {
   }
   model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
+  check_series(file, scene, "fluid", model, [coupled = file.has("solid")](const std::string& column) {
+    return coupled &&
+           (column.find("interface") != std::string::npos || column.find("walls") != std::string::npos);
+  });
+  file.throw_if_faulty();
   warn_of_start(file, scene, parameters, model);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/error/counted.hpp"
 #include "common/scene/occupancy_index.hpp"
 #include "fluid_solver/passage_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
@@ -104,9 +105,13 @@ std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
   const double least = thinnest_wall(p);
   if (const auto found = bodies.thinnest(least))
     return fmt::format(
-        "'{}' is {:.3g} m thick in places, and below 2h - d0 = {:.3g} m water on either side of a wall "
+        "'{}' is {:.3g} m thick in places{}, and below 2h - d0 = {:.3g} m water on either side of a wall "
         "acts on that on the other; see cases/thin_wall/thin_wall_map.toml",
-        body.name, *found, least);
+        body.name, *found,
+        !body.is_interface() && *found < 1.5 * spacing
+            ? ", a single row of particles, through which fluid leaks"
+            : "",
+        least);
   return {};
 }
 
@@ -115,9 +120,9 @@ std::optional<std::string> beyond_thinnest_jet(const Particles& fluid, const std
   const Bodies bodies(places_of(fluid), walls, spacing);
   if (const auto found = bodies.thinnest(3 * spacing))
     return fmt::format(
-        "the fluid is {:.0f} particle{} wide in places: a jet so narrow bounces off a wall with up to half "
+        "the fluid is {} wide in places: a jet so narrow bounces off a wall with up to half "
         "of its momentum; see cases/thin_jet/near_singular_map.toml",
-        *found / spacing, *found < 1.5 * spacing ? "" : "s");
+        counted(std::lround(*found / spacing), "particle"));
   return {};
 }
 

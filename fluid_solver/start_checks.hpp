@@ -24,7 +24,7 @@ Heights heights(const std::vector<Region>& regions, const Vec& gravity);
 double density_at_depth(const Parameters& parameters, double g, double depth);
 
 /// A level of the surface below all fluid; a sound speed at which fluid so deep is denser than the limits
-/// allow.
-std::vector<StartFault> start_faults(const Parameters& parameters, const Vec& gravity);
+/// allow; presses whose pressure changes the density by more than they allow.
+std::vector<StartFault> start_faults(const Parameters& parameters, const Scene& scene);
 
 }  // namespace toryu::fluid

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/error/counted.hpp"
+
 namespace toryu::fluid {
 
 namespace {
@@ -41,10 +43,10 @@ std::optional<std::string> SuctionWatch::look(const Particles& fluid, double tim
   }
   if (paired < least_paired(fluid.count)) return {};
   return fmt::format(
-      "t = {:.3g} s: {} particles of the fluid have long been under suction, now of up to {:.3g} Pa: they "
+      "t = {:.3g} s: {} of the fluid {} long been under suction, now of up to {:.3g} Pa: they "
       "pair, and what has paired transmits none; take a higher [fluid.background_pressure] or "
       "[fluid.particle_shifting], see cases/retreating_piston/suction_map.toml",
-      time, paired, -lowest);
+      time, counted(paired, "particle"), paired == 1 ? "has" : "have", -lowest);
 }
 
 }  // namespace toryu::fluid

@@ -20,6 +20,12 @@ bool rises(const Rows& rows) {
 bool has_positive_factors(const Rows& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row[1] > 0; });
 }
+/// Whether the constants' own temperature is in the table.
+bool passes_one(const Rows& rows) {
+  const auto [least, most] =
+      std::minmax_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
+  return (*least)[1] <= 1 && (*most)[1] >= 1;
+}
 
 // m gdot^n is a stress
 void shift(PowerLaw& law, double a_T) {
@@ -57,6 +63,10 @@ void describe(ParameterTable& table, Temperature& temperature) {
                 "'shift_factors' needs a row, and temperatures that rise from row to row");
   table.require(has_positive_factors(rows), "shift_factors", "factors in 'shift_factors' must be above 0");
   if (rows.empty() || !rises(rows)) return;
+  table.require(
+      passes_one(rows), "shift_factors",
+      "no factor in 'shift_factors' is 1, and none lies on either side of it: the temperature at which the "
+      "constants of the medium were measured must be among the rows");
   table.require(
       temperature.value >= rows.front()[0] && temperature.value <= rows.back()[0], "value",
       fmt::format(

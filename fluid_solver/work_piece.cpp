@@ -69,17 +69,6 @@ bool same_motion(const Boundary& work_piece, const Boundary& wall) {
   return one && other && one->motion == other->motion;
 }
 
-bool is_in(const Boundary& wall, const Vec& point, double spacing) {
-  const double half = 0.501 * spacing;
-  bool found = false;
-  wall.strips.in_box(wall.x[1], point[0] - half, point[0] + half, point[1] - half, point[1] + half,
-                     [&](std::size_t first, std::size_t last) {
-                       for (std::size_t k = first; k < last && !found; ++k)
-                         found = (at(wall.x, k) - point).lpNorm<Eigen::Infinity>() < half;
-                     });
-  return found;
-}
-
 }  // namespace
 
 void cover_faces(Boundary& work_piece, double spacing, const std::vector<Boundary>& boundaries,
@@ -92,7 +81,7 @@ void cover_faces(Boundary& work_piece, double spacing, const std::vector<Boundar
       for (int axis = 0; axis < dim; ++axis)
         for (const double side : {-1.0, 1.0}) {
           double& face = (side < 0 ? work_piece.lower_face : work_piece.upper_face)[axis][k];
-          if (face != 0 && is_in(wall, at(work_piece.x, k) + side * distance * Vec::Unit(axis), wall_spacing))
+          if (face != 0 && wall.covers(at(work_piece.x, k) + side * distance * Vec::Unit(axis), wall_spacing))
             face = 0;
         }
   }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "common/error/counted.hpp"
 #include "common/error/failure.hpp"
 #include "common/run/log.hpp"
 #include "common/sph/sorted_points.hpp"
@@ -106,9 +107,10 @@ void BondWatch::check(State& state, const std::vector<Vec>& x, double time) cons
     if (count == 0 || count < 2 * warned) return;
     warned = count;
     log::warn(
-        "the solid has {} at t = {:.6g} s: {} bonds are {} than {:g} times their first length, most "
+        "the solid has {} at t = {:.6g} s: {} {} {} than {:g} times the first length, most "
         "that of particle {} at ({:.4g}, {:.4g}) m",
-        what, time, count, than, limit, particle, x[particle][0], x[particle][1]);
+        what, time, counted(count, "bond"), count == 1 ? "is" : "are", than, limit, particle, x[particle][0],
+        x[particle][1]);
   };
   warn_of_stress(state, found, time);
   if (found.torn + found.clumped == 0) warn_of_rearrangement(state, found, x[found.displaced], time);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/error/counted.hpp"
 #include "common/link/participant.hpp"
 #include "common/loop/outlook.hpp"
 #include "common/loop/time_loop.hpp"
@@ -61,7 +62,8 @@ void compute_alone(const Options& options, const CaseFile& file, const Scene& sc
 std::vector<std::uint32_t> join(SolidLink& link, const SolidModel& model) {
   const double reach = link.join();
   const Interface interface = model.interface(reach);
-  log::info("{} particles can be touched by a fluid that sees {:g} m deep", interface.size(), reach);
+  log::info("{} can be touched by a fluid that sees {:g} m deep", counted(interface.size(), "particle"),
+            reach);
   link.register_interface(interface, model.motion(interface.id));
   return interface.id;
 }
@@ -130,6 +132,8 @@ ExitCode solve(const Options& options) {
   const auto model = make_model(parameters, body, scene);
   check_start(*model, "[solid]");
   check_columns(*model, "[solid]");
+  check_series(file, scene, "solid", *model);
+  file.throw_if_faulty();
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
   for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
   if (options.check) {

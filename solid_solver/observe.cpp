@@ -180,8 +180,9 @@ std::vector<ActiveTerm> SolidModel::active_terms() const {
         {"body contact",
          "p_i = stiffness K max(0, S_i/S_0 - 1), Dv_i/Dt = -1/rho_0 sum_j V_j (p_i + p_j) gradW_ij",
          "in the manner of Adami, Hu & Adams 2012",
-         fmt::format("stiffness {:g}, S_0 {:.4g}, {} bodies", parameters_.body_contact->stiffness,
-                     bodies_->touching_sum(), bodies_->body_count())});
+         fmt::format(
+             "stiffness {:g}, S_0 {:.4g}, {}", parameters_.body_contact->stiffness, bodies_->touching_sum(),
+             bodies_->body_count() == 1 ? "1 body" : fmt::format("{} bodies", bodies_->body_count()))});
   if (parameters_.damping)
     terms.push_back({"damping", "dv/dt = -rate v", "dynamic relaxation: Otter 1965",
                      fmt::format("rate {:g} 1/s", parameters_.damping->rate)});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/error/counted.hpp"
 #include "common/sph/kernel.hpp"
 
 namespace toryu::solid {
@@ -56,9 +57,9 @@ MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double
   }
   const Eigen::FullPivLU<decltype(moments)> solver(moments);
   if (particles_.size() <= dim || !solver.isInvertible())
-    throw std::invalid_argument(
-        fmt::format("the point ({:g}, {:g}) is not in the solid: {} particles within {:g} m", point[0],
-                    point[1], particles_.size(), reach));
+    throw std::invalid_argument(fmt::format("the point ({:g}, {:g}) is not in the solid: {} within {:g} m",
+                                            point[0], point[1], counted(particles_.size(), "particle"),
+                                            reach));
   const Basis at_point = Basis::Unit(0);
   const Basis solution = solver.solve(at_point);
   for (std::size_t k = 0; k < weights_.size(); ++k) weights_[k] *= solution.dot(bases[k]);

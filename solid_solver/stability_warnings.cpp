@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/error/counted.hpp"
+
 namespace toryu::solid {
 
 namespace {
@@ -68,14 +70,14 @@ void guard_thin_plates(const Parameters& p, std::vector<std::string>& said) {
   const double rows = fewest_rows(p), nu = p.material.poissons_ratio;
   if (rows < (p.hourglass ? 3 : 12))
     said.push_back(
-        fmt::format("a plate of {:g} row{}{} bends by 6 % too little or too much, or more; see "
+        fmt::format("a plate of {}{} bends by 6 % too little or too much, or more; see "
                     "cases/oscillating_plate/thin_map.toml",
-                    rows, rows == 1 ? "" : "s", p.hourglass ? "" : " without [solid.hourglass]"));
+                    counted(rows, "row"), p.hourglass ? "" : " without [solid.hourglass]"));
   if (rows < 5 && nu > 0.48)
     said.push_back(
-        fmt::format("a plate of {:g} row{} with Poisson's ratio {:g} is too stiff, as its volume can hardly "
+        fmt::format("a plate of {} with Poisson's ratio {:g} is too stiff, as its volume can hardly "
                     "change; see cases/oscillating_plate/poisson_map.toml",
-                    rows, rows == 1 ? "" : "s", nu));
+                    counted(rows, "row"), nu));
 }
 
 /// Distance of two boxes [m], 0 where they touch.

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/case/depth.hpp"
+#include "common/error/counted.hpp"
 
 namespace toryu {
 
@@ -123,7 +124,7 @@ std::string found(const toml::node& node) {
   if (node.is_table()) return "a section";
   if (node.is_array_of_tables()) return "a list of sections";
   if (const auto* array = node.as_array(); array && !array->empty() && array->get(0)->is_array())
-    return fmt::format("{} rows of numbers", array->size());
+    return counted(array->size(), "row") + " of numbers";
   if (const auto* array = node.as_array()) return fmt::format("a list of {}", array->size());
   return "a date or time";
 }

@@ -2,6 +2,7 @@
 
 #include "common/case/depth.hpp"
 #include "common/case/nearest_word.hpp"
+#include "common/error/counted.hpp"
 
 namespace toryu {
 
@@ -32,8 +33,7 @@ std::string no_such_item(const toml::array& array, const std::string& part, cons
   for (const auto& item : array)
     if (const auto* table = item.as_table())
       if (const auto name = (*table)["name"].value<std::string>()) names.push_back(*name);
-  const std::string size =
-      fmt::format("{} has {} item{}, counted from 0", path, array.size(), array.size() == 1 ? "" : "s");
+  const std::string size = fmt::format("{} has {}, counted from 0", path, counted(array.size(), "item"));
   return fmt::format("no item '{}': {}{}{}", part, size, names.empty() ? "" : ", named " + quoted_list(names),
                      did_you_mean(part, names));
 }

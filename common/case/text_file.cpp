@@ -32,6 +32,8 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t largest)
   text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() > largest)
     refuse(file, fmt::format("is larger than {} MB, the most that is read", largest / 1'000'000));
+  for (const char* mark : {"\xFF\xFE", "\xFE\xFF"})
+    if (text.starts_with(mark)) refuse(file, "is UTF-16 text: save it as UTF-8");
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   return text;

@@ -75,8 +75,8 @@ Outlook outlook(const std::string& section, Solver& solver, double end_time) {
   } catch (const PhysicsFailure& failure) {
     told = std::string("but the first ones fail: ") + failure.what();
   }
-  return {fmt::format("{}: time step {:.3g} s ({} limit) at the start, {} steps to t = {:g} s, {}\n", section,
-                      dt, rule, number(steps), end_time, told),
+  return {fmt::format("{}: time step {:.3g} s ({} limit) at the start, {} step{} to t = {:g} s, {}\n",
+                      section, dt, rule, number(steps), steps > 1 ? "s" : "", end_time, told),
           time};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "common/error/counted.hpp"
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
 #include "common/run/provenance.hpp"
@@ -37,7 +38,7 @@ RunRecord::RunRecord(const std::string& participant, const Options& options, con
   summary_.provenance = provenance(omp_get_max_threads());
   summary_.time_step_rule = solver.time_step_rule();
   summary_.particles = counts;
-  for (const auto& [name, count] : counts) log::info("{} has {} particles", name, count);
+  for (const auto& [name, count] : counts) log::info("{} has {}", name, counted(count, "particle"));
   summary_.terms = solver.active_terms();
   for (const auto& term : summary_.terms)
     log::info("term {}: {}; {} [{}]", term.name, term.formula, term.parameters, term.source);
@@ -111,7 +112,7 @@ void RunRecord::finish(ExitCode code, const std::string& end_reason) {
   summary_.figures = solver_.figures();
   summary_.parts = parts();
   write_summary(out_, summary_);
-  log::info("{} steps to t = {:g} s in {:.2f} s", summary_.steps, summary_.simulated_time,
+  log::info("{} to t = {:g} s in {:.2f} s", counted(summary_.steps, "step"), summary_.simulated_time,
             summary_.wall_time);
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/error/counted.hpp"
 #include "common/error/machine.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
@@ -156,7 +157,8 @@ void SeriesWriter::resume(const State& then) {
   if (!next()) refuse("it has no head");
   const auto columns = columns_of(line);
   for (; file_->rows < then.rows; ++file_->rows)
-    if (!next()) refuse(fmt::format("it has {} rows, and had {} at the checkpoint", file_->rows, then.rows));
+    if (!next())
+      refuse(fmt::format("it has {}, and had {} at the checkpoint", counted(file_->rows, "row"), then.rows));
   file.close();
   if (completed) std::filesystem::rename(file_->path, file_->temporary);
   std::filesystem::resize_file(file_->temporary, size);

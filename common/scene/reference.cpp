@@ -9,6 +9,7 @@
 #include "common/case/input_file.hpp"
 #include "common/case/nearest_word.hpp"
 #include "common/case/text_file.hpp"
+#include "common/error/counted.hpp"
 #include "common/scene/csv_rows.hpp"
 
 namespace toryu {
@@ -58,13 +59,15 @@ Curve read_curve(const std::filesystem::path& folder, const Reference& reference
   const auto columns = rows.cells;
   const auto found = std::find(columns.begin(), columns.end(), reference.column);
   if (found == columns.end()) return refuse("column", no_column(reference, columns));
+  if (std::find(found + 1, columns.end(), reference.column) != columns.end())
+    return refuse("column", fmt::format("'{}' has two columns '{}'", reference.file, reference.column));
   const auto place = static_cast<std::size_t>(found - columns.begin());
   Curve curve;
   while (rows.next()) {
     if (rows.cells.size() != columns.size())
-      return refuse("file",
-                    fmt::format("{} cells in a row under {} columns", rows.cells.size(), columns.size()),
-                    rows.line);
+      return refuse(
+          "file", counted(rows.cells.size(), "cell") + " in a row under " + counted(columns.size(), "column"),
+          rows.line);
     for (const std::size_t k : {std::size_t{0}, place})
       if (!csv_number(rows.cells[k]))
         return refuse("file", fmt::format("'{}' is no number, in the column '{}'", rows.cells[k], columns[k]),

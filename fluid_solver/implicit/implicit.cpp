@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/error/counted.hpp"
 #include "common/error/failure.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/implicit/krylov.hpp"
@@ -120,10 +121,10 @@ void Implicit::fail_unless_solvable(double unbalance, const Effort& effort) cons
     return;
   const std::string taken =
       effort.viscosity_updates >= solver_.largest_viscosity_updates
-          ? fmt::format("{} updates of the viscosity (fluid.implicit.largest_viscosity_updates)",
-                        effort.viscosity_updates)
-          : fmt::format("{} iterations of the linear solver (fluid.implicit.largest_iterations: {})",
-                        effort.iterations, solver_.largest_iterations);
+          ? counted(effort.viscosity_updates, "update") +
+                " of the viscosity (fluid.implicit.largest_viscosity_updates)"
+          : fmt::format("{} of the linear solver (fluid.implicit.largest_iterations: {})",
+                        counted(effort.iterations, "iteration"), solver_.largest_iterations);
   throw PhysicsFailure(
       "fluid", -1, state_.time,
       "the implicit step is not solved: unbalanced force over the driving one after " + taken,

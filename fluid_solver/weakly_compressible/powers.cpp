@@ -125,6 +125,38 @@ double power_of_walls(const W& kernel, const Bodies& bodies, const PressureTerm&
   });
 }
 
+/// What the pressure takes from the motion of the fluid beyond what it stores as compression. Between
+/// particles of one density it is nothing; else one force is a gradient at p/rho^2 and one rate that at
+/// p/rho,
+///
+///     - sum_i<j m_i m_j (rho_i - rho_j)/(rho_i rho_j) (p_i/rho_i - p_j/rho_j) v_ij . gradW_ij
+///
+/// As a difference of two large sums it takes one density for both, that of the evaluation.
+template <class W, class PressureTerm, class ContinuityTerm>
+double power_of_pressure(const W& kernel, const Bodies& bodies, const PressureTerm& pressure,
+                         const ContinuityTerm& continuity) {
+  const Particles& fluid = bodies.fluid;
+  const Sources own = sources(fluid);
+  const bool axisymmetric = bodies.axisymmetric;
+  return sum_over_clusters(fluid, [&](std::size_t c) {
+    const Targets i = load_targets(fluid, c * lane_count);
+    const Lanes m = load(fluid.m, c * lane_count);
+    Lanes rho = m * inverse(max(load(fluid.V, c * lane_count), 1e-300));
+    if (axisymmetric) rho *= inverse(circumference(i.x[1]));
+    Lanes of_pressure = 0.0;
+    Rates density;
+    over_pairs<PairsOf::fluid>(kernel, bodies.neighbours.near(c), i, own,
+                               [&](std::uint32_t j, const Pair& pair) TORYU_INLINE_LAMBDA {
+                                 Rates rates;
+                                 pressure.momentum(i, own, j, pair, rates);
+                                 rates.close(pair, own.m[j]);
+                                 of_pressure += dot(rates.a, axisymmetric ? product(2.0, i.v) : pair.v_ij);
+                                 continuity.density(i, own, j, pair, density);
+                               });
+    return -sum_of(m * (0.5 * of_pressure + i.p_rho2 * rho * density.compression));
+  });
+}
+
 template <class Term>
 constexpr bool is_there = !std::is_same_v<Term, Absent>;
 
@@ -196,6 +228,10 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
                  dissipated;
         });
       }
+  });
+  note("pressure", Taken::dissipated, [&](const auto& W) {
+    return axisymmetric() ? power_of_pressure(W, bodies, RingPressure{}, RingContinuity{})
+                          : power_of_pressure(W, bodies, Pressure{}, Continuity{});
   });
   return found;
 }

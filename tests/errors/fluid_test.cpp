@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -207,6 +209,12 @@ INSTANTIATE_TEST_SUITE_P(
             "TemperatureOutsideItsTable", "fluid.temperature={value=330, shift_factors=[[290,2],[310,1]]}",
             "--set fluid.temperature={value=330, shift_factors=[[290,2],[310,1]]}: error: 'value' 330 K lies "
             "outside 'shift_factors', which go from 290 to 310 K: what the medium does there is not known"},
+        Fault{"TemperatureWithoutThatOfTheConstants",
+              "fluid.temperature={value=300, shift_factors=[[290,5],[310,3]]}",
+              "--set fluid.temperature={value=300, shift_factors=[[290,5],[310,3]]}: error: no factor in "
+              "'shift_factors' is 1, and none lies on either side of it: the temperature at which the "
+              "constants "
+              "of the medium were measured must be among the rows"},
         Fault{"TemperatureThatFalls", "fluid.temperature={value=300, shift_factors=[[310,1],[290,2]]}",
               "--set fluid.temperature={value=300, shift_factors=[[310,1],[290,2]]}: error: 'shift_factors' "
               "needs "
@@ -287,6 +295,25 @@ TEST(FluidRotation, IsRefusedWhereItsPressureIsNotKnown) {
     EXPECT_EQ(ending.code, 2) << body;
     EXPECT_THAT(ending.last_line, testing::HasSubstr("the pressure of a rotation is known of a square alone"))
         << body;
+  }
+}
+
+TEST(FluidPress, IsRefusedWhereTheSoundSpeedDoesNotBearIt) {
+  const auto pressed = [](const std::string& rows) {
+    return run(
+        "--check --set fluid.integrator=symplectic --set 'wall.floor.press={direction=\"+y\","
+        "travel=[0,0.001]," +
+        rows + "}'");
+  };
+  EXPECT_EQ(pressed("pressure=[[0,9810]]").code, 0);
+  for (const auto& [rows, told] : std::vector<std::pair<std::string, std::string>>{
+           {"pressure=[[0,0],[1,1e300]]", "1e+300 Pa at t = 1 s"}, {"force=[[0,-1e300]]", "Pa at t = 0 s"}}) {
+    const Ending ending = pressed(rows);
+    EXPECT_EQ(ending.code, 2) << rows;
+    EXPECT_THAT(ending.last_line, testing::HasSubstr("error: the press 'floor' is at")) << rows;
+    EXPECT_THAT(ending.last_line,
+                testing::HasSubstr(told + ": by that the density would change by more than 10 %"))
+        << rows;
   }
 }
 

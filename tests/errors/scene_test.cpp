@@ -219,7 +219,11 @@ INSTANTIATE_TEST_SUITE_P(
                       "case.toml:12:1: error: no column 'y[m]' in 'tip.csv'; did you mean 'y [m]'?"},
         ReferenceFile{"ColumnNearNone", "time,load[N]\n0,0\n",
                       "case.toml:12:1: error: no column 'y[m]' in 'tip.csv'; its columns are 'time', "
-                      "'load[N]'"}),
+                      "'load[N]'"},
+        ReferenceFile{"ColumnTwice", "t[s],y[m],y[m]\n0,0,1\n",
+                      "case.toml:12:1: error: 'tip.csv' has two columns 'y[m]'"},
+        ReferenceFile{"Utf16", "\xFF\xFEt",
+                      "case.toml:10:1: error: 'tip.csv' is UTF-16 text: save it as UTF-8"}),
     name_of<ReferenceFile>);
 
 std::string reference_faults(const std::string& file, const std::string& series, const std::string& column) {

@@ -63,6 +63,19 @@ TEST(Programs, RefuseTwoColumnsOfOneName) {
             "region or a wall needs another name\n");
 }
 
+TEST(Programs, RefuseAReferenceOverASeriesThatTheyDoNotWrite) {
+  const std::string of_fluid = "--set 'reference.0.series=\"fluid.csv:kinetic_enery[J/m]\"'",
+                    of_interface = "--set 'reference.0.series=\"fluid.csv:work_from_interface[J/m]\"'";
+  EXPECT_EQ(
+      check(solid, "--set 'reference.0.series=\"solid.csv:tip_x[m]\"'").error,
+      "--set reference.0.series=\"solid.csv:tip_x[m]\": error: solid.csv will have no column 'tip_x[m]'\n");
+  EXPECT_EQ(check(fluid, of_fluid).error,
+            "--set reference.0.series=\"fluid.csv:kinetic_enery[J/m]\": error: fluid.csv will have no column "
+            "'kinetic_enery[J/m]'; did you mean 'kinetic_energy[J/m]'?\n");
+  for (const auto& program : {fluid, solid}) EXPECT_EQ(check(program, of_interface).error, "");
+  EXPECT_EQ(check(solid, of_fluid).error, "");
+}
+
 TEST(Programs, RefuseSlipBesideASolid) {
   const Ending ending =
       check(fluid,

@@ -3,7 +3,7 @@ well or with exit code 2 and a place. By hand, for more of them:
 
     PYTHONPATH=tools:tests tests/mutations/mutation_test.py --count 5000 --seed 7 [--bin DIR] [--memory BYTES] [NAME ...]
 
-Programs under the address sanitizer want more address space than there is memory: --memory -1.
+Programs under the address sanitizer want more address space than there is memory: --memory -1, as CTest gives it.
 """
 
 import argparse

@@ -3,3 +3,8 @@
 import pathlib
 
 PROGRAMS = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin"  # where a build leaves them
+
+
+def counted(count, thing):
+    """"1 run", "2 runs": `thing` takes an s unless there is one."""
+    return f"{count} {thing}{'' if count == 1 else 's'}"

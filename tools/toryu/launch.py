@@ -235,6 +235,8 @@ def set_former_aside(options):
             elif words := keep_former(options.out, used_files(options)):
                 print(words, file=sys.stderr)
         except OSError as error:
+            if error.errno in program.SHORTAGES:
+                raise
             done, hint = ("removed", "") if options.overwrite else ("kept beside it", "; --overwrite removes them")
             raise SystemExit(complain(f"{options.out}: error: the former results cannot be {done}: {error}{hint}"))
 

@@ -3,7 +3,7 @@
 import math
 import re
 
-from toryu import results
+from toryu import counted, results
 
 
 def of_run(references, out):
@@ -45,8 +45,8 @@ def times(summaries):
         text = f"{wall:.1f} s"
         if waiting > 0 and wall > 0:
             text += f", {100 * waiting / wall:.0f} % of it waiting"
-        counted = "windows" if participant == "coupler" else "steps"
-        yield f"wall time {name}", f"{text}; {summary['steps']} {counted}, {summary['processor_time']:.1f} s of processor"
+        thing = "window" if participant == "coupler" else "step"
+        yield f"wall time {name}", f"{text}; {counted(summary['steps'], thing)}, {summary['processor_time']:.1f} s of processor"
 
 
 def coupling(summaries):

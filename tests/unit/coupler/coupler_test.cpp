@@ -152,6 +152,14 @@ TEST(StabilityWarnings, CountAWindowAsLongAsTheFluidsSteps) {
   EXPECT_THAT(said_of(300, serial_explicit(), power_law + "1.5"), bears);  // thin while it is at rest
 }
 
+TEST(StabilityWarnings, LeaveAWindowToTheRunWhoseViscosityTheFluidAloneKnows) {
+  const std::string long_step = "time_step_share = 5\n";
+  for (const char* medium :
+       {"medium.name = 'newtonian_1000'", "laminar_viscosity.dynamic_viscosity = 1\ntemperature.value = 300",
+        "viscoelasticity.law = 'oldroyd_b'"})
+    EXPECT_TRUE(said_of(300, serial_explicit(), long_step + medium).empty()) << medium;
+}
+
 TEST(StabilityWarnings, SeeNoDeeperThanTheKernel) {
   const Folder folder;
   std::ofstream(folder.path / "case.toml")

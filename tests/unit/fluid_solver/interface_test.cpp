@@ -224,5 +224,30 @@ TEST(PlateAtRest, BearsThePressureOfTheWater) {
   EXPECT_NEAR(impulse / time, 0.955 * expected, 0.02 * expected);
 }
 
+TEST(Interface, StandsForTheWallThatItLiesIn) {
+  omp_set_num_threads(1);
+  const auto run = [](std::vector<Wall> walls) {
+    Setting setting = tank_with_a_plate();
+    for (Wall& wall : walls) setting.scene.walls.push_back(std::move(wall));
+    WeaklyCompressible solver = setting.solver();
+    const Interface interface = plate();
+    solver.attach(interface);
+    for (int n = 0; n < 20; ++n) {
+      const double dt = 0.5 * solver.time_step_limit();
+      solver.begin_window(moved(interface, Vec::Zero(), solver.time()), dt);
+      solver.advance(dt);
+      solver.take_load();
+    }
+    return std::pair(positions(solver), solver.boundaries().size());
+  };
+  const auto alone = run({}), in_wall = run({{"right", {Vec(0.5, 0), Vec(0.65, 0.6)}, {}}});
+  EXPECT_EQ(largest_difference(alone.first, in_wall.first), 0);
+  Wall work_piece{"right", {Vec(0.5, 0), Vec(0.65, 0.6)}, {}};
+  work_piece.work_piece = true;
+  const auto in_work_piece = run({work_piece});
+  EXPECT_EQ(largest_difference(alone.first, in_work_piece.first), 0);
+  EXPECT_EQ(in_work_piece.second, 2u) << "nothing of the wall is left";
+}
+
 }  // namespace
 }  // namespace toryu::fluid

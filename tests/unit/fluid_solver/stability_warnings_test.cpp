@@ -117,8 +117,9 @@ TEST(FluidGuards, KnowWhatIsTooThinToPartWater) {
   };
   EXPECT_FALSE(wall(2, 20, 0.01));
   EXPECT_FALSE(wall(20, 4, 0.005));
-  EXPECT_THAT(*wall(1, 20, 0.01), HasSubstr("'leaf' is 0.01 m thick in places, and below 2h - d0 = 0.02 m"));
-  EXPECT_THAT(*wall(20, 3, 0.005), HasSubstr("is 0.015 m thick"));
+  EXPECT_THAT(*wall(1, 20, 0.01), HasSubstr("'leaf' is 0.01 m thick in places, a single row of particles, "
+                                            "through which fluid leaks, and below 2h - d0 = 0.02 m"));
+  EXPECT_THAT(*wall(20, 3, 0.005), HasSubstr("is 0.015 m thick in places, and below"));
   EXPECT_FALSE(wall(1, 15, 0.01)) << "as few as the poles of a round body";
 }
 

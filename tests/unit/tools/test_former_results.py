@@ -1,12 +1,15 @@
 """What becomes of results that are in the folder of a new run: kept beside it, or removed."""
 
+import argparse
+import errno
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 from launch_case import Launch
 
-from toryu import PROGRAMS, results_folder
+from toryu import PROGRAMS, launch, results_folder
 
 OURS = ["fluid.csv", "solid.csv.part", "frames/fluid_000003.hdf", "fluid.hdf.series", "report.html", "log.txt",
         "coupler_summary.toml", "interface.h5.rows.part", "checkpoint/000001/fluid.h5",
@@ -52,6 +55,12 @@ class FormerResults(Launch):
             self.assertIn(f"kept the former results in {self.former(number)} (", self.launch().stderr)
         self.assertEqual((self.former(2) / "fluid.csv").read_text(), "time[s]")
         self.assertEqual((self.out / "fluid.csv").read_text(), "time[s]")
+
+    def test_what_the_machine_lacks_is_no_fault_of_the_input(self):
+        options = argparse.Namespace(out=self.out, overwrite=False, bin=PROGRAMS)
+        lack = OSError(errno.EMFILE, "Too many open files")
+        with unittest.mock.patch.object(launch, "keep_former", side_effect=lack), self.assertRaises(OSError):
+            launch.set_former_aside(options)
 
     def test_they_are_removed_if_that_is_asked_for(self):
         self.leave_results()

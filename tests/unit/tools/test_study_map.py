@@ -130,7 +130,7 @@ resolution = 0.6
         plain, other = self.table("edges.csv")
         self.assertEqual((plain["stiffness"], plain["model"], plain["step_edge[s]"] != ""), ("16", "plain", True))
         self.assertEqual((other["model"], other["step_edge[s]"], other["verdict"]), ("always fails", "", "unstable"))
-        self.assertIn("always fails: an edge at 0 of 1 values", ended.stdout)
+        self.assertIn("always fails: an edge at 0 of 1 value of", ended.stdout)
         self.assertTrue((self.out / "charts/edges.svg").is_file())
 
     def test_a_map_over_two_lists(self):

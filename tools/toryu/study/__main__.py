@@ -10,7 +10,7 @@ import pathlib
 import sys
 import time
 
-from toryu import PROGRAMS, program
+from toryu import PROGRAMS, counted, program
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
 from toryu.study import (bisection, calibration, calibration_search, charts, checks, map_file, page, recession,
                          recession_search, removal, runner, study_file, table, terms, timing, verdicts)
@@ -78,14 +78,14 @@ def run(options):
     if options.list:
         list_runs(known, done)
         if study.searched:
-            print(f"{number_of_runs(study, make, known)} runs: where the next ones lie depends on these")
+            print(f"{number_of_runs(study, make, known)}: where the next ones lie depends on these")
         program.must_be_printed()
         return DONE
     checks.settings(study, runs, [s for s in known if s.key not in done], options.set)
     if study.recession and known:
         study.recession.longest = checks.longest(study, runs, known[0], recession.LONGEST)
     if options.check:
-        print(f"{study.path}: no errors; {number_of_runs(study, make, known)} runs, {len(done)} of them done")
+        print(f"{study.path}: no errors; {number_of_runs(study, make, known)}, {len(done)} of them done")
         return DONE
     begin = time.monotonic()
     with runner.hold(study, out):
@@ -100,11 +100,11 @@ def run(options):
 
 
 def number_of_runs(study, make, known):
-    if study.recession:
-        return f"{len(known)} and more"
-    if study.calibration:
-        return f"{len(known)} and more" if study.calibration.fit is None else len(known)
-    return f"at most {bisection.most_runs(study, make)}" if study.searched else len(known)
+    if study.recession or study.calibration and study.calibration.fit is None:
+        return f"{counted(len(known), 'run')} and more"
+    if study.searched and not study.calibration:
+        return f"at most {counted(bisection.most_runs(study, make), 'run')}"
+    return counted(len(known), "run")
 
 
 def search(study, make, run):
@@ -158,7 +158,7 @@ def finish(study, records, out, kept, elapsed, versions):
     answers = [answer for view in views for answer in view.answers(study, made, out)] + charts.answers(study, made)
     page.write(out / "study.html", study, made, records, drawn, answers, versions)
     failed = sum(record.exit_code != DONE for record in records)
-    print(f"{len(records)} runs" + (f", {failed} of them ended by their physics" if failed else "") +
+    print(counted(len(records), "run") + (f", {failed} of them ended by their physics" if failed else "") +
           (f"; {kept} were done before" if kept else "") + f"; {duration(elapsed)}")
     if study.timing:
         print(timing.sentence(study.timing, records))

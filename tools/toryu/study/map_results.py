@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from dataclasses import dataclass
 
+from toryu import counted
 from toryu.program import whole_file
 from toryu.report import tables
 from toryu.study import bisection, page, verdicts
@@ -69,7 +70,7 @@ def answers(study, table, out):
 def counts(table):
     found = Counter(row["verdict"] for row in table.rows)
     told = ", ".join(f"{found[kind]} {kind}" for kind in verdicts.WORDS if found[kind])
-    return f"{len(table.rows)} runs: {told}."
+    return f"{counted(len(table.rows), 'run')}: {told}."
 
 
 def edge_sentences(study, every):
@@ -79,7 +80,7 @@ def edge_sentences(study, every):
         found = [column for column in mine if column.stable is not None]
         name = f"{edge_of}: " if edge_of is not None else ""
         edges = [column.edge(y) for column in found]
-        text = f"{name}an edge at {len(found)} of {len(mine)} values of {made.x_name.replace('_', ' ')}"
+        text = f"{name}an edge at {len(found)} of {counted(len(mine), 'value')} of {made.x_name.replace('_', ' ')}"
         if edges:
             text += f", {y.axis.name.replace('_', ' ')} {min(edges):.4g} to {max(edges):.4g} {y.axis.unit}".rstrip()
         text += "."

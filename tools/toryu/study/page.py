@@ -9,7 +9,7 @@ import platform
 import re
 import string
 
-from toryu import program, results
+from toryu import counted, program, results
 from toryu.processes import DONE
 from toryu.report import data, tables
 from toryu.study import runner, timing
@@ -39,10 +39,10 @@ def write(path, study, table, records, drawn, answers, versions):
 def state(records):
     failed = sum(r.exit_code != DONE for r in records)
     if hung := sum(r.exit_code == runner.HUNG for r in records):
-        return f'<span class="badge bad">{hung} of {len(records)} runs hung: a bug</span>'
+        return f'<span class="badge bad">{hung} of {counted(len(records), "run")} hung: a bug</span>'
     if not failed:
         return '<span class="badge good">All runs done</span>'
-    return f'<span class="badge stopped">Done; {failed} of {len(records)} runs ended by their physics</span>'
+    return f'<span class="badge stopped">Done; {failed} of {counted(len(records), "run")} ended by their physics</span>'
 
 
 def tiles(study, table, records):

@@ -3,6 +3,8 @@
 import sys
 import time
 
+from toryu import counted
+
 
 def duration(seconds):
     whole = round(seconds)
@@ -26,7 +28,7 @@ class Progress:
         self.done, self.began, self.spent = len(known), time.monotonic(), 0.0
         kept = f", {self.kept} of them done before" if self.kept else ""
         if total > self.kept:
-            print(f"{total} runs{kept}; {jobs} at a time", file=self.stream)
+            print(f"{counted(total, 'run')}{kept}; {jobs} at a time", file=self.stream)
 
     def left(self, running):
         """Time left [s] if the others take as long as those that are done, or None. `running`: ages [s]."""
@@ -49,7 +51,7 @@ class Progress:
             return
         self.last = now
         left = self.left(running)
-        text = (f"{done} of {self.total} runs done, {len(running)} running, "
+        text = (f"{done} of {counted(self.total, 'run')} done, {len(running)} running, "
                 f"{'unknown time' if left is None else duration(left)} left")
         print(f"\r{text}\x1b[K" if self.terminal else text, end="" if self.terminal else "\n", file=self.stream,
               flush=True)

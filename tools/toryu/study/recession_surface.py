@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from toryu import surface
+from toryu import counted, surface
 from toryu.report import along
 from toryu.study.removed_depth import law_of
 from toryu.surface import SIDES
@@ -153,7 +153,7 @@ def same_points(first, file):
     for face in first.faces:
         other = now.get((face.wall, face.side))
         if other is None or len(other.rows) != len(face.rows):
-            raise NoRate(f"the {face.side} face of '{face.wall}' has {len(other.rows) if other else 0} points, and had "
+            raise NoRate(f"the {face.side} face of '{face.wall}' has {counted(len(other.rows) if other else 0, 'point')}, and had "
                          f"{len(face.rows)}")
         rows.append(other.rows)
     return np.concatenate(rows)

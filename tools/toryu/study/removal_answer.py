@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from toryu import counted
 from toryu.report import data, tables
 from toryu.study import page
 from toryu.study.answer import Answer
@@ -108,7 +109,7 @@ def best_setting(wanted, study, table, met):
     sentence = (f"{in_words(wanted.depth, 'm')} come off {BY[wanted.first][1]} with {page.setting_text(study, best)}: "
                 f"{figures_text(best)}.")
     if limits:
-        sentence += f" {len(met)} of {len(table.rows)} settings keep {limits}."
+        sentence += f" {len(met)} of {counted(len(table.rows), 'setting')} keep {limits}."
     fastest = min(met, key=lambda row: row["time_needed"])
     if fastest["time_needed"] < best["time_needed"]:
         sentence += (f" The fastest{' of them' if limits else ''}: {page.setting_text(study, fastest)}; "

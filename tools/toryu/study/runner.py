@@ -10,7 +10,7 @@ import sys
 import time
 from dataclasses import asdict, dataclass, field, replace
 
-from toryu import program, results
+from toryu import counted, program, results
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import (BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, own_pause, pauses,
                              requests_to_end, start)
@@ -198,7 +198,7 @@ class Runner:
                 signal.signal(number, handler)
             self.progress.end()
         if self.interruptions:
-            raise Ended(INTERRUPTED, f"interrupted; {len(records)} of {len(settings)} runs are done and kept: the same "
+            raise Ended(INTERRUPTED, f"interrupted; {len(records)} of {counted(len(settings), 'run')} are done and kept: the same "
                                      "command goes on from there")
         return [replace(records[s.key], setting=s) for s in settings]
 

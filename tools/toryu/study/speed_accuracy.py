@@ -4,6 +4,7 @@ error."""
 import math
 from dataclasses import dataclass
 
+from toryu import counted
 from toryu.report import tables
 from toryu.study import oscillation, page, speed_accuracy_chart
 from toryu.study.answer import Answer
@@ -86,7 +87,7 @@ def answer(chart, study, table):
     sentences = [sentence(chart, study, lines, wanted) for wanted in sorted(chart.wanted, reverse=True)]
     parts = [exponents(lines), front_table(chart, study, front(points)), left_out(chart, study, table, points),
              marks(chart)]
-    return Answer(chart.title, "\n".join(sentences) or f"{len(front(points))} settings are on the front.", "".join(parts))
+    return Answer(chart.title, "\n".join(sentences) or f"On the front: {counted(len(front(points)), 'setting')}.", "".join(parts))
 
 
 def in_words(value, unit):

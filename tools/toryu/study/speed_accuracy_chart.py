@@ -2,6 +2,7 @@
 
 import math
 
+from toryu import counted
 from toryu.study import drawing, page
 
 DASHES = ("-", "--", ":")
@@ -32,7 +33,7 @@ def legend_of(line):
         return words
     if line.exponent <= 0:
         return f"{words}  (does not fall)"
-    return f"{words}  (k = {line.exponent:.2f}, {len(line.points)} points)"
+    return f"{words}  (k = {line.exponent:.2f}, {counted(len(line.points), 'point')})"
 
 
 def draw_front(panel, chart, front, factor):

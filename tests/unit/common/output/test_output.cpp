@@ -148,7 +148,7 @@ TEST_F(Output, ASeriesThatLacksRowsIsNotGoneOnWith) {
   {
     SeriesWriter series(out, "solid");
     EXPECT_THAT([&] { series.resume(then); },
-                testing::ThrowsMessage<BadInput>(HasSubstr("it has 1 rows, and had 2 at the checkpoint")));
+                testing::ThrowsMessage<BadInput>(HasSubstr("it has 1 row, and had 2 at the checkpoint")));
   }
   EXPECT_EQ(text("solid.csv"), "time[s],a[m]\n0,1\n0.1");
   EXPECT_THAT(files(), ElementsAre("solid.csv"));
