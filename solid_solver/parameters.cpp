@@ -9,6 +9,26 @@ void describe(ParameterTable& table, NamedBox& box) {
   table.group("box", box.box, "its corners");
 }
 
+void describe(ParameterTable& table, Clamp& clamp) {
+  table.text("name", clamp.name, {.required = true, .help = "as the log calls it"});
+  table.group("box", clamp.box, "its corners");
+  table.text(
+      "moves_with", clamp.moves_with,
+      {.help = "the [[motion]] that it shares, by name; without it the clamp goes with a wall that holds it, "
+               "else it stands still"});
+}
+
+void describe(ParameterTable& table, Pulse& pulse) {
+  describe_sine(table, pulse, "1");
+}
+
+double BoxLoad::factor_at(double t) const {
+  if (!changes()) return 1;
+  double sum = value_in(factor, t);
+  for (const Pulse& pulse : sine) sum += pulse.value_at(t);
+  return sum;
+}
+
 void describe(ParameterTable& table, Region& region) {
   table.text("name", region.name, {.required = true, .help = "name of the region", .names_columns = true});
   table.group("box", region.box, "its corners");
@@ -22,6 +42,10 @@ void describe(ParameterTable& table, BoxLoad& load) {
   table.text("name", load.name, {.required = true, .help = "name of the load"});
   table.group("box", load.box, "the particles in it share the force equally");
   table.vector("force", load.force, {.unit = "N/m", .required = true, .help = "force per metre of depth"});
+  table.rows("factor", load.factor, {"time [s]", "factor [1]"},
+             {.help = "multiplies the force; linear in between, constant before and after"});
+  require_rising(table, "factor", load.factor, "times");
+  table.list("sine", load.sine, "factors that swing, added to the rows of 'factor'");
 }
 
 void describe(ParameterTable& table, SolidLimits& limits) {
@@ -92,8 +116,8 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
 void describe_body(ParameterTable& table, Parameters& p) {
   table.list("region", p.regions, "boxes filled with the solid; they may touch but not overlap");
   table.list("hole", p.holes, "boxes cut out of the regions");
-  table.list("clamp", p.clamps, "boxes whose particles are held in place");
-  table.list("load", p.loads, "constant forces on the particles of a box");
+  table.list("clamp", p.clamps, "boxes whose particles are held, or moved as prescribed");
+  table.list("load", p.loads, "forces on the particles of a box");
   table.list("observer", p.observers, "material points whose displacement goes to solid.csv");
   table.optional("initial_velocity", p.initial_velocity, "velocity at the start; absent: at rest");
 }

@@ -143,7 +143,7 @@ void CaseFile::visit(const std::function<void(ParameterTable&)>& description) {
   // In this order: the description shows the defaults, the used case what has been read.
   DescribeTable described;
   description(described);
-  ReadTable read(&content_->root, "", "", content_->start, content_->faults);
+  ReadTable read(&content_->root, "", "", content_->start, content_->file.parent_path(), content_->faults);
   description(read);
   WriteTable written;
   description(written);

@@ -7,17 +7,19 @@
 #include <cmath>
 #include <set>
 
+#include "common/case/csv_file.hpp"
 #include "common/case/nearest_word.hpp"
 #include "common/case/rule_text.hpp"
 
 namespace toryu {
 
 ReadTable::ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
-                     std::vector<InputError>& faults)
+                     std::filesystem::path folder, std::vector<InputError>& faults)
     : table_(table),
       path_(std::move(path)),
       where_(std::move(where)),
       place_(std::move(place)),
+      folder_(std::move(folder)),
       faults_(faults),
       faults_apart_(faults.size()) {}
 
@@ -86,6 +88,8 @@ void ReadTable::rows(const std::string& key, std::vector<std::vector<double>>& v
       fmt::format("rows of {} numbers ({})", columns.size(), fmt::join(columns, ", "));
   const toml::node* node = find(key, rule.required, row_kind, rule.help);
   if (!node) return;
+  if (const auto file = node->value_exact<std::string>())
+    return read_rows_of_file(key, *file, columns, value);
   const toml::array* array = node->as_array();
   if (!array) return wrong_type(key, row_kind, *node, place_of_key(key));
   std::vector<std::vector<double>> read;
@@ -93,6 +97,20 @@ void ReadTable::rows(const std::string& key, std::vector<std::vector<double>>& v
     if (const auto numbers = checked_numbers(key, row, columns.size(), {}, row_kind, row.source()))
       read.push_back(*numbers);
   if (read.size() == array->size()) value = read;
+}
+
+void ReadTable::read_rows_of_file(const std::string& key, const std::string& name,
+                                  const std::vector<std::string>& columns,
+                                  std::vector<std::vector<double>>& value) {
+  std::optional<CsvFault> found;
+  auto read = read_rows(folder_, name, columns, found);
+  if (!found)
+    value = std::move(read);
+  else if (found->line > 0)
+    faults_.push_back(
+        {.place = (folder_ / name).string(), .line = found->line, .column = 1, .message = found->message});
+  else
+    fault(place_of_key(key), found->message);
 }
 
 void ReadTable::word(const std::string& key, int& index, const std::vector<std::string>& words,
@@ -126,7 +144,7 @@ void ReadTable::required_section(const std::string& key, const std::string& help
 void ReadTable::read_section(const toml::table* table, const std::string& key,
                              const std::function<void(ParameterTable&)>& visit) {
   const std::string path = path_of(key);
-  ReadTable inner(table, path, " in [" + path + "]", table ? place_of_key(key) : place_, faults_);
+  ReadTable inner(table, path, " in [" + path + "]", table ? place_of_key(key) : place_, folder_, faults_);
   visit(inner);
   inner.report_unknown_keys();
 }
@@ -147,7 +165,7 @@ void ReadTable::items(const std::string& key, std::size_t /*count*/, const std::
       wrong_type(key, "a list of sections " + header, item, place);
       continue;
     }
-    ReadTable inner(item.as_table(), path_of(key), " in " + header, place, faults_);
+    ReadTable inner(item.as_table(), path_of(key), " in " + header, place, folder_, faults_);
     visit(i, inner);
     inner.report_unknown_keys();
   }

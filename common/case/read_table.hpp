@@ -1,6 +1,8 @@
 /// The visitor that reads a section of a case file into its owner's parameters and collects what is wrong.
 #pragma once
 
+#include <filesystem>
+
 #include "common/case/document.hpp"
 #include "common/case/parameter_table.hpp"
 
@@ -9,9 +11,10 @@ namespace toryu {
 class ReadTable final : public ParameterTable {
  public:
   /// `table` is null where the case has no such section; `path` is its dotted name, `where` the same for a
-  /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported.
+  /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported,
+  /// `folder` the case's, where the files of its tables are.
   ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
-            std::vector<InputError>& faults);
+            std::filesystem::path folder, std::vector<InputError>& faults);
 
   void number(const std::string& key, double& value, const NumberRule& rule) override;
   void integer(const std::string& key, int& value, const NumberRule& rule) override;
@@ -55,6 +58,8 @@ class ReadTable final : public ParameterTable {
                                                      std::size_t count, const NumberRule& rule,
                                                      const std::string& kind,
                                                      const toml::source_region& place);
+  void read_rows_of_file(const std::string& key, const std::string& name,
+                         const std::vector<std::string>& columns, std::vector<std::vector<double>>& value);
   void read_section(const toml::table* table, const std::string& key,
                     const std::function<void(ParameterTable&)>& visit);
   void require_names_differ(const toml::array& items, const std::string& header);
@@ -63,6 +68,7 @@ class ReadTable final : public ParameterTable {
   const toml::table* table_;
   std::string path_, where_;
   toml::source_region place_;
+  std::filesystem::path folder_;
   std::vector<InputError>& faults_;
   std::vector<std::string> known_;
   /// Faults there were before this section, plus those of its own joint checks.

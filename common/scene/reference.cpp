@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <sstream>
 
+#include "common/case/csv_file.hpp"
 #include "common/case/nearest_word.hpp"
 #include "common/case/text_file.hpp"
 
@@ -22,62 +21,6 @@ constexpr std::array results_files = {
 };
 /// By which runs keep to themselves, find each other and are stopped.
 constexpr std::array control_files = {"run.lock", "launch.lock", "run.secret", "stop"};
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// The cells of a line. A cell may stand in quotes, within which a comma parts nothing and "" is a quote.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool two_quotes = quoted && line[i] == '"' && i + 1 < line.size() && line[i + 1] == '"';
-    if (two_quotes)
-      cells.back() += line[i++];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += line[i];
-  }
-  for (auto& cell : cells) cell = trimmed(cell);
-  return cells;
-}
-
-/// The lines of a text that say something, with their cells.
-class Rows {
- public:
-  explicit Rows(const std::string& text) : stream_(text) {}
-  bool next() {
-    for (std::string text; std::getline(stream_, text);) {
-      ++line;
-      if (text.starts_with('#') || trimmed(text).empty()) continue;
-      cells = cells_of(text);
-      return true;
-    }
-    return false;
-  }
-  int line = 0;
-  std::vector<std::string> cells;
-
- private:
-  std::istringstream stream_;
-};
-
-/// A finite number; NaN for a gap; nothing for any other text.
-std::optional<double> number(const std::string& cell) {
-  if (cell.empty()) return NAN;
-  const char* const end = cell.data() + cell.size();
-  double value = 0;
-  const auto [rest, error] = std::from_chars(cell.data() + (cell[0] == '+'), end, value);
-  if (error == std::errc::result_out_of_range) return NAN;
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return std::isfinite(value) ? value : NAN;
-}
 
 std::string no_column(const Reference& reference, const std::vector<std::string>& columns) {
   const bool other_comma = columns.size() == 1 && columns[0].find_first_of(";\t") != std::string::npos;
@@ -94,13 +37,9 @@ std::string no_column(const Reference& reference, const std::vector<std::string>
 }
 
 /// What is wrong with the path of the file, before it is read.
-std::optional<std::string> fault_of_path(const std::filesystem::path& folder, const std::string& name) {
-  const std::filesystem::path path(name);
-  for (const auto& part : path)
-    if (path.is_absolute() || part == "..")
-      return fmt::format("'{}' must lie in the folder of the case", name);
-  if (!is_file(folder / path)) return fmt::format("no file '{}' in the folder of the case", name);
-  if (is_written_by_runs(path))
+std::optional<std::string> fault_of_reference(const std::filesystem::path& folder, const std::string& name) {
+  if (const auto wrong = fault_of_path(folder, name)) return wrong;
+  if (is_written_by_runs(name))
     return fmt::format(
         "'{}' is the name of a file of the results, beside which a copy of the reference is kept; give it "
         "another name or put it into a folder",
@@ -116,14 +55,14 @@ Curve read_curve(const std::filesystem::path& folder, const Reference& reference
     fault = {.key = key, .message = message, .line = line};
     return Curve{};
   };
-  if (const auto wrong = fault_of_path(folder, reference.file)) return refuse("file", *wrong);
+  if (const auto wrong = fault_of_reference(folder, reference.file)) return refuse("file", *wrong);
   std::string text;
   try {
     text = read_text(folder / reference.file, largest_reference);
   } catch (const BadInput& error) {
     return refuse("file", fmt::format("'{}' {}", reference.file, error.errors()[0].message));
   }
-  Rows rows(text);
+  CsvLines rows(text);
   if (!rows.next()) return refuse("file", fmt::format("'{}' is empty", reference.file));
   const auto columns = rows.cells;
   const auto found = std::find(columns.begin(), columns.end(), reference.column);
@@ -136,10 +75,10 @@ Curve read_curve(const std::filesystem::path& folder, const Reference& reference
                     fmt::format("{} cells in a row under {} columns", rows.cells.size(), columns.size()),
                     rows.line);
     for (const std::size_t k : {std::size_t{0}, place})
-      if (!number(rows.cells[k]))
+      if (!number_in(rows.cells[k]))
         return refuse("file", fmt::format("'{}' is no number, in the column '{}'", rows.cells[k], columns[k]),
                       rows.line);
-    const double time = *number(rows.cells[0]), value = *number(rows.cells[place]);
+    const double time = *number_in(rows.cells[0]), value = *number_in(rows.cells[place]);
     if (std::isnan(time) || std::isnan(value)) continue;
     curve.time.push_back(time);
     curve.value.push_back(value);
