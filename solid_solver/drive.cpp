@@ -27,6 +27,7 @@ Drive::Drive(const Parameters& parameters, const Body& body, const Scene& scene)
     for (const auto i : body.inside(clamp.box)) clamp_of[i] = &clamp;
   for (const Clamp& clamp : parameters.clamps) {
     if (!clamp.motion) continue;
+    turns_ = turns_ || clamp.motion->turns();
     MovingClamp& moving = clamps_.emplace_back(MovingClamp{*clamp.motion, {}});
     for (std::uint32_t i = 0; i < body.size(); ++i)
       if (clamp_of[i] == &clamp) moving.particles.push_back(i);
@@ -47,11 +48,6 @@ std::vector<Vec> Drive::accelerations(double t) const {
     for (std::size_t n = 0; n < particles.size(); ++n) a[particles[n]] += each / masses[n];
   }
   return a;
-}
-
-bool Drive::turns() const {
-  return std::any_of(clamps_.begin(), clamps_.end(),
-                     [](const MovingClamp& clamp) { return clamp.motion.turns(); });
 }
 
 Pose Drive::pose(double t) const {

@@ -30,7 +30,7 @@ class Drive {
   };
   const std::vector<MovingClamp>& clamps() const { return clamps_; }
   /// Whether clamps turn; then all move as one.
-  bool turns() const;
+  bool turns() const { return turns_; }
   Pose pose(double t) const;  ///< of clamps that turn
 
  private:
@@ -40,7 +40,7 @@ class Drive {
     std::vector<double> masses = {};  ///< [kg/m]
   };
   Scene scene_;
-  bool changes_ = false;
+  bool changes_ = false, turns_ = false;
   std::vector<Vec> steady_;
   std::vector<Share> changing_;  ///< loads
   std::vector<MovingClamp> clamps_;
