@@ -91,13 +91,20 @@ void Boundary::move(double time) {
         if constexpr (!std::is_same_v<Kind, Still>) move_to(of_kind.at(time));
       },
       motion);
+  if (!turns()) return;
+  const Pose pose = std::get<PrescribedMotion>(motion).motion.pose_at(time);
+  orientation = pose.rotation;
+  pivot = pose.centre;
+  angular_velocity = pose.angular_velocity;
 }
 
 void Boundary::count_force(double dt) {
   const Vec on_fluid = force_on_fluid.force();
   impulse.total += dt * on_fluid;
   impulse.friction += dt * force_on_fluid.friction();
-  work += dt * power(on_fluid);
+  const double given = power(on_fluid);
+  work += dt * given;
+  if (turns()) moment = moment_on_fluid(), power_given = given;
   counted = true;
 }
 
@@ -105,12 +112,23 @@ double Boundary::power(const Vec& on_fluid) const {
   if (!moves()) return 0;
   if (const auto* pressed = std::get_if<PressedMotion>(&motion))
     return pressed->mean_speed * on_fluid.dot(pressed->press.axis());
-  if (!is_interface()) return on_fluid.dot(at(v, 0));  // rigid
+  if (!is_interface() && !turns()) return on_fluid.dot(at(v, 0));  // rigid, without a turn
   const bool rubbed = !friction_force[0].empty();
   double sum = 0;
   for (std::size_t k = 0; k < count; ++k) {
     sum -= at(force, k).dot(at(v, k));
     if (rubbed) sum -= at(friction_force, k).dot(at(v, k));
+  }
+  return sum;
+}
+
+double Boundary::moment_on_fluid() const {
+  const bool rubbed = !friction_force[0].empty();
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec across = Pose::across(at(x, k) - pivot);
+    sum -= across.dot(at(force, k));
+    if (rubbed) sum -= across.dot(at(friction_force, k));
   }
   return sum;
 }

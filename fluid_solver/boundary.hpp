@@ -93,6 +93,13 @@ struct Boundary {
 
   bool fitted = false;  ///< see wall_extrapolation.hpp
 
+  // of a wall that turns, as it was moved last
+  Mat orientation = Mat::Identity();  ///< of its faces
+  Vec pivot = Vec::Zero();            ///< about which it turns, and by which moments count [m]
+  double angular_velocity = 0;        ///< [rad/s]
+  double moment = 0;                  ///< on the fluid, when a force was counted last [N.m per metre depth]
+  double power_given = 0;             ///< likewise [W per metre depth]
+
   ForceOnFluid force_on_fluid;  ///< of the last evaluation that asked for it
   Impulse impulse;              ///< of what was counted
   double work = 0;              ///< done on the fluid likewise [J per metre depth]
@@ -112,6 +119,14 @@ struct Boundary {
   void know_faces(const FaceDepths& depths, bool fit = true);
   bool knows_faces() const { return !depth_up[0].empty(); }
   bool is_slippery() const { return !slip_velocity[0].empty(); }
+  /// Whether its motion is prescribed and turns it.
+  bool turns() const {
+    const auto* prescribed = std::get_if<PrescribedMotion>(&motion);
+    return prescribed && prescribed->motion.turns();
+  }
+  /// A direction of the body as it was at the start, as it is now, and the other way round.
+  Vec turned(const Vec& of_body) const { return turns() ? Vec(orientation * of_body) : of_body; }
+  Vec turned_back(const Vec& now) const { return turns() ? Vec(orientation.transpose() * now) : now; }
   bool moves() const { return !std::holds_alternative<Still>(motion); }
   /// Whether a cluster of the fluid is in reach.
   bool acts_on(std::size_t cluster) const {
@@ -132,8 +147,10 @@ struct Boundary {
   void move_to(Of&& kinematics);
   /// What the last evaluation does on the fluid, with the force `on_fluid` in all [W per metre depth].
   double power(const Vec& on_fluid) const;
-  /// Counts what the last evaluation did to the fluid for `dt` [s]; of the interface `force` and
-  /// `friction_force` must be there.
+  /// By `force` and `friction_force` of its particles, about its pivot [N.m per metre depth].
+  double moment_on_fluid() const;
+  /// Counts what the last evaluation did to the fluid for `dt` [s]; of the interface and of a wall that turns
+  /// `force` and `friction_force` must be there.
   void count_force(double dt);
 };
 
@@ -152,12 +169,14 @@ template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
   auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
          to_outline, p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress,
-         force, friction_length, friction_force, fitted, force_on_fluid, impulse, work, counted,
-         list_for_wall, list_for_fluid, strips] = boundary;
+         force, friction_length, friction_force, fitted, orientation, pivot, angular_velocity, moment,
+         power_given, force_on_fluid, impulse, work, counted, list_for_wall, list_for_fluid, strips] =
+      boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
   archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, to_outline,
           p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress, force,
-          friction_length, friction_force, impulse, work, counted);
+          friction_length, friction_force, orientation, pivot, angular_velocity, moment, power_given, impulse,
+          work, counted);
 }
 
 inline Sources sources(const Boundary& b) {

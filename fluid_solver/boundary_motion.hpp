@@ -27,9 +27,14 @@ struct PrescribedMotion {
 
   /// Gives what particle k does at `time` [s].
   auto at(double time) const {
-    return [this, shift = motion.displacement_at(time), v = motion.velocity_at(time),
-            a = motion.mean_acceleration(time, response_time)](std::uint32_t k) {
-      return Kinematics{start[k] + shift, v, a};
+    return [this, pose = motion.pose_at(time), turns = motion.turns(),
+            a = motion.mean_acceleration(time, response_time),
+            alpha = motion.mean_angular_acceleration(time, response_time)](std::uint32_t k) {
+      if (!turns) return Kinematics{start[k] + pose.centre, pose.velocity, a};
+      const Vec r = pose.turned(start[k] - pose.about), across = Pose::across(r);
+      const double omega = pose.angular_velocity;
+      return Kinematics{pose.centre + r, pose.velocity + omega * across,
+                        a + alpha * across - omega * omega * r};
     };
   }
 };

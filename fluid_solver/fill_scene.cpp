@@ -1,6 +1,7 @@
 /// Fills regions and walls with particles, and looks whether two bodies are in one place.
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 
@@ -92,7 +93,8 @@ void FluidModel::fill_regions() {
   std::iota(f.id.begin(), f.id.end(), 0u);
   resize_fields(f, room_of(f.count, scene_.geometry));
 
-  const double g = scene_.gravity.norm();
+  const Vec gravity = scene_.gravity_at(0);
+  const double g = gravity.norm();
   std::vector<char> filled(boxes.size(), 0);
   for (std::size_t i = 0; i < f.count; ++i) {
     set(f.x, i, points[i]);
@@ -103,7 +105,7 @@ void FluidModel::fill_regions() {
       }
     f.rho[i] = parameters_.density;
     if (const auto& start = parameters_.hydrostatic_start; start && g > 0) {
-      const double depth = start->surface_level + scene_.gravity.dot(points[i]) / g;
+      const double depth = start->surface_level + gravity.dot(points[i]) / g;
       f.rho[i] = density_at_depth(parameters_, g, depth);
     }
     start_flow(i);
@@ -145,6 +147,7 @@ PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& poin
 
 void FluidModel::fill_walls() {
   WallParticles still;
+  std::map<std::string, WallParticles> groups;  // of walls that share a motion, by its name
   const auto add = [&](const std::string& name, const WallParticles& made, const Wall* wall) {
     Boundary& boundary = state_.boundaries.emplace_back();
     boundary.name = name;
@@ -165,15 +168,22 @@ void FluidModel::fill_walls() {
     const WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));
     const std::string place = fmt::format("[[wall]] '{}'", wall.name);
     const bool on_its_own = wall.motion || wall.press || wall.work_piece;
+    const bool in_group = !wall.moves_with.empty() && !wall.work_piece;
     if (made.places.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
     if (on_its_own && (wall.name == "walls" || wall.name == "interface"))
       throw BadInput({{place, 0, 0,
                        "results call the walls at rest 'walls', the solid 'interface'; this "
                        "one, a body of its own, needs another name"}});
-    if (on_its_own)
+    if (in_group)
+      groups[wall.moves_with].join(made);
+    else if (on_its_own)
       add(wall.name, made, &wall);
     else
       still.join(made);
+  }
+  for (const auto& [name, made] : groups) {
+    const Wall as_one{.name = name, .box = {}, .motion = *shared_motion(scene_, name)};
+    add(name, made, &as_one);
   }
   if (!still.places.empty()) add("walls", still, nullptr);
   move_boundaries(0.0);

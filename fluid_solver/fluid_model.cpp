@@ -207,9 +207,20 @@ void FluidModel::count_forces(double dt) {
       pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
   const Field& m = state_.fluid.m;
+  const Vec gravity = scene_.gravity_at(state_.time + 0.5 * dt);
   state_.gravity_impulse +=
       dt * std::reduce(m.begin(), m.begin() + static_cast<std::ptrdiff_t>(padded(state_.fluid.count))) *
-      scene_.gravity;
+      gravity;
+  if (scene_.gravity_change) state_.work_of_gravity_change += dt * power_of(gravity - scene_.gravity, dt);
+}
+
+double FluidModel::power_of(const Vec& change, double dt) const {
+  const bool kicks = parameters_.integrator == Integrator::symplectic;  // by the mean of before and after
+  double sum = 0;
+  for (std::size_t i = 0; i < state_.fluid.count; ++i)
+    sum += state_.fluid.m[i] *
+           change.dot(at(state_.fluid.v, i) + (kicks ? 0.5 * dt : 0.0) * at(state_.fluid.a, i));
+  return sum;
 }
 
 }  // namespace toryu::fluid

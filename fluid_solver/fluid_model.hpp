@@ -28,11 +28,13 @@ struct Extremes {
   double friction_rate = 0;            ///< of the fastest drag by friction, 0 without [1/s]
   double elastic_speed = 0;            ///< of shear waves in a viscoelastic medium, 0 without [m/s]
   double relaxation_rate = 0;          ///< the fastest of such a medium, 0 without [1/s]
+  double speed_of_turning = 0;         ///< of walls that turn, 0 without [m/s]
 };
 template <class Archive>
 void serialize(Archive& archive, Extremes& extremes) {
-  auto& [speed, acceleration, viscosity, friction_rate, elastic_speed, relaxation_rate] = extremes;
-  archive(speed, acceleration, viscosity, friction_rate, elastic_speed, relaxation_rate);
+  auto& [speed, acceleration, viscosity, friction_rate, elastic_speed, relaxation_rate, speed_of_turning] =
+      extremes;
+  archive(speed, acceleration, viscosity, friction_rate, elastic_speed, relaxation_rate, speed_of_turning);
 }
 
 class FluidModel : public Solver {
@@ -100,6 +102,7 @@ class FluidModel : public Solver {
     std::vector<Boundary> boundaries = {};
     Neighbours neighbours;
     Vec gravity_impulse = Vec::Zero();  ///< since the start [N.s per metre]
+    double work_of_gravity_change = 0;  ///< likewise [J per metre]
     /// What moves by a period have taken from the sum over places [J per metre].
     double potential_of_moves = 0;
     EnergyBalance balance = {};
@@ -116,12 +119,12 @@ class FluidModel : public Solver {
   };
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
-    auto& [time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, penetration,
-           steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, beyond_measured,
-           surface_record, suction_watch, run_watch] = state;
-    archive(time, fluid, boundaries, neighbours, gravity_impulse, potential_of_moves, balance, penetration,
-            steps_since_look, largest, density_rate_known, contact_changed, impedance_wanted, beyond_measured,
-            *run_watch);
+    auto& [time, fluid, boundaries, neighbours, gravity_impulse, work_of_gravity_change, potential_of_moves,
+           balance, penetration, steps_since_look, largest, density_rate_known, contact_changed,
+           impedance_wanted, beyond_measured, surface_record, suction_watch, run_watch] = state;
+    archive(time, fluid, boundaries, neighbours, gravity_impulse, work_of_gravity_change, potential_of_moves,
+            balance, penetration, steps_since_look, largest, density_rate_known, contact_changed,
+            impedance_wanted, beyond_measured, *run_watch);
     if (surface_record) archive(*surface_record);
     bool watched = suction_watch.has_value();  // until it has warned
     archive(watched);
@@ -159,6 +162,8 @@ class FluidModel : public Solver {
   MovingInterface& interface();
   /// Energy over mass at `x` [m2/s2].
   double potential(const Vec& x) const;
+  /// Of an acceleration of all the fluid, over a step of `dt` [s] that is about to be made [W per metre].
+  double power_of(const Vec& change, double dt) const;
   double energy() const { return kinetic_energy() + potential_energy() + elastic_energy(); }
   /// By how much the energy has changed beyond the work of the boundaries [J per metre].
   double energy_gained() const;

@@ -137,6 +137,9 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
     file.fault("fluid.removal",
                "there is nothing to wear: it takes a [[wall]] with 'work_piece = true' or the solid of a "
                "coupled case");
+  if (parameters.similarity && scene.gravity_change)
+    file.fault("case.gravity_change",
+               "a flow whose density is chosen knows of no gravity that changes: leave one of the two out");
   if (parameters.enclosed_medium && file.has("solid"))
     file.fault("fluid.enclosed_medium",
                "an elastic solid bears the pressures that move the fluid: give [fluid.background_pressure]");
@@ -232,6 +235,7 @@ ExitCode solve(const Options& options) {
   warn_of_start(file, scene, parameters, model);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
+    for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
     if (options.outlook) tell_outlook(model, scene.end_time, twin, real_scene);
     return ExitCode::done;
   }

@@ -127,7 +127,7 @@ double FluidModel::mean_density() const {
 }
 
 double FluidModel::energy_gained() const {
-  double gained = energy() - start_energy_;
+  double gained = energy() - start_energy_ - state_.work_of_gravity_change;
   for (const Boundary& boundary : state_.boundaries) gained -= boundary.work;
   return gained;
 }
@@ -157,6 +157,7 @@ RunFigures FluidModel::run_figures(double time) const {
     held += 0.5 * fluid.m[i] * p_rho * p_rho / (c_0 * c_0);
   }
   for (const Boundary& boundary : state_.boundaries) moved += std::abs(boundary.work);
+  moved += std::abs(state_.work_of_gravity_change);
   const std::size_t faster = std::min(std::max(fluid.count / 100, least_fast), fluid.count - 1);
   const auto fast = speed.end() - 1 - static_cast<std::ptrdiff_t>(faster);
   std::nth_element(speed.begin(), fast, speed.end());
@@ -210,6 +211,10 @@ std::vector<Observation> FluidModel::observe() const {
     push("force_from_" + boundary.name, unit_of("N"), boundary.counted ? given.force() : Vec(Vec::Zero()));
     push("impulse_from_" + boundary.name, unit_of("N.s"), boundary.impulse.total);
     if (boundary.moves()) row.push_back({"work_from_" + boundary.name, unit_of("J"), boundary.work});
+    if (boundary.turns()) {
+      row.push_back({"moment_from_" + boundary.name, unit_of("N.m"), boundary.moment});
+      row.push_back({"power_from_" + boundary.name, unit_of("W"), boundary.power_given});
+    }
     if (const auto* pressed = std::get_if<PressedMotion>(&boundary.motion)) {
       row.push_back({"way_of_" + boundary.name, "m", pressed->way_at(state_.time)});
       row.push_back({"speed_of_" + boundary.name, "m/s", pressed->speed_at(state_.time)});
@@ -219,7 +224,14 @@ std::vector<Observation> FluidModel::observe() const {
          boundary.counted ? given.friction() : Vec(Vec::Zero()));
     push("friction_impulse_from_" + boundary.name, unit_of("N.s"), boundary.impulse.friction);
   }
-  if (scene_.gravity.norm() > 0) push("impulse_of_gravity", unit_of("N.s"), state_.gravity_impulse);
+  if (scene_.gravity.norm() > 0 || scene_.gravity_change)
+    push("impulse_of_gravity", unit_of("N.s"), state_.gravity_impulse);
+  if (scene_.gravity_change) {
+    const Vec g = scene_.gravity_at(state_.time);
+    row.push_back({"gravity_x", "m/s2", g[0]});
+    row.push_back({"gravity_y", "m/s2", g[1]});
+    row.push_back({"work_of_gravity_change", unit_of("J"), state_.work_of_gravity_change});
+  }
   if (parameters_.seeks_free_surface()) push("impulse_of_corrections", unit_of("N.s"), numerical_impulse());
   for (const auto& energy : state_.balance.observe(energy_gained(), state_.time, unit_of("J")))
     row.push_back(energy);

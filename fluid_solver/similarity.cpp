@@ -73,8 +73,13 @@ double shortest_ramp(const Scene& scene) {
   for (const Wall& wall : scene.walls) {
     if (wall.press) shortest = std::min(shortest, shortest_ramp(*wall.press));
     if (!wall.motion) continue;
+    if (!wall.motion->position.empty() || !wall.motion->sine.empty() || wall.motion->turns()) {
+      const MotionExtremes most = extremes(*wall.motion, corners_of(wall.box), scene.end_time);
+      if (most.acceleration > 0) shortest = std::min(shortest, most.speed / most.acceleration);
+      continue;
+    }
     const auto& rows = wall.motion->velocity;
-    const double largest = wall.motion->largest_speed();
+    const double largest = largest_speed(*wall.motion, {}, scene.end_time);
     if (!wall.motion->velocity_at(0).isZero(0)) shortest = 0;
     for (std::size_t k = 1; k < rows.size(); ++k) {
       const double change =

@@ -159,11 +159,32 @@ std::optional<std::string> beyond_thinnest_rings(const Parameters& p, const Scen
       std::ceil(10 * least_ratio_of_rings * farther) / 10);
 }
 
+namespace {
+
+/// Of the corners of a wall that turns, against fluid at rest at the start unless that flows.
+void note_turning(Blow& hardest, const Wall& wall, double end_time, double response, bool flows) {
+  for (const double t : wall.motion->knots(end_time)) {
+    if (t == 0 && flows) continue;
+    const Pose now = wall.motion->pose_at(t), before = wall.motion->pose_at(t - response);
+    for (const Vec& corner : corners_of(wall.box)) {
+      const Vec v = now.velocity_of(corner), v_before = before.velocity_of(corner);
+      const double speed = t == 0 ? v.norm() : (v - v_before).norm();
+      if (speed > hardest.speed) hardest = {speed, wall.name, t};
+    }
+  }
+}
+
+}  // namespace
+
 Blow hardest_blow(const Scene& scene, const Parameters& p) {
   Blow hardest;
   const double response = 2 * p.h() / p.sound_speed;  // in which sound crosses the kernel
   for (const Wall& wall : scene.walls) {
     if (!wall.motion) continue;
+    if (wall.motion->turns() && !wall.box.round) {
+      note_turning(hardest, wall, scene.end_time, response, p.initial_flow.has_value());
+      continue;
+    }
     Eigen::Index across;
     (wall.box.max - wall.box.min).minCoeff(&across);
     const auto note = [&, axis = across](double time, const Vec& before) {

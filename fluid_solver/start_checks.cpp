@@ -94,7 +94,7 @@ std::vector<StartFault> press_faults(const Parameters& p, const Scene& scene) {
 }  // namespace
 
 std::vector<StartFault> start_faults(const Parameters& p, const Scene& scene) {
-  std::vector<StartFault> faults = level_faults(p, scene.gravity), of_presses = press_faults(p, scene);
+  std::vector<StartFault> faults = level_faults(p, scene.gravity_at(0)), of_presses = press_faults(p, scene);
   faults.insert(faults.end(), of_presses.begin(), of_presses.end());
   return faults;
 }

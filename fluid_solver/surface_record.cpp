@@ -177,7 +177,7 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
 void SurfaceRecord::add_point(std::size_t s, const Boundary& body, std::size_t k, double area,
                               const Particles& fluid, double p_offset, const ClusterList& neighbours,
                               const Kernel& kernel, double dt) {
-  const Eigen::Map<const Vec> n_s(&normal_[dim * s]);
+  const Vec n_s = body.turned(Eigen::Map<const Vec>(&normal_[dim * s]));
   const Contact contact =
       contact_of(body, k, alone_[s] ? Vec(Vec::Zero()) : Vec(n_s), fluid, p_offset, kernel);
   if (contact.there) state_.wetted[s] = 1;
@@ -201,7 +201,7 @@ void SurfaceRecord::add_point(std::size_t s, const Boundary& body, std::size_t k
   state_.sliding_pressure[s] += contact.pressure * sliding * dt;
   state_.shear_work[s] += shear * sliding * dt;
   if (!rubbed) return;
-  Eigen::Map<Vec>(&state_.traction[dim * s]) += tau * dt;
+  Eigen::Map<Vec>(&state_.traction[dim * s]) += body.turned_back(tau) * dt;
   state_.friction_work[s] += tau.dot(contact.velocity) * dt;
 }
 

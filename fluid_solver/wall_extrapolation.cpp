@@ -7,13 +7,12 @@
 
 #include "common/scene/occupancy_index.hpp"
 #include "common/sph/neighbour_loop.hpp"
+#include "fluid_solver/wall_turning.hpp"
 
 namespace toryu::fluid {
 
 namespace {
 
-// A sum of kernel values below this share of W(0) means that no fluid is in reach.
-constexpr double smallest_share = 1e-9;
 // No length of a case is as small [m].
 constexpr double tiny = 1e-30;
 // What lies nearer to the face counts as this far, over the spacing: the velocity there is divided by it.
@@ -48,7 +47,8 @@ VecLanes mean_distance(const Boundary& boundary, const Particles& fluid, const W
 template <class W>
 Face face_towards(const Boundary& boundary, const Particles& fluid, const W& kernel, std::size_t cluster) {
   const std::size_t first = cluster * lane_count;
-  const VecLanes x_wi = mean_distance(boundary, fluid, kernel, cluster);
+  VecLanes x_wi = mean_distance(boundary, fluid, kernel, cluster);
+  if (boundary.turns()) x_wi = product(boundary.orientation.transpose(), x_wi);  // as the faces are told
   Face face;
   for (int a = 0; a < dim; ++a)
     for (const double side : {1.0, -1.0}) {
@@ -59,15 +59,17 @@ Face face_towards(const Boundary& boundary, const Particles& fluid, const W& ker
       face.depth = select(better, depth, face.depth);
       face.separation = select(better, separation, face.separation);
     }
-  if (boundary.to_outline[0].empty()) return face;
-  const VecLanes way = load(boundary.to_outline, first);
-  const Lanes depth = square_root(dot(way, way));
-  const VecLanes normal = product(inverse(max(depth, tiny)), way);
-  const Lanes separation = -dot(normal, x_wi) - depth;
-  const auto better = (depth > 0.0) & (separation > face.separation);
-  for (int b = 0; b < dim; ++b) face.normal[b] = select(better, normal[b], face.normal[b]);
-  face.depth = select(better, depth, face.depth);
-  face.separation = select(better, separation, face.separation);
+  if (!boundary.to_outline[0].empty()) {
+    const VecLanes way = load(boundary.to_outline, first);
+    const Lanes depth = square_root(dot(way, way));
+    const VecLanes normal = product(inverse(max(depth, tiny)), way);
+    const Lanes separation = -dot(normal, x_wi) - depth;
+    const auto better = (depth > 0.0) & (separation > face.separation);
+    for (int b = 0; b < dim; ++b) face.normal[b] = select(better, normal[b], face.normal[b]);
+    face.depth = select(better, depth, face.depth);
+    face.separation = select(better, separation, face.separation);
+  }
+  if (boundary.turns()) face.normal = product(boundary.orientation, face.normal);
   return face;
 }
 
@@ -174,7 +176,7 @@ void fit_velocity_to_cluster(Boundary& boundary, const Particles& fluid, const W
                   [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
                     const Lanes d = face.distance(n.x_ij);
                     const Lanes W_wi = select(d > 0.0, kernel.value(n.r), 0.0);
-                    fit.add(W_wi, max(d, least), product(-1.0, difference(v_w, pointers(fluid.v), i)));
+                    fit.add(W_wi, max(d, least), against_wall(boundary, v_w, fluid, i, n.x_ij));
                   });
   for (int a = 0; a < dim; ++a)
     store(select(face.found(), v_w[a] + fit.behind(face.depth, a), load(boundary.v_viscous[a], first)),
@@ -202,7 +204,7 @@ AnswerToSlip answer_of_fit(const Boundary& boundary, const Particles& fluid, con
                   [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
                     const Lanes d = face.distance(n.x_ij);
                     const Lanes W_wi = select(d > 0.0, kernel.value(n.r), 0.0);
-                    velocity.add(W_wi, max(d, least), product(-1.0, difference(v_w, pointers(fluid.v), i)));
+                    velocity.add(W_wi, max(d, least), against_wall(boundary, v_w, fluid, i, n.x_ij));
                     one.add(W_wi, max(d, least), {1.0, 0.0});
                   });
   return {face, {velocity.rate(0), velocity.rate(1)}, one.rate(0), 1.0 - one.behind(face.depth, 0)};
@@ -355,6 +357,7 @@ void extrapolate(Boundary& boundary, const Particles& fluid, const Kernel& kerne
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < active.size(); ++k) {
       extrapolate_to_cluster(boundary, fluid, W, gravity, active[k]);
+      if (boundary.turns()) turn_cluster(boundary, fluid, W, active[k]);
       if (boundary.fitted) fit_velocity_to_cluster(boundary, fluid, W, active[k]);
     }
   });

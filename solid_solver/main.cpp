@@ -17,6 +17,7 @@
 #include "common/run/standard_streams.hpp"
 #include "common/scene/bodies.hpp"
 #include "solid_solver/detached_list.hpp"
+#include "solid_solver/drive.hpp"
 #include "solid_solver/make_model.hpp"
 #include "solid_solver/stability_warnings.hpp"
 
@@ -125,6 +126,7 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   file.throw_if_faulty();
+  take_motions(file, scene, parameters);
   const Body body = build_body(
       parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); });
   file.throw_if_faulty();
@@ -137,6 +139,8 @@ ExitCode solve(const Options& options) {
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
   for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
   if (options.check) {
+    if (!file.has("fluid"))  // whose program tells them
+      for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
     if (options.outlook) print(outlook("[solid]", *model, scene.end_time).text);
     return ExitCode::done;
   }

@@ -105,7 +105,16 @@ std::vector<Observation> SolidModel::observe() const {
   }
   row.push_back({"potential_energy", "J/m", potential});
   row.push_back({"interface_work", "J/m", work});
-  row.push_back({"dissipated_energy", "J/m", first_energy_ + work - kinetic - held - potential});
+  double driven = 0;
+  if (!drive_.clamps().empty()) {
+    row.push_back({"work_of_clamps", "J/m", state_.work_of_clamps});
+    driven += state_.work_of_clamps;
+  }
+  if (drive_.changes()) {
+    row.push_back({"work_of_changes", "J/m", state_.work_of_changes});
+    driven += state_.work_of_changes;
+  }
+  row.push_back({"dissipated_energy", "J/m", first_energy_ + work + driven - kinetic - held - potential});
   const Vec p = momentum();
   row.push_back({"momentum_x", "N.s/m", p[0]});
   row.push_back({"momentum_y", "N.s/m", p[1]});
@@ -161,8 +170,8 @@ std::vector<ActiveTerm> SolidModel::active_terms() const {
     terms.push_back(
         {"gravity", "Dv/Dt = g", "", fmt::format("g = ({:g}, {:g}) m/s2", gravity_[0], gravity_[1])});
   if (!parameters_.loads.empty())
-    terms.push_back({"constant loads", "f_i = F/N on the N particles of a box, or -p A_i on their surface",
-                     "", fmt::format("{} boxes", parameters_.loads.size())});
+    terms.push_back({"loads", "f_i = F/N on the N particles of a box, or -p A_i on their surface", "",
+                     fmt::format("{} boxes", parameters_.loads.size())});
   if (parameters_.artificial_viscosity)
     terms.push_back(
         {"artificial viscosity", "Pi_ij = (-A c theta_ij + B theta_ij^2)/rho_0 where particles approach",

@@ -12,6 +12,26 @@ void describe(ParameterTable& table, NamedBox& box) {
   describe_shape(table, box.shape, box.box, "its corners");
 }
 
+void describe(ParameterTable& table, Clamp& clamp) {
+  table.text("name", clamp.name, {.required = true, .help = "as the log calls it"});
+  describe_shape(table, clamp.shape, clamp.box, "its corners");
+  table.text(
+      "moves_with", clamp.moves_with,
+      {.help = "the [[motion]] that it shares, by name; without it the clamp goes with a wall that holds it, "
+               "else it stands still"});
+}
+
+void describe(ParameterTable& table, Pulse& pulse) {
+  describe_sine(table, pulse, "1");
+}
+
+double BoxLoad::factor_at(double t) const {
+  if (!changes()) return 1;
+  double sum = value_in(factor, t);
+  for (const Pulse& pulse : sine) sum += pulse.value_at(t);
+  return sum;
+}
+
 void describe(ParameterTable& table, Region& region) {
   table.text("name", region.name, {.required = true, .help = "name of the region", .names_columns = true});
   describe_shape(table, region.shape, region.box, "its corners");
@@ -39,6 +59,12 @@ void describe(ParameterTable& table, BoxLoad& load) {
                {.unit = "N/m", .required = load.pressure == 0, .help = "force per metre of depth"});
   table.require(load.pressure == 0 || load.force.isZero(0), "pressure",
                 "a load is a 'force' or a 'pressure', not both");
+  table.rows("factor", load.factor, {"time [s]", "factor [1]"},
+             {.help = "multiplies the force; linear in between, constant before and after"});
+  require_rising(table, "factor", load.factor, "times");
+  table.list("sine", load.sine, "factors that swing, added to the rows of 'factor'");
+  table.require(load.pressure == 0 || !load.changes(), "pressure",
+                "a 'pressure' is constant: 'factor' and 'sine' go with a 'force'");
 }
 
 void describe(ParameterTable& table, SolidLimits& limits) {
@@ -109,8 +135,8 @@ void describe_discretisation(ParameterTable& table, Parameters& p) {
 void describe_body(ParameterTable& table, Parameters& p) {
   table.list("region", p.regions, "boxes filled with the solid; they may touch but not overlap");
   table.list("hole", p.holes, "boxes cut out of the regions");
-  table.list("clamp", p.clamps, "boxes whose particles are held in place");
-  table.list("load", p.loads, "constant forces or pressures on the particles of a box");
+  table.list("clamp", p.clamps, "boxes whose particles are held, or moved as prescribed");
+  table.list("load", p.loads, "forces or constant pressures on the particles of a box");
   table.list("observer", p.observers, "material points whose displacement goes to solid.csv");
   table.optional("initial_velocity", p.initial_velocity, "velocity at the start; absent: at rest");
 }

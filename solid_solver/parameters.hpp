@@ -25,13 +25,27 @@ enum class ElasticLaw { saint_venant_kirchhoff, neo_hookean };
 enum class Integrator { midpoint, symplectic };
 enum class Gradients { plain, renormalised };
 
-/// A box that is cut out of the solid, or whose particles are held.
+/// A box that is cut out of the solid.
 struct NamedBox {
   std::string name;
   Box box;
   BodyShape shape = {};
 };
 void describe(ParameterTable& table, NamedBox& box);
+
+/// A box whose particles are held, or moved as prescribed.
+struct Clamp {
+  std::string name;
+  Box box;
+  std::string moves_with = {};        ///< the name of its motion among those that bodies share
+  std::optional<Motion> motion = {};  ///< that one, or that of the wall which holds it
+  BodyShape shape = {};
+};
+void describe(ParameterTable& table, Clamp& clamp);
+
+/// A factor that swings [1].
+struct Pulse : Sine {};
+void describe(ParameterTable& table, Pulse& pulse);
 
 /// A box filled with the solid.
 struct Region {
@@ -44,14 +58,19 @@ struct Region {
 };
 void describe(ParameterTable& table, Region& region);
 
-/// A constant force, shared equally by the particles of a box, or a constant pressure on their share of the
-/// surface, as large and directed as the surface is in the unloaded body.
+/// A force, shared equally by the particles of a box, or a constant pressure on their share of the surface,
+/// as large and directed as the surface is in the unloaded body. Over time a force is multiplied by a factor,
+/// the sum of what is there; constant if nothing is.
 struct BoxLoad {
   std::string name;
   Box box;
   Vec force = Vec::Zero();  ///< [N per metre depth]
   double pressure = 0;      ///< [Pa]
   BodyShape shape = {};
+  Rows factor = {};  ///< rows of time [s], factor; linear in between, constant beyond
+  std::vector<Pulse> sine = {};
+  bool changes() const { return !factor.empty() || !sine.empty(); }
+  double factor_at(double t) const;
 };
 void describe(ParameterTable& table, BoxLoad& load);
 
@@ -74,7 +93,8 @@ struct Parameters {
   Gradients gradients = Gradients::plain;
   Integrator integrator = Integrator::midpoint;  ///< of the updated Lagrangian form
   std::vector<Region> regions;
-  std::vector<NamedBox> holes, clamps;
+  std::vector<NamedBox> holes;
+  std::vector<Clamp> clamps;
   std::vector<BoxLoad> loads;
   std::vector<PointObserver> observers;
   std::optional<InitialVelocity> initial_velocity;

@@ -38,13 +38,10 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
   find_slots();
   for (std::size_t k = 0; k < size; ++k)
     set(state_.v, k, mobile_[k] * initial_velocity(state_.number[std::min(k, count - 1)]));
-  constant_.assign(count, gravity_);
-  for (const auto& load : parameters_.loads) {
-    const auto particles = body_.inside(load.box);
-    for (const auto i : particles)
-      constant_[i] += load.force / (static_cast<double>(particles.size()) * mass(i));
-  }
-  bear_pressures();
+  drive_ = Drive(parameters_, body_, scene);
+  gravity_ = drive_.gravity(0);
+  constant_ = drive_.changes() ? drive_.accelerations(0) : drive_.steady();
+  move_clamps();
   state_.idle_external = constant_[state_.number.back()];
   find_external();
   state_.load_sum = sum_of_loads();
@@ -67,24 +64,6 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
   if (parameters_.detachment || parameters_.bonds) watch_bonds();
 }
 
-void SolidModel::bear_pressures() {
-  for (const auto& load : parameters_.loads) {
-    if (load.pressure == 0) continue;
-    pressed_.resize(particle_count(), Vec::Zero());
-    for (const SurfacePiece& piece : body_.surface(load.box)) {
-      const MaterialPoint point(piece.place, body_.X, 2.0 * parameters_.h(), body_.shape);
-      point.share([&](std::uint32_t i, double weight) {
-        pressed_[i] -= weight * load.pressure / mass(i) * piece.area;
-      });
-    }
-  }
-  for (std::size_t i = 0; i < pressed_.size(); ++i) constant_[i] += pressed_[i];
-}
-
-Vec SolidModel::steady_acceleration(std::size_t particle) const {
-  return pressed_.empty() ? gravity_ : Vec(gravity_ + pressed_[particle]);
-}
-
 Vec SolidModel::initial_velocity(std::size_t particle) const {
   const auto& of_region = parameters_.regions[body_.region[particle]].initial_velocity;
   const auto& velocity = of_region ? of_region : parameters_.initial_velocity;
@@ -98,6 +77,7 @@ void SolidModel::save() {
 void SolidModel::restore() {
   state_ = saved_;
   find_slots();
+  if (drive_.changes()) find_driven(state_.time_of_drive);
 }
 
 void SolidModel::write_state(std::ostream& stream) const {
@@ -107,6 +87,7 @@ void SolidModel::write_state(std::ostream& stream) const {
 void SolidModel::read_state(std::istream& stream) {
   read_states(stream, state_);
   find_slots();
+  if (drive_.changes()) find_driven(state_.time_of_drive);
   find_external();
   if (walls_) walls_->complete(state_.walls, particle_count());
   if (bodies_) bodies_->find_pairs(state_.bodies);
@@ -310,7 +291,7 @@ double SolidModel::kinetic_energy() const {
 
 double SolidModel::potential_energy() const {
   double sum = 0;
-  for (std::size_t i = 0; i < particle_count(); ++i) sum -= mass(i) * constant_[i].dot(displacement(i));
+  for (std::size_t i = 0; i < particle_count(); ++i) sum -= mass(i) * drive_.steady()[i].dot(displacement(i));
   return sum;
 }
 
@@ -362,7 +343,9 @@ void SolidModel::end_step() {
   const auto scope = timers_.measure("bonds");
   bonds_->check(state_.bonds, positions(), state_.time);
   if (!walls_)  // the work of moving ones is not known
-    state_.energy.warn_of_gain(kinetic_energy(), first_energy_ + interface_work() - potential_energy(),
+    state_.energy.warn_of_gain(kinetic_energy(),
+                               first_energy_ + interface_work() + state_.work_of_clamps +
+                                   state_.work_of_changes - potential_energy(),
                                energy_of_rounding(), state_.time);
 }
 

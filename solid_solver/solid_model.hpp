@@ -16,6 +16,7 @@
 #include "solid_solver/body.hpp"
 #include "solid_solver/bonds.hpp"
 #include "solid_solver/detachment.hpp"
+#include "solid_solver/drive.hpp"
 #include "solid_solver/energy_watch.hpp"
 #include "solid_solver/parameters.hpp"
 
@@ -128,6 +129,9 @@ class SolidModel : public Solver {
     double past_work = 0;               ///< of earlier interface loads [J/m]
     Vec load_sum = Vec::Zero();         ///< of gravity and all loads [N/m]
     Impulses impulses;
+    double time_of_drive = 0;    ///< for which gravity and loads were found [s]
+    double work_of_clamps = 0;   ///< by clamps that move, since the start [J/m]
+    double work_of_changes = 0;  ///< by the part of gravity and loads that changes, likewise [J/m]
     ContactWalls::State walls;
     TouchingBodies::State bodies;
     DetachmentObserver::State detachment;
@@ -137,12 +141,13 @@ class SolidModel : public Solver {
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
     auto& [time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, impedance,
-           impedance_work, past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy] = state;
+           impedance_work, past_work, load_sum, impulses, time_of_drive, work_of_clamps, work_of_changes,
+           walls, bodies, detachment, bonds, energy] = state;
     archive(time, steps, number, u, v, a, push, external, idle_external, loaded, load, u_at_load, impedance,
-            impedance_work, past_work, load_sum, impulses, walls, bodies, detachment, bonds, energy);
+            impedance_work, past_work, load_sum, impulses, time_of_drive, work_of_clamps, work_of_changes,
+            walls, bodies, detachment, bonds, energy);
   }
 
-  Vec steady_acceleration(std::size_t particle) const;  ///< by gravity and constant pressures [m/s2]
   /// Adds to the external acceleration what the interface's impedance z makes of it in a step `dt` [s]:
   ///
   ///     m a = -z n n.(w - w_c),   w = v + dt/2 (a_rest - z/m n n.(w - w_c))
@@ -165,6 +170,12 @@ class SolidModel : public Solver {
   void add_wall_contact(const VecField& x);
   /// Counts what acts at present for a time `dt` [s].
   void count_impulses(double dt);
+  /// Finds what drives a step of `dt` [s] that begins, in its middle, and notes what it begins from.
+  void begin_drive(double dt);
+  /// Puts the particles of clamps that move to where they are at the present time.
+  void move_clamps();
+  /// Counts the work of what drove the step.
+  void end_drive();
   /// Records particles that have come off and checks the bonds, where that is asked for and due.
   void end_step();
   double energy_of_rounding() const;
@@ -184,14 +195,20 @@ class SolidModel : public Solver {
   Timers timers_;
   std::optional<ContactWalls> walls_;     ///< if walls act on the solid
   std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
+  Drive drive_;
 
  private:
-  /// Adds constant pressures to the loads. What acts at a point of the surface is shared by the particles
-  /// with the weights by which they make up the displacement there: its work is then that of the surface, and
-  /// no layer below it gives way, as the first row does where it bears a load alone.
-  void bear_pressures();
-  void find_slots();     ///< and what stands in them, after the numbers have changed
-  void find_external();  ///< after the numbers or the loads have changed
+  void find_driven(double time);  ///< gravity and loads at `time` [s]
+  struct OnFree {
+    Pose pose = {};           ///< of the clamps
+    Vec force = Vec::Zero();  ///< [N/m]
+    double moment = 0;        ///< about their centre [N.m/m]
+  };
+  OnFree force_on_free() const;  ///< by the solid on what no clamp holds
+  /// On a held particle by gravity and loads and, where clamps do not turn, by the solid.
+  Vec force_on(std::size_t particle) const;  ///< but for that of a clamp [N/m]
+  void find_slots();                         ///< and what stands in them, after the numbers have changed
+  void find_external();                      ///< after the numbers or the loads have changed
   Vec initial_velocity(std::size_t particle) const;  ///< [m/s]
   double kinetic_energy() const;
   double potential_energy() const;
@@ -205,9 +222,15 @@ class SolidModel : public Solver {
   void observe_detachment(std::vector<Observation>& row) const;
   void observe_bonds(std::vector<Observation>& row) const;
 
-  std::vector<Vec> constant_;  ///< acceleration by gravity and constant loads, by number [m/s2]
-  std::vector<Vec> pressed_;   ///< of it what constant pressures do; empty without any
-  double first_energy_ = 0;    ///< kinetic, of the start [J/m]
+  std::vector<Vec> constant_;  ///< acceleration by gravity and loads, constant over a step, by number [m/s2]
+  // before a step that is driven
+  std::vector<Vec> u_before_;  ///< displacement of each particle [m]
+  struct ClampedParticle {
+    Vec v, force;  ///< [m/s], [N/m]
+  };
+  OnFree on_free_before_;
+  std::vector<ClampedParticle> clamped_before_;  ///< those of clamps that move, in their order
+  double first_energy_ = 0;                      ///< kinetic, of the start [J/m]
   std::vector<std::pair<PointObserver, MaterialPoint>> observers_;
   std::vector<std::uint32_t> held_;  ///< numbers of the held particles
   std::optional<DetachmentObserver> detachment_;

@@ -56,7 +56,7 @@ double thickness(const Parameters& p, const Region& region, int axis) {
 double fewest_rows(const Parameters& p) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const auto& region : p.regions) {
-    const bool held = std::any_of(p.clamps.begin(), p.clamps.end(), [&](const NamedBox& clamp) {
+    const bool held = std::any_of(p.clamps.begin(), p.clamps.end(), [&](const Clamp& clamp) {
       return (clamp.box.min.array() <= region.box.min.array()).all() &&
              (clamp.box.max.array() >= region.box.max.array()).all();
     });

@@ -63,7 +63,8 @@ class ParameterTable {
   virtual void texts(const std::string& key, std::vector<std::string>& value, const TextRule& rule) = 0;
   /// An array of `dim` numbers.
   virtual void vector(const std::string& key, Vec& value, const NumberRule& rule) = 0;
-  /// Rows of numbers, each as long as `columns` (names with units): a table of time and velocity, say.
+  /// Rows of numbers, each as long as `columns` (names with units): a table of time and velocity, say. A case
+  /// may name a CSV file beside it that has such columns.
   virtual void rows(const std::string& key, std::vector<std::vector<double>>& value,
                     const std::vector<std::string>& columns, const TextRule& rule) = 0;
 

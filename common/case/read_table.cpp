@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/case/csv_file.hpp"
 #include "common/case/nearest_word.hpp"
 #include "common/case/rule_text.hpp"
 #include "common/case/text_file.hpp"
@@ -87,6 +88,8 @@ void ReadTable::rows(const std::string& key, std::vector<std::vector<double>>& v
   const std::string kind = rows_kind(columns);
   const toml::node* node = find(key, rule.required, kind, rule.help);
   if (!node) return;
+  if (const auto file = node->value_exact<std::string>())
+    return read_rows_of_file(key, *file, columns, value);
   if (auto read = checked_rows(key, *node, columns.size(), kind, place_of_key(key))) value = std::move(*read);
 }
 
@@ -118,6 +121,22 @@ void ReadTable::file(const std::string& key, InputFile& value, const TextRule& r
     return fault(place_of_key(key), fmt::format("'{}' {}", *name, error.errors()[0].message));
   }
   value = std::move(read);
+}
+
+void ReadTable::read_rows_of_file(const std::string& key, const std::string& name,
+                                  const std::vector<std::string>& columns,
+                                  std::vector<std::vector<double>>& value) {
+  std::optional<CsvFault> found;
+  auto read = read_rows(reading_.folder, name, columns, found);
+  if (!found)
+    value = std::move(read);
+  else if (found->line > 0)
+    faults_.push_back({.place = (reading_.folder / name).string(),
+                       .line = found->line,
+                       .column = 1,
+                       .message = found->message});
+  else
+    fault(place_of_key(key), found->message);
 }
 
 void ReadTable::word(const std::string& key, int& index, const std::vector<std::string>& words,

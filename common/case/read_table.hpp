@@ -1,6 +1,8 @@
 /// The visitor that reads a section of a case file into its owner's parameters and collects what is wrong.
 #pragma once
 
+#include <filesystem>
+
 #include "common/case/document.hpp"
 #include "common/case/parameter_table.hpp"
 
@@ -15,7 +17,8 @@ struct Reading {
 class ReadTable final : public ParameterTable {
  public:
   /// `table` is null where the case has no such section; `path` is its dotted name, `where` the same for a
-  /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported.
+  /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported,
+  /// `folder` the case's, where the files of its tables are.
   ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
             const Reading& reading);
 
@@ -67,6 +70,8 @@ class ReadTable final : public ParameterTable {
   std::optional<std::vector<std::vector<double>>> checked_rows(const std::string& key, const toml::node& node,
                                                                std::size_t columns, const std::string& kind,
                                                                const toml::source_region& place);
+  void read_rows_of_file(const std::string& key, const std::string& name,
+                         const std::vector<std::string>& columns, std::vector<std::vector<double>>& value);
   void read_section(const toml::table* table, const std::string& key,
                     const std::function<void(ParameterTable&)>& visit);
   void require_names_differ(const toml::array& items, const std::string& header);

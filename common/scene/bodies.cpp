@@ -29,6 +29,8 @@ struct Body {
 struct Item {
   std::string name, key;
   Box box;
+  std::size_t index = 0;        ///< in the list
+  std::string moves_with = {};  ///< the motion that it names
 };
 
 bool is_sound(const Box& box) {
@@ -41,8 +43,10 @@ std::vector<Item> items(const CaseFile& file, const std::string& section) {
   for (std::size_t i = 0; i < file.count(section); ++i) {
     Item item;
     BodyShape shape;
+    item.index = i;
     file.look(fmt::format("{}[{}]", section, i), [&](ParameterTable& table) {
       table.text("name", item.name, {});
+      table.text("moves_with", item.moves_with, {});
       if (!describe_optional_shape(table, shape, item.box, "") && section == "fluid.hole")
         describe(table, item.box);
     });
@@ -68,7 +72,7 @@ std::vector<Body> walls_of(const Scene& scene, bool swept) {
     walls.push_back({fmt::format("the wall '{}'", wall.name),
                      fmt::format("wall.{}.{}", i, wall.shape.place()),
                      {{swept ? swept_box(wall) : wall.box}, {}},
-                     wall.motion && !wall.motion->velocity.empty() ? &*wall.motion : nullptr,
+                     wall.motion ? &*wall.motion : nullptr,
                      wall.press.has_value()});
   }
   return walls;
@@ -78,18 +82,27 @@ std::vector<Body> walls_of(const Scene& scene, bool swept) {
 std::vector<Body> regions_of(const CaseFile& file, const std::string& participant) {
   const auto holes = boxes_of(items(file, participant + ".hole"));
   std::vector<Body> regions;
-  for (const auto& [name, key, box] : items(file, participant + ".region"))
-    regions.push_back({fmt::format("the {}'s region '{}'", participant, name), key, {{box}, holes}});
+  for (const auto& region : items(file, participant + ".region"))
+    regions.push_back(
+        {fmt::format("the {}'s region '{}'", participant, region.name), region.key, {{region.box}, holes}});
   return regions;
 }
 
-/// What the clamps hold of the regions.
-std::vector<Body> held_parts(const CaseFile& file, const std::vector<Body>& regions) {
-  std::vector<Body> held;
-  for (const auto& [name, key, box] : items(file, "solid.clamp"))
-    for (Body region : regions) {
-      region.part.within.push_back(box);
-      held.push_back({fmt::format("the solid's clamp '{}'", name), key, region.part});
+/// What a clamp holds of a region.
+struct Held : Body {
+  std::size_t clamp = 0;  ///< in the list of clamps
+};
+
+std::vector<Held> held_parts(const CaseFile& file, const Scene& scene, const std::vector<Body>& regions) {
+  std::vector<Held> held;
+  for (const auto& clamp : items(file, "solid.clamp"))
+    for (const Body& region : regions) {
+      Held part{region, clamp.index};
+      part.part.within.push_back(clamp.box);
+      part.name = fmt::format("the solid's clamp '{}'", clamp.name);
+      part.key = clamp.key;
+      part.motion = shared_motion(scene, clamp.moves_with);
+      held.push_back(part);
     }
   return held;
 }
@@ -166,10 +179,21 @@ class Bodies {
         fluid_(regions_of(file, "fluid")),
         solid_(regions_of(file, "solid")),
         tolerance_(touching * finest_spacing(file)) {
+    held_ = held_parts(file, scene, solid_);
     const Vec side = (scene.domain.max - scene.domain.min).cwiseMax(0.0);
     origin_ = scene.domain.min;
     if (scene.periodic == Periodic::x || scene.periodic == Periodic::xy) period_[0] = side[0];
     if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy) period_[1] = side[1];
+    for (Held& part : held_)
+      if (!part.motion) part.motion = motion_of_holder(part);
+  }
+
+  /// By clamp; none where it stands still.
+  std::vector<std::optional<Motion>> clamp_motions() const {
+    std::vector<std::optional<Motion>> motions(file_.count("solid.clamp"));
+    for (const Held& part : held_)
+      if (part.motion && !motions[part.clamp]) motions[part.clamp] = *part.motion;
+    return motions;
   }
 
   /// Key and message of each fault.
@@ -186,11 +210,10 @@ class Bodies {
       for (const auto* bodies : {&walls_, &solid_})
         for (const Body& other : *bodies)
           if (!is_left_out(other)) keep_apart(region, other, 0, "", found);
-    const auto free = free_parts(file_, solid_), held = held_parts(file_, solid_);
     for (const Body& wall : walls_) {
-      for (const Body& part : free)
+      for (const Body& part : free_parts(file_, solid_))
         keep_apart(wall, part, 0, "; what a wall holds of a solid is a [[solid.clamp]]", found);
-      for (const Body& part : held) keep_at_rest(wall, part, found);
+      for (const Held& part : held_) keep_together(wall, part, found);
     }
     return found;
   }
@@ -203,13 +226,45 @@ class Bodies {
     return boxes;
   }
 
+  std::vector<std::string> motion_lines() const {
+    struct Group {
+      const Motion* motion;
+      std::vector<std::string> names;
+      std::vector<Vec> points;
+    };
+    std::vector<Group> groups;
+    const auto add = [&](const Body& body) {
+      const Box box = bounds_of(body.part);
+      if (!body.motion || (box.max.array() <= box.min.array()).any()) return;
+      auto group = std::find_if(groups.begin(), groups.end(),
+                                [&](const Group& g) { return *g.motion == *body.motion; });
+      if (group == groups.end()) group = groups.insert(groups.end(), {body.motion, {}, {}});
+      if (std::find(group->names.begin(), group->names.end(), body.name) == group->names.end())
+        group->names.push_back(body.name);
+      for (const Vec& corner : corners_of(body.part.within.size() == 1 ? body.part.within[0] : box))
+        group->points.push_back(corner);
+    };
+    for (const Body& wall : walls_) add(wall);
+    for (const Held& part : held_) add(part);
+    std::vector<std::string> lines;
+    for (const auto& [motion, names, points] : groups)
+      lines.push_back(fmt::format("{} {}: {}", fmt::join(names, ", "), names.size() == 1 ? "moves" : "move",
+                                  text_of(extremes(*motion, points, end_time_), *motion)));
+    return lines;
+  }
+
   std::vector<std::string> passages() const {
     std::vector<std::string> said;
-    if (file_.has("solid.wall_contact")) return said;
+    const auto moves = [](const Held& part) { return part.motion != nullptr; };
+    if (file_.has("solid.wall_contact") || std::any_of(held_.begin(), held_.end(), moves)) return said;
     for (const Body& wall : walls_)
       for (const Body& part : free_parts(file_, solid_)) {
         if (!wall.motion) continue;
-        if (const auto found = meeting(wall, part, end_time_))
+        if (wall.motion->turns())
+          said.push_back(
+              fmt::format("{} turns: whether it comes to where {} is at the start is not looked at",
+                          wall.name, part.name));
+        else if (const auto found = meeting(wall, part, end_time_))
           said.push_back(
               fmt::format("{} comes to where {} is at the start at t = {:.4g} s near ({:.6g}, {:.6g}) m, and "
                           "without [solid.wall_contact] passes through it",
@@ -251,26 +306,43 @@ class Bodies {
         a.key, fmt::format("{} near ({:.6g}, {:.6g}) m{}", what, found->place[0], found->place[1], hint));
   }
 
-  /// A clamp stands still, and so must a wall that it lies in or is fixed on.
-  void keep_at_rest(const Body& wall, const Body& held, Faults& faults) const {
-    if (!wall.motion || !moves(*wall.motion)) return;
-    if (meeting(wall, held, 0) || is_fixed_on(held.part, wall.part.within[0], tolerance_))
-      faults.emplace_back(
-          wall.key, fmt::format("{} moves, and {}, which it holds, stands still", wall.name, held.name));
-    else
-      keep_apart(wall, held, end_time_, "", faults);
+  bool holds(const Body& wall, const Held& part) const {
+    return meeting(wall, part, 0) || is_fixed_on(part.part, wall.part.within[0], tolerance_);
+  }
+
+  /// None if nothing holds it, or if anything at rest does.
+  const Motion* motion_of_holder(const Held& part) const {
+    const Motion* motion = nullptr;
+    for (const Body& wall : walls_) {
+      if (!holds(wall, part)) continue;
+      if (!wall.motion || !moves(*wall.motion)) return nullptr;
+      motion = wall.motion;
+    }
+    return motion;
+  }
+
+  /// A wall that holds a clamp and the clamp move as one; any other must not run into it.
+  void keep_together(const Body& wall, const Held& part, Faults& faults) const {
+    const bool wall_moves = wall.motion && moves(*wall.motion),
+               part_moves = part.motion && moves(*part.motion);
+    if (!wall_moves && !part_moves) return;
+    if (!holds(wall, part)) return keep_apart(wall, part, end_time_, "", faults);
+    if (wall_moves && part_moves && *wall.motion == *part.motion) return;
+    const std::string how = !part_moves ? "stands still" : wall_moves ? "moves otherwise" : "moves";
+    faults.emplace_back(wall.key, fmt::format("{} {}, and {}, which it holds, {}", wall.name,
+                                              wall_moves ? "moves" : "stands still", part.name, how));
   }
 
   bool moves(const Motion& motion) const {
-    std::vector<double> times{0, end_time_};
-    for (const auto& row : motion.velocity) times.push_back(std::clamp(row[0] * motion.time, 0.0, end_time_));
-    return std::any_of(times.begin(), times.end(),
-                       [&](double t) { return !motion.velocity_at(t).isZero(0); });
+    const auto times = motion.knots(end_time_);
+    return motion.turns() || std::any_of(times.begin(), times.end(),
+                                         [&](double t) { return !motion.velocity_at(t).isZero(0); });
   }
 
   const CaseFile& file_;
   double end_time_;
   std::vector<Body> walls_, swept_, fluid_, solid_;
+  std::vector<Held> held_;
   double tolerance_;
   Vec origin_;  ///< of the domain [m]
   Vec period_ = Vec::Zero();
@@ -285,6 +357,14 @@ void check_bodies(CaseFile& file, const Scene& scene) {
 
 std::vector<Box> left_out_of_fluid(const CaseFile& file, const Scene& scene) {
   return Bodies(file, scene).left_out();
+}
+
+std::vector<std::optional<Motion>> clamp_motions(const CaseFile& file, const Scene& scene) {
+  return Bodies(file, scene).clamp_motions();
+}
+
+std::vector<std::string> motion_lines(const CaseFile& file, const Scene& scene) {
+  return Bodies(file, scene).motion_lines();
 }
 
 std::vector<std::string> passage_warnings(const CaseFile& file, const Scene& scene) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/scene/outline.hpp"
+#include "common/scene/turning_meeting.hpp"
 
 namespace toryu {
 
@@ -14,6 +15,8 @@ namespace {
 /// Into so many parts the extent of parts that are no boxes is cut, each edge of an outline at most, and the
 /// time for which their bounds overlap.
 constexpr int round_parts = 32;
+/// Over a stretch of time: its last velocity is that before a jump at its end.
+constexpr double before_jump = 1e-9;
 
 /// An outline keeps its place: `holds` knows of the distance.
 Box grown(const Box& box, double distance) {
@@ -115,8 +118,8 @@ std::optional<Vec> place_in(const Part& part, double tolerance) {
 
 namespace {
 
-/// A stretch of time in which both velocities are linear, and how the one body moves against the other:
-/// r + v s + a s^2/2 at the time s from its beginning.
+/// A stretch of time in which both velocities are linear, or as good as that, and how the one body moves
+/// against the other: r + v s + a s^2/2 at the time s from its beginning.
 struct Stretch {
   double begin, length;  ///< [s]
   Vec r, v, a;           ///< [m], [m/s], [m/s2]
@@ -127,24 +130,26 @@ Vec velocity(const Motion* motion, double t) {
   return motion ? motion->velocity_at(t) : Vec(Vec::Zero());
 }
 
+Vec displacement(const Motion* motion, double t) {
+  return motion ? motion->displacement_at(t) : Vec(Vec::Zero());
+}
+
 std::vector<Stretch> stretches_of(const Pair& pair, double end_time) {
   std::vector<double> times{0, end_time};
   for (const Motion* motion : {pair.motion_a, pair.motion_b})
     if (motion)
-      for (const auto& row : motion->velocity)
-        if (const double t = row[0] * motion->time; t > 0 && t < end_time) times.push_back(t);
+      for (const double t : motion->knots(end_time)) times.push_back(t);
   std::sort(times.begin(), times.end());
   std::vector<Stretch> stretches;
-  Vec r = Vec::Zero();
   for (std::size_t k = 1; k < times.size(); ++k) {
     const double length = times[k] - times[k - 1];
     if (!(length > 0)) continue;
+    const Vec r = displacement(pair.motion_a, times[k - 1]) - displacement(pair.motion_b, times[k - 1]);
     const auto against = [&](double t) -> Vec {
       return velocity(pair.motion_a, t) - velocity(pair.motion_b, t);
     };
-    const Vec v = against(times[k - 1]), v_end = against(times[k]);
+    const Vec v = against(times[k - 1]), v_end = against(times[k] - before_jump * length);
     stretches.push_back({times[k - 1], length, r, v, (v_end - v) / length});
-    r = stretches.back().at(length);
   }
   return stretches;
 }
@@ -229,7 +234,7 @@ class Approach {
   }
 
   std::optional<Vec> place_at(const Stretch& stretch, double s, const Vec& shift, double tolerance) const {
-    const Vec b_by = pair_.motion_b ? pair_.motion_b->displacement_at(stretch.begin + s) : Vec(Vec::Zero());
+    const Vec b_by = displacement(pair_.motion_b, stretch.begin + s);
     return place_in(joined(pair_.a, pair_.b, b_by + stretch.at(s) - shift, b_by), tolerance);
   }
 
@@ -248,6 +253,10 @@ std::optional<Meeting> first_meeting(const Pair& pair, double tolerance, double 
     if (const auto place = place_in(joined(pair.a, pair.b, -shift, Vec::Zero()), tolerance))
       return Meeting{0, *place};
   if (!pair.motion_a && !pair.motion_b) return {};
+  if (pair.motion_a && pair.motion_b && *pair.motion_a == *pair.motion_b) return {};
+  if (const auto turns = [](const Motion* m) { return m && m->turns(); };
+      turns(pair.motion_a) || turns(pair.motion_b))
+    return can_turn_with(pair) ? first_turning_meeting(pair, tolerance, end_time) : std::nullopt;
   for (const Stretch& stretch : stretches_of(pair, end_time))
     if (const auto meeting = approach.earliest_during(stretch, period)) return meeting;
   return {};

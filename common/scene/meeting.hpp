@@ -1,4 +1,4 @@
-/// Where two bodies are in one place, at rest and as rigid bodies move by their tables.
+/// Where two bodies are in one place, at rest and as rigid bodies move by prescription.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,8 @@ struct Pair {
 };
 
 /// When and where the two first share more than `tolerance` [m], from t = 0 to `end_time` [s]. `period` [m]:
-/// after which space repeats itself along each axis; 0: never.
+/// after which space repeats itself along each axis; 0: never. Of two of which one turns and one has holes,
+/// only how they lie at the start is looked at.
 std::optional<Meeting> first_meeting(const Pair& pair, double tolerance, double end_time, const Vec& period);
 
 }  // namespace toryu

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "common/case/csv_rows.hpp"
 #include "common/case/input_file.hpp"
 #include "common/case/nearest_word.hpp"
 #include "common/case/text_file.hpp"
 #include "common/error/counted.hpp"
-#include "common/scene/csv_rows.hpp"
 
 namespace toryu {
 

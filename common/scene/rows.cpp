@@ -6,15 +6,15 @@
 
 namespace toryu {
 
-double value_in(const Rows& rows, double at) {
+double value_in(const Rows& rows, double at, std::size_t column) {
   if (rows.empty()) return 0;
   const auto beyond = [](double place, const std::vector<double>& row) { return place < row[0]; };
   const auto next = std::upper_bound(rows.begin(), rows.end(), at, beyond);
-  if (next == rows.begin()) return rows.front()[1];
+  if (next == rows.begin()) return rows.front()[column];
   const auto& last = *std::prev(next);
-  if (next == rows.end()) return last[1];
+  if (next == rows.end()) return last[column];
   const double share = (at - last[0]) / ((*next)[0] - last[0]);
-  return last[1] + share * ((*next)[1] - last[1]);
+  return last[column] + share * ((*next)[column] - last[column]);
 }
 
 void require_rising(ParameterTable& table, const std::string& key, const Rows& rows,

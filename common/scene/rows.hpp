@@ -1,4 +1,4 @@
-/// Tables of two columns in a case: a place or a time, and what is there.
+/// Tables in a case: a place or a time, and what is there.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@ namespace toryu {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// The second column where the first is `at`: linear between the rows, constant beyond them; 0 without rows.
-double value_in(const Rows& rows, double at);
+/// A column, the second one unless said, where the first is `at`: linear between the rows, constant beyond
+/// them; 0 without rows.
+double value_in(const Rows& rows, double at, std::size_t column = 1);
 
 /// Requires that the first column of `key`, which has `what` ("times"), rises from row to row.
 void require_rising(ParameterTable& table, const std::string& key, const Rows& rows, const std::string& what);

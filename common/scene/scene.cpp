@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "common/case/nearest_word.hpp"
 #include "common/case/text_file.hpp"
 #include "common/scene/bodies.hpp"
+#include "common/scene/outline.hpp"
 #include "common/scene/rows.hpp"
 #include "common/scene/worn_box.hpp"
 
@@ -42,10 +46,45 @@ void check_walls(CaseFile& file, const Scene& scene) {
 }
 
 /// Whether a wall moves across the axis.
-bool moves_across(const Wall& wall) {
-  const auto across = [](const auto& row) { return row[2] != 0; };
-  return (wall.motion && std::any_of(wall.motion->velocity.begin(), wall.motion->velocity.end(), across)) ||
-         (wall.press && wall.press->axis()[1] != 0);
+bool moves_across(const Wall& wall, double end_time) {
+  if (wall.press && wall.press->axis()[1] != 0) return true;
+  if (!wall.motion) return false;
+  const auto across = [&](double t) { return wall.motion->velocity_at(t)[1] != 0; };
+  const auto knots = wall.motion->knots(end_time);
+  return wall.motion->turns() || std::any_of(knots.begin(), knots.end(), across);
+}
+
+/// Gives each wall that shares a motion its copy of it.
+void share_motions(CaseFile& file, Scene& scene) {
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    Wall& wall = scene.walls[i];
+    if (wall.moves_with.empty()) continue;
+    if (const Motion* motion = shared_motion(scene, wall.moves_with))
+      wall.motion = *motion;
+    else
+      file.fault(fmt::format("wall.{}.moves_with", i), no_motion(scene, wall.moves_with));
+  }
+}
+
+/// Results call the walls that share a motion by its name.
+void check_names(CaseFile& file, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.motions.size(); ++i) {
+    const std::string& name = scene.motions[i].name;
+    const auto same = [&](const Wall& wall) { return wall.name == name; };
+    if (name == "walls" || name == "interface" || std::any_of(scene.walls.begin(), scene.walls.end(), same))
+      file.fault(fmt::format("motion.{}.name", i),
+                 fmt::format("results call the walls that move with '{}' so: no wall may have that name, and "
+                             "'walls' and 'interface' mean others",
+                             name));
+  }
+}
+
+void check_turns(CaseFile& file, const Scene& scene) {
+  if (scene.periodic == Periodic::none) return;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i)
+    if (scene.walls[i].motion && scene.walls[i].motion->turns())
+      file.fault(fmt::format("wall.{}.motion", i),
+                 "a wall that turns does not go with space that repeats itself");
 }
 
 void check_axis(CaseFile& file, const Scene& scene) {
@@ -57,6 +96,8 @@ void check_axis(CaseFile& file, const Scene& scene) {
                "about an axis space repeats itself along it alone: \"x\", or leave 'periodic' out");
   if (scene.gravity[1] != 0)
     file.fault("case.gravity", "gravity across the axis is not axisymmetric: give it along x alone");
+  if (scene.gravity_change)
+    file.fault("case.gravity_change", "gravity about an axis cannot change: leave it out");
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
     const std::string key = fmt::format("wall.{}", i);
@@ -65,7 +106,7 @@ void check_axis(CaseFile& file, const Scene& scene) {
                  fmt::format("the wall '{}' crosses the axis: y is the distance from it, at "
                              "least 0",
                              wall.name));
-    if (moves_across(wall))
+    if (moves_across(wall, scene.end_time))
       file.fault(key + (wall.press ? ".press" : ".motion"),
                  fmt::format("the wall '{}' moves across the axis: it can move along x alone", wall.name));
   }
@@ -106,6 +147,45 @@ void keep_beside(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::vector<Vec> corners_of(const Box& box) {
+  constexpr int round_corners = 64;
+  std::vector<Vec> corners;
+  for (int k = 0; k < (box.round ? round_corners : 0); ++k) {
+    const double angle = 2 * std::numbers::pi * k / round_corners;
+    const Vec half = 0.5 * (box.max - box.min), middle = 0.5 * (box.max + box.min);
+    corners.emplace_back(middle + half.cwiseProduct(Vec(std::cos(angle), std::sin(angle))));
+  }
+  if (box.outline)
+    for (const Outline::Ring& ring : box.outline->rings())
+      corners.insert(corners.end(), ring.begin(), ring.end());
+  if (!box.is_rectangle()) return corners;
+  return {box.min, {box.max[0], box.min[1]}, box.max, {box.min[0], box.max[1]}};
+}
+
+const Motion* shared_motion(const Scene& scene, const std::string& name) {
+  for (const NamedMotion& named : scene.motions)
+    if (named.name == name) return &named.motion;
+  return nullptr;
+}
+
+std::string no_motion(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const NamedMotion& named : scene.motions) names.push_back(named.name);
+  const std::string hint = did_you_mean(name, names);
+  return fmt::format("no [[motion]] is named '{}'{}", name,
+                     !hint.empty()   ? hint
+                     : names.empty() ? "; there is none"
+                                     : "; there are " + quoted_list(names));
+}
+
+double largest_wall_speed(const Scene& scene) {
+  double largest = 0;
+  for (const Wall& wall : scene.walls)
+    if (wall.motion)
+      largest = std::max(largest, largest_speed(*wall.motion, corners_of(wall.box), scene.end_time));
+  return largest;
+}
+
 void describe(ParameterTable& table, Scene& scene) {
   table.text("title", scene.title, {.required = true, .help = "heads the log and the report"});
   table.vector("gravity", scene.gravity, {.unit = "m/s2", .help = "acceleration of every fluid and solid"});
@@ -132,6 +212,7 @@ void describe(ParameterTable& table, Scene& scene) {
                 "series_interval",
                 fmt::format("'series_interval' would give {:.1e} rows; at most 1e12 can be counted",
                             scene.end_time / scene.series_interval));
+  table.optional("gravity_change", scene.gravity_change, "what is added to gravity over time");
   table.group("domain", scene.domain, "a particle that leaves it stops the run");
   table.require(!scene.domain.round, "domain.round", "the domain is a box: it cannot be round");
   table.choice("periodic", scene.periodic, {"none", "x", "y", "xy"},
@@ -140,25 +221,17 @@ void describe(ParameterTable& table, Scene& scene) {
                {.help = "plane, or x along an axis and y the distance from it; of a fluid without a solid"});
 }
 
-void describe(ParameterTable& table, Motion& motion) {
-  std::vector<std::string> columns = {"time [s]"};
-  for (int axis = 0; axis < dim; ++axis) columns.push_back(fmt::format("v_{} [m/s]", "xyz"[axis]));
-  table.rows("velocity", motion.velocity, columns,
-             {.required = true, .help = "linear in between, constant before and after"});
-  table.number("speed", motion.speed, {.help = "multiplies the velocities"});
-  table.number("time", motion.time,
-               {.minimum = 0, .above_minimum = true, .help = "multiplies the times of the rows"});
-  table.require(!motion.velocity.empty(), "velocity", "'velocity' needs at least one row");
-  require_rising(table, "velocity", motion.velocity, "times");
-}
-
 void describe(ParameterTable& table, Wall& wall) {
   table.text("name", wall.name,
              {.required = true, .help = "as the log and the report call it", .names_columns = true});
   describe_shape(table, wall.shape, wall.box, "filled with particles on a lattice of each solver's spacing");
   table.optional("motion", wall.motion, "prescribed motion; without it the wall stands still");
+  table.text("moves_with", wall.moves_with, {.help = "the [[motion]] that it shares with others, by name"});
+  table.require(!wall.motion || wall.moves_with.empty(), "moves_with",
+                "a wall has either a 'motion' of its own or one of those that are shared");
   table.optional("press", wall.press, "moves as a pressure and the fluid push it");
-  table.require(!wall.motion || !wall.press, "press", "a wall has either a 'motion' or a 'press'");
+  table.require((!wall.motion && wall.moves_with.empty()) || !wall.press, "press",
+                "a wall has either a 'motion' or a 'press'");
   table.require(!wall.press || wall.box.is_rectangle(), "press",
                 "a piston is a box: it cannot be round, or of another shape");
   table.flag("work_piece", wall.work_piece, "a rigid work piece: the fluid's friction acts on it");
@@ -181,11 +254,15 @@ Scene read_scene(CaseFile& file) {
   Scene scene;
   file.read("case", scene, "what all participants share");
   file.read_list("wall", scene.walls, "rigid bodies");
+  file.read_list("motion", scene.motions, "motions that walls and clamps share");
   file.read_list("reference", scene.references, "measured or published curves, drawn in the report");
+  share_motions(file, scene);
   check_walls(file, scene);
   check_bodies(file, scene);
   check_references(file, scene);
   check_axis(file, scene);
+  check_turns(file, scene);
+  check_names(file, scene);
   if (scene.periodic != Periodic::none && file.has("solid"))
     file.fault("case.periodic", "a scene with a solid cannot be periodic: solids know no periods");
   for (std::size_t i = 0; i < scene.walls.size() && file.has("solid"); ++i)

@@ -10,27 +10,13 @@
 #include "common/case/case_file.hpp"
 #include "common/scene/body_shape.hpp"
 #include "common/scene/box.hpp"
+#include "common/scene/gravity.hpp"
+#include "common/scene/motion.hpp"
 #include "common/scene/reference.hpp"
 #include "common/scene/worn_face.hpp"
 #include "common/vector.hpp"
 
 namespace toryu {
-
-/// Prescribed motion of a rigid body: a table of time and velocity, linear in between, constant beyond its
-/// ends; position is its integral. A cycle given for unit speed serves all speeds: `speed` 2 with `time` 0.5
-/// is twice as fast at the same stroke.
-struct Motion {
-  std::vector<std::vector<double>> velocity;  ///< rows of time [s], v_x, v_y [m/s]; at least one
-  double speed = 1, time = 1;                 ///< multiply the velocities and the times of the table
-  Vec velocity_at(double t) const;
-  double largest_speed() const;         ///< of the table [m/s]
-  Vec displacement_at(double t) const;  ///< exact integral from t = 0 [m]
-  /// Change of the velocity over `length` [s] about t, by that length [m/s2]. The slope of a table at one
-  /// instant says nothing of a jump that is over in the next.
-  Vec mean_acceleration(double t, double length) const;
-  bool operator==(const Motion&) const = default;
-};
-void describe(ParameterTable& table, Motion& motion);
 
 enum class Direction { plus_x, minus_x, plus_y, minus_y };
 
@@ -57,6 +43,7 @@ struct Wall {
   bool work_piece = false;          ///< what the fluid's abrasive rubs on; a body of its own in the results
   std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box
   BodyShape shape = {};             ///< as the case has it
+  std::string moves_with = {};      ///< the name of its motion among those that bodies share
 };
 void describe(ParameterTable& table, Wall& wall);
 /// What the plane of a case stands for: a slice of something long, by metre of depth, or the half plane of x
@@ -75,7 +62,7 @@ enum class Periodic { none, x, y, xy };
 
 struct Scene {
   std::string title;
-  Vec gravity = Vec::Zero();
+  Vec gravity = Vec::Zero();  ///< [m/s2], to which a change is added
   double end_time = 0;
   double frame_interval = 0;       ///< 0: no frames
   double series_interval = 0;      ///< 0: every step
@@ -86,14 +73,23 @@ struct Scene {
   Geometry geometry = Geometry::plane;
   std::vector<Wall> walls;
   std::vector<Reference> references;
+  std::optional<GravityChange> gravity_change = {};
+  std::vector<NamedMotion> motions = {};
+  Vec gravity_at(double t) const { return gravity_change ? gravity_change->at(gravity, t) : gravity; }
 };
+/// The corners of a box, of a round one of the polygon with 64 corners in it, anticlockwise [m].
+std::vector<Vec> corners_of(const Box& box);
 /// Of all walls whose motion is prescribed [m/s].
 double largest_wall_speed(const Scene& scene);
 /// The keys of [case]; walls and references are sections of their own.
 void describe(ParameterTable& table, Scene& scene);
-/// Reads [case], [[wall]] and [[reference]], and checks that names of walls differ, that walls lie within the
-/// domain, that no two bodies of the case are in one place (check_bodies) and that references can be read.
-/// Faults are collected in `file`.
+/// The motion of that name among those that bodies share; none: nothing has it.
+const Motion* shared_motion(const Scene& scene, const std::string& name);
+/// The fault where there is none.
+std::string no_motion(const Scene& scene, const std::string& name);
+/// Reads [case], [[wall]], [[motion]] and [[reference]], and checks that names of walls differ, that walls
+/// lie within the domain, that no two bodies of the case are in one place (check_bodies) and that references
+/// can be read. Faults are collected in `file`.
 Scene read_scene(CaseFile& file);
 /// A file of the case that lies where a run with its results in `out` would write is a fault of `file`.
 void check_folder(CaseFile& file, const std::filesystem::path& out);

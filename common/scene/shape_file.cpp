@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "common/case/csv_rows.hpp"
 #include "common/case/nearest_word.hpp"
-#include "common/scene/csv_rows.hpp"
 #include "common/scene/drawing_tool.hpp"
 #include "common/scene/reference.hpp"
 

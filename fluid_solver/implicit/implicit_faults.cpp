@@ -30,6 +30,11 @@ std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene,
     if (scene.walls[i].press)  // its velocity would be one more unknown of the system
       refuse(fmt::format("wall.{}.press", i),
              fmt::format("the wall '{}' is pressed, which is not part of", scene.walls[i].name));
+  for (std::size_t i = 0; i < scene.walls.size(); ++i)
+    if (scene.walls[i].motion && scene.walls[i].motion->turns())
+      refuse(fmt::format("wall.{}.box", i),
+             fmt::format("the wall '{}' turns, which is not part of", scene.walls[i].name));
+  if (scene.gravity_change) refuse("case.gravity_change", "gravity that changes is not part of");
   if (with_solid) refuse(key_of_model, "an elastic solid is not coupled to");
   if (!is_viscous(p))
     refuse(key_of_model, "a viscosity ([fluid.laminar_viscosity], a law of shear) is needed by");

@@ -48,6 +48,9 @@ class Dynamics {
   std::vector<Power> powers(const Particles& fluid, const ClusterList& neighbours,
                             const std::vector<Boundary>& boundaries) const;
 
+  /// From now on [m/s2].
+  void set_gravity(const Vec& gravity) { body_force_.gravity = gravity; }
+
   const Medium& medium() const { return medium_; }
   const Kernel& kernel() const { return medium_.kernel; }
   const EquationOfState& equation_of_state() const { return state_; }

@@ -5,6 +5,7 @@
 
 #include "common/sph/skin.hpp"
 #include "fluid_solver/stability_warnings.hpp"
+#include "fluid_solver/wall_turning.hpp"
 #include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
@@ -66,7 +67,9 @@ StepLimit smallest_limit(const Parameters& p, const Medium& medium, const Extrem
     nu += effective_kinematic_viscosity(p.artificial_viscosity->alpha, h, p.sound_speed);
   const double share = p.time_step_share;
   const bool in_plane = geometry == Geometry::plane;
-  const double acoustic = acoustic_share * h / (p.sound_speed + largest.speed + largest.elastic_speed);
+  const double acoustic =
+      acoustic_share * h /
+      (p.sound_speed + std::max(largest.speed, largest.speed_of_turning) + largest.elastic_speed);
   StepLimit smallest{share * acoustic * (in_plane ? 1 : acoustic_share_about_axis), "acoustic"};
   const auto limit = [&](double value, std::string_view rule, double taken) {
     if (taken * value < smallest.value) smallest = {taken * value, rule};
@@ -111,7 +114,7 @@ void add_to_log_conformation(Particles& fluid, double dt) {
 
 WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene& scene)
     : FluidModel(parameters, scene),
-      dynamics_(parameters, scene.gravity, kernel_, equation_of_state_, scene.geometry) {
+      dynamics_(parameters, scene.gravity_at(0), kernel_, equation_of_state_, scene.geometry) {
   dynamics_.allocate(state_.fluid);
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
@@ -159,7 +162,8 @@ void WeaklyCompressible::advance(double dt) {
   note_extremes();
 }
 
-void WeaklyCompressible::evaluate(RatesOf wanted) {
+void WeaklyCompressible::evaluate(RatesOf wanted, double time) {
+  if (scene_.gravity_change) dynamics_.set_gravity(scene_.gravity_at(time));
   dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_);
 }
 
@@ -169,10 +173,10 @@ void WeaklyCompressible::step_midpoint(double dt) {
   for_each_log_conformation(state_.fluid, [&](const Field& psi, const Field&, std::size_t) {
     start_.log_conformation.push_back(psi);
   });
-  evaluate(RatesOf::both);
+  evaluate(RatesOf::both, state_.time);
   advance_from(start_, 0.5 * dt);
   move_boundaries(state_.time + 0.5 * dt);
-  evaluate(RatesOf::both);
+  evaluate(RatesOf::both, state_.time + 0.5 * dt);
   accumulate_reaction(dt);
   const auto timer = timers_.measure("step");
   advance_from(start_, dt);
@@ -183,7 +187,7 @@ void WeaklyCompressible::step_midpoint(double dt) {
 void WeaklyCompressible::step_symplectic(double dt) {
   const std::size_t clusters = state_.fluid.clusters();
   if (!state_.density_rate_known || (state_.contact_changed && parameters_.consistent_gradients))
-    evaluate(RatesOf::density);
+    evaluate(RatesOf::density, state_.time);
   else if (state_.contact_changed)
     dynamics_.renew_density_rates(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);
   state_.density_rate_known = true;
@@ -192,27 +196,39 @@ void WeaklyCompressible::step_symplectic(double dt) {
   add(state_.fluid.rho, 0.5 * dt, state_.fluid.drho, clusters);
   add_to_log_conformation(state_.fluid, 0.5 * dt);
   move_boundaries(state_.time + 0.5 * dt);
-  evaluate(RatesOf::velocity);
+  evaluate(RatesOf::velocity, state_.time + 0.5 * dt);
   accumulate_reaction(dt);
   add(state_.fluid.v, dt, state_.fluid.a, clusters);
   add(state_.fluid.x, 0.5 * dt, state_.fluid.v, clusters);
   state_.time += dt;
   move_boundaries(state_.time);
-  evaluate(RatesOf::density);
+  evaluate(RatesOf::density, state_.time);
   add(state_.fluid.rho, 0.5 * dt, state_.fluid.drho, clusters);
   add_to_log_conformation(state_.fluid, 0.5 * dt);
 }
 
 /// Notes what the forces of the evaluation by which the velocity advances do to others over `dt`.
 void WeaklyCompressible::accumulate_reaction(double dt) {
-  for (Boundary& boundary : state_.boundaries)
-    if (auto* interface = std::get_if<MovingInterface>(&boundary.motion)) {
-      const auto timer = timers_.measure("reaction on the interface");
-      dynamics_.react(state_.fluid, pressure_offset(), boundary);
-      interface->add_load(boundary, boundary.force_on_fluid.force(), dt);
-    }
+  for (Boundary& boundary : state_.boundaries) {
+    auto* interface = std::get_if<MovingInterface>(&boundary.motion);
+    if (!interface && !boundary.turns()) continue;
+    const auto timer = timers_.measure(interface ? "reaction on the interface" : "reaction on what turns");
+    dynamics_.react(state_.fluid, pressure_offset(), boundary);
+    if (interface) interface->add_load(boundary, boundary.force_on_fluid.force(), dt);
+  }
   note_surface(dt);
   count_forces(dt);
+  add_moments_of_turning();
+}
+
+/// What the pair forces of a laminar viscosity leave out; powers and work are theirs alone, as the energy.
+void WeaklyCompressible::add_moments_of_turning() {
+  const auto& viscosity = parameters_.laminar_viscosity;
+  if (!viscosity || parameters_.wall_model.slip != WallSlip::no_slip) return;
+  for (Boundary& boundary : state_.boundaries)
+    if (boundary.turns())
+      boundary.moment += viscosity->dynamic_viscosity * boundary.angular_velocity *
+                         wetted_surface_moment(boundary, state_.fluid, kernel_);
 }
 
 void WeaklyCompressible::note_surface(double dt) {
@@ -235,6 +251,10 @@ void WeaklyCompressible::note_extremes() {
   Extremes& largest = state_.largest;
   largest.speed = largest_norm(fluid.v, fluid.count);
   largest.acceleration = largest_norm(fluid.a, fluid.count);
+  largest.speed_of_turning = 0;
+  for (const Boundary& boundary : state_.boundaries)
+    if (boundary.turns())
+      largest.speed_of_turning = std::max(largest.speed_of_turning, largest_norm(boundary.v, boundary.count));
   if (dynamics_.viscosity_varies())
     largest.viscosity = *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
   if (const auto& medium = parameters_.viscoelasticity) {

@@ -44,10 +44,11 @@ class WeaklyCompressible final : public FluidModel {
   void step_midpoint(double dt);
   void step_symplectic(double dt);
   void advance_from(const Start& start, double dt);
-  void evaluate(RatesOf wanted);
+  void evaluate(RatesOf wanted, double time);  ///< with the gravity at `time` [s]
   void accumulate_reaction(double dt);
   void shift(double dt);
   void note_surface(double dt);
+  void add_moments_of_turning();
   void note_extremes();
 
   Dynamics dynamics_;

@@ -43,12 +43,12 @@ ContactWalls::State ContactWalls::start() const {
 }
 
 void ContactWalls::place(State& state, double time) const {
-  std::vector<Vec> moved(walls_.size(), Vec::Zero());
+  std::vector<Pose> poses(walls_.size());
   for (std::size_t w = 0; w < walls_.size(); ++w)
-    if (walls_[w].motion) moved[w] = walls_[w].motion->displacement_at(time);
+    if (walls_[w].motion) poses[w] = walls_[w].motion->pose_at(time);
   resize(state.x, padded(X_.size()));
   for (std::size_t k = 0; k < X_.size(); ++k)
-    set(state.x, k, X_[state.number[k]] + moved[wall_of_[state.number[k]]]);
+    set(state.x, k, poses[wall_of_[state.number[k]]].place(X_[state.number[k]]));
   state.time_placed = time;
 }
 

@@ -26,6 +26,7 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
                                             Held{mobile_, cells, body_.has_outline()}, body_.shape);
   resize_fields(form_, size);
   resize(T_, size);
+  if (drive_.turns()) resize(turned_back_, size);
   find_recovered_points();
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
@@ -45,6 +46,7 @@ void TotalLagrangian::save() {
 void TotalLagrangian::restore() {
   SolidModel::restore();
   form_ = saved_form_;
+  if (drive_.turns()) turn_back();
 }
 
 void TotalLagrangian::write_state(std::ostream& stream) const {
@@ -61,16 +63,23 @@ void TotalLagrangian::read_state(std::istream& stream) {
 
 void TotalLagrangian::advance(double dt) {
   const auto scope = timers_.measure("steps");
+  begin_drive(dt);
   state_.time += dt;
   brake_by_impedance(dt, parameters_.damping ? parameters_.damping->factor(0.5 * dt) : 1.0);
   count_impulses(0.5 * dt);  // of the first kick
 #pragma omp parallel
   {
     kick_and_drift(dt);
+    if (!drive_.clamps().empty()) {
+#pragma omp single
+      move_clamps();
+    }
     evaluate();
     kick(dt);
   }
+  move_clamps();  // whose velocity damping has changed
   count_impulses(0.5 * dt);
+  end_drive();
   end_step();
 }
 
@@ -120,14 +129,24 @@ void TotalLagrangian::touch() {
   if (bodies_) bodies_->push(state_.bodies, x_, state_.a);
 }
 
+void TotalLagrangian::turn_back() {
+  const Mat back = drive_.pose(state_.time).rotation.transpose();
+#pragma omp for schedule(static)
+  for (std::size_t k = 0; k < X_[0].size(); ++k) {
+    const Vec X = at(X_, k);
+    set(turned_back_, k, back * (X + at(state_.u, k)) - X);
+  }
+}
+
 void TotalLagrangian::find_stresses() {
+  if (drive_.turns()) turn_back();
   std::visit(
       [&](const auto& law) {
 #pragma omp for schedule(static)
         for (std::size_t c = 0; c < clusters(); ++c) {
           const std::size_t i = c * lane_count;
           Tensor<Lanes> H;
-          pairs_->displacement_gradient(state_.u, c, H);
+          pairs_->displacement_gradient(seen(), c, H);
           Tensor<Lanes> strained = H;  // what is held bears no stress
           for (Lanes& component : strained) component *= load(mobile_, i);
           if (!all_of(volume_change(strained) > -1.0)) record_inverted(strained, i);
@@ -151,12 +170,14 @@ void TotalLagrangian::record_inverted(const Tensor<Lanes>& H, std::size_t first_
 
 void TotalLagrangian::find_accelerations() {
   const double inverse_rho = 1.0 / parameters_.material.density;
+  const Mat R = drive_.pose(state_.time).rotation;
   const auto& viscosity = parameters_.artificial_viscosity;
   const PairViscosity Pi =
       pair_viscosity(viscosity.value_or(ArtificialViscosity{}), parameters_.material, parameters_.h());
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
-    VecLanes a = pairs_->force_density(state_.u, T_, penalty_, c);
+    VecLanes a = pairs_->force_density(seen(), T_, penalty_, c);
+    if (drive_.turns()) a = {R(0, 0) * a[0] + R(0, 1) * a[1], R(1, 0) * a[0] + R(1, 1) * a[1]};
     for (int k = 0; k < dim; ++k) a[k] *= inverse_rho;
     if (viscosity) {
       const VecLanes damped = pairs_->central_force_density(state_.u, state_.v, c, Pi);
@@ -235,7 +256,11 @@ double TotalLagrangian::time_step_limit() const {
 }
 
 Tensor<double> TotalLagrangian::gradient(std::size_t slot) const {
-  return {form_.H[0][slot], form_.H[1][slot], form_.H[2][slot], form_.H[3][slot]};
+  if (!drive_.turns()) return {form_.H[0][slot], form_.H[1][slot], form_.H[2][slot], form_.H[3][slot]};
+  Mat F;
+  F << 1.0 + form_.H[0][slot], form_.H[1][slot], form_.H[2][slot], 1.0 + form_.H[3][slot];
+  const Mat H = drive_.pose(state_.time).rotation * F - Mat::Identity();
+  return {H(0, 0), H(0, 1), H(1, 0), H(1, 1)};
 }
 
 void TotalLagrangian::check_strain(double time) const {
@@ -312,7 +337,7 @@ bool TotalLagrangian::is_free(const FreeSurface& surface) const {
   if (bodies_) return false;
   return std::all_of(surface.faces.begin(), surface.faces.end(), [&](std::uint32_t i) {
     const bool pushed = walls_ && !at(state_.push, slot_[i]).isZero();
-    return !pushed && at(state_.external, slot_[i]) == steady_acceleration(i);
+    return !pushed && !drive_.is_forced(i) && at(state_.external, slot_[i]) == constant_[i];
   });
 }
 
@@ -338,8 +363,8 @@ std::vector<Observation> TotalLagrangian::internal_energies() const {
   double elastic = 0, penalty = 0;
   for (std::size_t c = 0; c < clusters(); ++c) {
     Tensor<Lanes> H;  // of the held particles too, whose pairs it fits
-    pairs_->displacement_gradient(state_.u, c, H);
-    const Lanes unseen = pairs_->unseen_motion(state_.u, H, c);
+    pairs_->displacement_gradient(seen(), c, H);
+    const Lanes unseen = pairs_->unseen_motion(seen(), H, c);
     for (std::size_t lane = 0; lane < lane_count && c * lane_count + lane < particle_count(); ++lane) {
       const std::size_t k = c * lane_count + lane;
       elastic += volume_[k] * std::visit([&](const auto& law) { return law.energy(gradient(k)); }, law_);

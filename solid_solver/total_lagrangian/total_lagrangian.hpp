@@ -48,6 +48,10 @@ class TotalLagrangian final : public SolidModel {
 
  private:
   void kick_and_drift(double dt);
+  /// Clamps that turn see the displacement turned back with them: there what they hold is at rest to the
+  /// solid, as clamp_faces.hpp has it, and the forces are turned with them again.
+  void turn_back();
+  const VecField& seen() const { return drive_.turns() ? turned_back_ : state_.u; }
   void find_stresses();
   void find_accelerations();
   void kick(double dt);
@@ -92,6 +96,7 @@ class TotalLagrangian final : public SolidModel {
   Law law_;
   double penalty_;                ///< k of the hourglass penalty [Pa]
   Tensor<Field> T_;               ///< P L - (k/2) H: what a particle brings to the pairs [Pa]
+  VecField turned_back_;          ///< displacement, if clamps turn [m]
   VecField x_;                    ///< present positions, if walls or other bodies act on the solid [m]
   double highest_frequency_ = 0;  ///< of the unloaded body [1/s]
 };

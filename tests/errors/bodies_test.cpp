@@ -22,6 +22,10 @@ std::string wall(const std::string& name, const std::string& box, const std::str
          (motion.empty() ? "" : "motion={velocity=[" + motion + "]}\n");
 }
 
+std::string turning(const std::string& name, const std::string& box, const std::string& rotation) {
+  return "[[wall]]\nname='" + name + "'\nbox={" + box + "}\nmotion.rotation={" + rotation + "}\n";
+}
+
 std::string pressed(const std::string& name, const std::string& box, const std::string& travel) {
   return "[[wall]]\nname='" + name + "'\nbox={" + box + "}\npress={force=[[0,1]], direction='+x', travel=[" +
          travel + "]}\n";
@@ -74,14 +78,22 @@ INSTANTIATE_TEST_SUITE_P(
                 gate + wall("a", "min=[-3,-3], max=[-1,-1], round=true") +
                     wall("b", "min=[-1.5,-2.1], max=[-1,-1.9]"),
                 "case.toml:23:1: error: the wall 'b' overlaps the wall 'a' near (-1.48977, -2.09445) m"},
-        Scenery{"AWallThatLeavesTheClampInIt",
-                gate + wall("lid", "min=[0.9,1], max=[1.3,2.1]", "[0,0,0],[1,0,1]"),
+        Scenery{"NoneOfAWallThatTakesTheClampInItAlong",
+                gate + wall("lid", "min=[0.9,1], max=[1.3,2.1]", "[0,0,0],[1,0,1]"), ""},
+        Scenery{"NoneOfAWallThatTurnsWithTheClampInIt",
+                gate + turning("lid", "min=[0.9,1], max=[1.3,2.1]", "about=[1,1], angular_velocity=[[0,1]]"),
+                ""},
+        Scenery{"AWallThatLeavesAClampWhichAnotherHolds",
+                gate + wall("lid", "min=[0.9,2], max=[1.3,2.1]", "[0,0,0],[1,1,0]") +
+                    wall("post", "min=[1.2,0.9], max=[1.4,2]"),
                 "case.toml:20:1: error: the wall 'lid' moves, and the solid's clamp 'root', which it holds, "
                 "stands still"},
-        Scenery{"AWallThatLeavesTheClampOnIt",
-                gate + wall("lid", "min=[0.9,2], max=[1.3,2.1]", "[0,0,0],[1,1,0]"),
-                "case.toml:20:1: error: the wall 'lid' moves, and the solid's clamp 'root', which it holds, "
-                "stands still"}),
+        Scenery{"AWallAtRestThatAClampLeaves",
+                "[[motion]]\nname='roll'\nvelocity=[[0,0,0],[1,1,0]]\n" + gate + "moves_with='roll'\n" +
+                    wall("lid", "min=[0.9,2], max=[1.3,2.1]"),
+                "case.toml:24:1: error: the wall 'lid' stands still, and the solid's clamp 'root', which it "
+                "holds, "
+                "moves"}),
     name_of<Scenery>);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -134,6 +146,22 @@ INSTANTIATE_TEST_SUITE_P(
                     wall("piston", "min=[1.4,0], max=[1.5,1]", "[0,0,0],[0.01,200,0],[0.02,0,0],[1,0,0]"),
                 "case.toml:23:1: error: the wall 'piston' runs into the wall 'post' at t = 0.007106 s near "
                 "(2.0025, 0.5) m"},
+        Scenery{"APaddleThatTurnsIntoAWall",
+                water + wall("roof", "min=[-3,1.9], max=[3,3]") +
+                    turning("paddle", "min=[-2,0.9], max=[-1,1.1]", "about=[-2,1], angular_velocity=[[0,1]]"),
+                "case.toml:15:1: error: the wall 'paddle' runs into the wall 'roof' at t = 1.035 s near "
+                "(-1.57136, 1.90361) m"},
+        Scenery{"NoneOfAPaddleWithRoom",
+                water + wall("roof", "min=[-3,2.1], max=[3,3]") +
+                    turning("paddle", "min=[-2,0.9], max=[-1,1.1]", "about=[-2,1], angular_velocity=[[0,1]]"),
+                ""},
+        Scenery{"APistonThatSwingsIntoAWall",
+                gate + wall("post", "min=[2,0], max=[3,1]") +
+                    "[[wall]]\nname='piston'\nbox={min=[1.4,0], max=[1.5,1]}\n"
+                    "motion={sine=[{amplitude=0.51, direction=[1,0], frequency=1}], jumps=true}\n",
+                "case.toml:23:1: error: the wall 'piston' runs into the wall 'post' at t = 0.2286 s near "
+                "(2.0025, "
+                "0.5) m"},
         Scenery{"APistonThatRunsIntoAClamp", gate + wall("piston", "min=[2,1.2], max=[2.5,1.5]", "[0,-1,0]"),
                 "case.toml:20:1: error: the wall 'piston' runs into the solid's clamp 'root' at t = 0.805 s "
                 "near (1.1975, 1.35) m"},

@@ -243,6 +243,23 @@ INSTANTIATE_TEST_SUITE_P(
               "[fluid]: error: the fluid has a free surface at the start, and model = \"implicit\" is for "
               "media "
               "that walls or periods enclose"},
+        Fault{"ImplicitWallThatTurns",
+              "fluid.artificial_viscosity=false' --set 'fluid.density_diffusion=false' --set "
+              "'fluid.hydrostatic_start=false' --set 'fluid.laminar_viscosity.dynamic_viscosity=100' --set "
+              "'fluid.model=implicit' --set '"
+              "wall.floor.motion.rotation={about=[0,0], angular_velocity=[[0,1e-9]]}",
+              HYDROSTATIC_TANK
+              "/case.toml:14:1: error: the wall 'floor' turns, which is not part of model = \"implicit\""},
+        Fault{"ImplicitGravityThatChanges",
+              "fluid.artificial_viscosity=false' --set 'fluid.density_diffusion=false' --set "
+              "'fluid.hydrostatic_start=false' --set 'fluid.laminar_viscosity.dynamic_viscosity=100' --set "
+              "'fluid.model=implicit' --set '"
+              "case.gravity_change.acceleration=[[0,1,0]]",
+              "--set case.gravity_change.acceleration=[[0,1,0]]: error: gravity that changes is not part of "
+              "model = \"implicit\""},
+        Fault{"GravityThatDoesNotChange", "case.gravity_change={}",
+              "--set case.gravity_change={}: error: a change of gravity needs rows of its 'acceleration', a "
+              "'sine' or a 'turning'"},
         Fault{"SolverOfAnotherModel", "fluid.implicit.tolerance=1e-3",
               "--set fluid.implicit.tolerance=1e-3: error: [fluid.implicit] is for model = \"implicit\""},
         Fault{"WallInAWall", "wall.left.box.min=[-0.2,-0.1]",

@@ -110,7 +110,52 @@ TEST(SceneFaults, AboutAnAxis) {
 
 TEST(SceneFaults, MotionWithoutRows) {
   EXPECT_EQ(CaseText(sound_scene + "motion = { velocity = [] }\n").scene_faults(),
-            "case.toml:8:12: error: 'velocity' needs at least one row");
+            "case.toml:8:12: error: a motion needs rows of its 'velocity' or 'position', a 'sine' or a "
+            "'rotation'");
+  EXPECT_EQ(CaseText(sound_scene + "motion.rotation = { about = [0, 0] }\n").scene_faults(),
+            "case.toml:8:8: error: what turns needs rows of its 'angle' or 'angular_velocity', or a 'sine'");
+}
+
+TEST(SceneFaults, MotionThatJumps) {
+  const std::string sine = "sine = [{ amplitude = 1, frequency = 2, direction = [1, 0]";
+  EXPECT_EQ(
+      CaseText(sound_scene + "motion = { " + sine + "}] }\n").scene_faults(),
+      "case.toml:8:12: error: a sine without a 'ramp' starts with its full speed at once: give it a 'ramp' "
+      "[s], or say 'jumps = true' if what it moves is to start so");
+  EXPECT_EQ(CaseText(sound_scene + "motion = { " + sine + ", ramp = 1}] }\n").scene_faults(), "");
+  EXPECT_EQ(CaseText(sound_scene + "motion = { " + sine + "}], jumps = true }\n").scene_faults(), "");
+}
+
+const std::string shared = "[[motion]]\nname = 'roll'\nrotation = {about = [0, 0], angle = 'roll.csv'}\n";
+
+TEST(SceneFaults, MotionThatIsShared) {
+  CaseText sound(sound_scene + "moves_with = 'roll'\n" + shared);
+  sound.add("roll.csv", "# measured\ntime [s],level[m],angle[rad]\n0,7,0\n1,8,0.1\n");
+  EXPECT_EQ(sound.scene_faults(), "");
+  CaseText other(sound_scene + "moves_with = 'rol'\n" + shared);
+  other.add("roll.csv", "time[s],angle[rad]\n0,0\n1,0.1\n");
+  EXPECT_EQ(other.scene_faults(), "case.toml:8:1: error: no [[motion]] is named 'rol'; did you mean 'roll'?");
+  CaseText both(sound_scene + "moves_with = 'roll'\nmotion = { velocity = [[0, 0, 1]] }\n" + shared);
+  both.add("roll.csv", "time[s],angle[rad]\n0,0\n1,0.1\n");
+  EXPECT_EQ(both.scene_faults(),
+            "case.toml:8:1: error: a wall has either a 'motion' of its own or one of those that are shared");
+}
+
+TEST(SceneFaults, RowsOfAFile) {
+  const auto faults = [](const std::string& file) {
+    CaseText text(sound_scene + "moves_with = 'roll'\n" + shared);
+    text.add("roll.csv", file);
+    return text.scene_faults();
+  };
+  EXPECT_EQ(CaseText(sound_scene + shared).scene_faults(),
+            "case.toml:10:29: error: no file 'roll.csv' in the folder of the case");
+  EXPECT_EQ(faults("time[s],angle[deg]\n0,0\n"),
+            "roll.csv:1:1: error: no column 'angle[rad]'; the columns are 'time[s]', 'angle[deg]'");
+  EXPECT_EQ(faults("time[s],angle[rad]\n0,0\n1,x\n"),
+            "roll.csv:3:1: error: 'x' is no number, in the column 'angle[rad]'");
+  EXPECT_EQ(faults("time[s],angle[rad]\n0,0\n1\n"), "roll.csv:3:1: error: 1 cells in a row under 2 columns");
+  EXPECT_EQ(faults("time[s],angle[rad]\n1,0\n1,1\n"),
+            "case.toml:11:29: error: times in 'angle' must increase: 1 comes after 1");
 }
 
 const std::string travel = "direction = '+y', travel = [0, 0.5]";

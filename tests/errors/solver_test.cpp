@@ -52,7 +52,7 @@ TEST(Programs, SayTheSameOfTheCommonSections) {
     EXPECT_EQ(check(program, "--set case.end_tim=1 --set gravity=0").error,
               "--set case.end_tim=1: error: unknown key 'end_tim' in [case]; did you mean 'end_time'?\n"
               "--set gravity=0: error: unknown key 'gravity'; sections are 'case', 'coupling', 'fluid', "
-              "'reference', 'solid', 'wall'\n");
+              "'motion', 'reference', 'solid', 'wall'\n");
 }
 
 TEST(Programs, RefuseTwoColumnsOfOneName) {

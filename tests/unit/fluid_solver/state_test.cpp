@@ -177,6 +177,25 @@ const Variant variants[] = {
      [](Setting& s) {
        s.scene.walls[1].motion = Motion{{{0, 0, 0}, {0.1, 1, 0}}};
      }},
+    {"Turning",
+     [](Setting& s) {
+       s.parameters.wall_model.extrapolation = WallExtrapolation::fit;
+       s.parameters.laminar_viscosity = LaminarViscosity{2};
+       s.parameters.friction = Friction{0.3, FrictionForm::normalised, 0.5};
+       s.parameters.removal = Removal{1e-9, {}, {}};
+       s.scene.walls[1].work_piece = true;
+       s.scene.walls[1].motion =
+           Motion{.velocity = {{0, 0.1, 0}},
+                  .rotation = Rotation{Vec(0, 0.4), {.sine = {{{.amplitude = -0.3, .frequency = 3}}}}}};
+     }},
+    {"GravityChange",
+     [](Setting& s) {
+       s.parameters.laminar_viscosity = LaminarViscosity{2};
+       s.parameters.viscoelasticity = Viscoelasticity{{{0.05, 5, 0.1}}};
+       s.scene.gravity_change =
+           GravityChange{.acceleration = {{0, 0, 0}, {0.1, 9, 3}},
+                         .turning = Turning{.sine = {{{.amplitude = 0.3, .frequency = 3}}}}};
+     }},
     {"Periodic",
      [](Setting& s) {
        s.scene.domain = {Vec(0, -0.15), Vec(1, 2)};

@@ -74,6 +74,18 @@ const std::vector<Change>& terms_of_total_form() {
                                 .initial_velocity = InitialVelocity{.velocity = Vec(-20, 1)},
                                 .observed = true});
        }},
+      {"driven",
+       [](Sample& s) {
+         s.p.loads = {{.name = "pull",
+                       .box = {Vec(0.05, 0), Vec(0.07, 0.02)},
+                       .force = Vec(3e3, 1e3),
+                       .factor = {{0, 0}, {1e-3, 1}},
+                       .sine = {{{.amplitude = 1, .frequency = 500}}}}};
+         s.p.clamps[0].motion =
+             Motion{.velocity = {{0, 3, 1}},
+                    .rotation = Rotation{Vec(0, 0.01), {.angular_velocity = {{0, 50}, {1e-3, 200}}}}};
+         s.scene.gravity_change = GravityChange{.acceleration = {{0, 0, 0}, {1e-3, 500, -900}}};
+       }},
       {"rubber", [](Sample& s) { s.p.yeoh = Yeoh{.c_10 = 3e5, .bulk_modulus = 3e6}; }}};
   return changes;
 }

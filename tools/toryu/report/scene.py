@@ -50,7 +50,7 @@ def wall_paths(case, end, outlines=None):
         box = bounds(rings) if rings else data.box_of(data.table(wall, "box"))
         if box is None:
             continue
-        rows = rows_of(data.table(wall, "motion"))
+        rows = rows_of(motion_of(case, wall))
         if len(rows):
             times = np.union1d(rows[:, 0], np.linspace(0, end, 201))
             velocity = np.column_stack([np.interp(times, rows[:, 0], rows[:, axis]) for axis in (1, 2)])
@@ -87,8 +87,17 @@ def worn_rings(wall, box):
     return [corners]
 
 
+def motion_of(case, wall):
+    """Its own, or the one that it shares."""
+    shared = [m for m in data.tables_of(case, "motion") if m.get("name") == wall.get("moves_with")]
+    return shared[0] if shared else data.table(wall, "motion")
+
+
 def rows_of(motion):
-    """Rows of time, velocity x, y of a prescribed motion; none if it cannot be read."""
+    """Rows of time, velocity x, y of a prescribed motion; none if it cannot be read, or is more than a table of
+    velocities: the picture shows such walls as they lie at the start."""
+    if any(kind in motion for kind in ("position", "sine", "rotation")):
+        return np.empty((0, 3))
     speed, time = motion.get("speed", 1), motion.get("time", 1)
     rows = motion.get("velocity", [])
     if not isinstance(rows, list) or not all(data.numbers(row, 3) for row in rows) or not data.numbers([speed, time], 2):

@@ -138,5 +138,23 @@ TEST(Box, HoldsItsSmallerCornerOnly) {
   EXPECT_FALSE(box.contains(Vec(-0.1, 1)));
 }
 
+TEST(SceneMotion, IsSharedAndItsRowsMayBeThoseOfAFile) {
+  const CaseText the_case(
+      "[case]\ntitle='A'\nend_time=1\ndomain={min=[-3,-3], max=[3,3]}\n"
+      "gravity_change={acceleration='quake.csv'}\n"
+      "[[motion]]\nname='roll'\nrotation={about=[1,1], angle='roll.csv', jumps=true}\n"
+      "[[wall]]\nname='floor'\nbox={min=[0,0], max=[2,1]}\nmoves_with='roll'\n");
+  the_case.add("roll.csv", "angle[rad], level[m], time [s]\n0, 7, 0\n0.5, 8, 2\n");
+  the_case.add("quake.csv", "time[s],a_x[m/s2],a_y[m/s2]\n0,0,0\n1,2,4\n");
+  CaseFile file(the_case.folder(), {});
+  const Scene scene = read_scene(file);
+  file.throw_if_faulty();
+  EXPECT_EQ(scene.walls[0].motion->pose_at(1).angle, 0.25);
+  EXPECT_EQ(scene.walls[0].motion->rotation->about, Vec(1, 1));
+  EXPECT_EQ(scene.gravity_at(0.5), Vec(1, 2));
+  EXPECT_THAT(file.used(), HasSubstr("angle = [[0.0, 0.0], [2.0, 0.5]]"))
+      << "what repeats the run has the rows";
+}
+
 }  // namespace
 }  // namespace toryu

@@ -1,4 +1,4 @@
-#include "common/scene/csv_rows.hpp"
+#include "common/case/csv_rows.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,0 +1,110 @@
+#include "common/scene/turning_meeting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/scene/outline.hpp"
+
+namespace toryu {
+
+namespace {
+
+using Corners = std::vector<Vec>;  ///< of a convex polygon, anticlockwise
+
+constexpr double most_looks = 1e5;
+
+Corners outer_corners(const Part& part) {
+  return corners_of(part.within.size() == 1 ? part.within.front() : bounds_of(part));
+}
+
+bool is_convex(const Corners& corners) {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec &a = corners[k], &b = corners[(k + 1) % corners.size()], &c = corners[(k + 2) % corners.size()];
+    const Vec in = b - a, out = c - b;
+    if (in[0] * out[1] - in[1] * out[0] < 0) return false;
+  }
+  return true;
+}
+
+/// Whether its corners say all of it.
+bool is_polygon(const Part& part) {
+  if (!part.without.empty()) return false;
+  if (part.within.size() != 1 || !part.within.front().outline) return true;
+  return part.within.front().outline->rings().size() == 1 && is_convex(corners_of(part.within.front()));
+}
+
+Corners placed(const Corners& outline, const Pose& pose) {
+  Corners moved;
+  for (const Vec& X : outline) moved.push_back(pose.place(X));
+  return moved;
+}
+
+Pose pose_of(const Motion* motion, double t) {
+  return motion ? motion->pose_at(t) : Pose();
+}
+
+/// How far the one reaches into the other: the least along the normals of the sides of `a` [m].
+double depth_behind_sides(const Corners& a, const Corners& b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const Vec along = (a[(k + 1) % a.size()] - a[k]).normalized(), outward(along[1], -along[0]);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec& x : b) nearest = std::min(nearest, outward.dot(x - a[k]));
+    least = std::min(least, -nearest);
+  }
+  return least;
+}
+
+/// The mean of the corners of what both share.
+Vec shared_place(const Corners& a, const Corners& b) {
+  Corners left = b;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const Vec along = a[(k + 1) % a.size()] - a[k], inward(-along[1], along[0]);
+    Corners kept;
+    for (std::size_t n = 0; n < left.size(); ++n) {
+      const Vec &x = left[n], &y = left[(n + 1) % left.size()];
+      const double x_in = inward.dot(x - a[k]), y_in = inward.dot(y - a[k]);
+      if (x_in >= 0) kept.push_back(x);
+      if (x_in * y_in < 0) kept.emplace_back(x + x_in / (x_in - y_in) * (y - x));
+    }
+    if (kept.empty()) break;
+    left = kept;
+  }
+  Vec mean = Vec::Zero();
+  for (const Vec& x : left) mean += x / static_cast<double>(left.size());
+  return mean;
+}
+
+}  // namespace
+
+bool can_turn_with(const Pair& pair) {
+  return is_polygon(pair.a) && is_polygon(pair.b);
+}
+
+std::optional<Meeting> first_turning_meeting(const Pair& pair, double tolerance, double end_time) {
+  const Corners a = outer_corners(pair.a), b = outer_corners(pair.b);
+  double fastest = 0;
+  std::vector<double> times{0, end_time};
+  for (const auto& [motion, outline] : {std::pair(pair.motion_a, &a), std::pair(pair.motion_b, &b)})
+    if (motion) {
+      fastest += extremes(*motion, *outline, end_time).speed;
+      for (const double t : motion->knots(end_time)) times.push_back(t);
+    }
+  std::sort(times.begin(), times.end());
+  const double step = std::max(tolerance / fastest, end_time / most_looks);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double length = times[k] - times[k - 1];
+    const int looks = std::max(1, static_cast<int>(std::ceil(length / step)));
+    for (int n = 0; n < looks; ++n) {
+      const double t = times[k - 1] + n * length / looks;
+      const Corners a_now = placed(a, pose_of(pair.motion_a, t)),
+                    b_now = placed(b, pose_of(pair.motion_b, t));
+      if (std::min(depth_behind_sides(a_now, b_now), depth_behind_sides(b_now, a_now)) > tolerance)
+        return Meeting{t, shared_place(a_now, b_now)};
+    }
+  }
+  return {};
+}
+
+}  // namespace toryu

@@ -1,0 +1,103 @@
+#include "solid_solver/drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/scene/bodies.hpp"
+#include "solid_solver/observers.hpp"
+
+namespace toryu::solid {
+
+Drive::Drive(const Parameters& parameters, const Body& body, const Scene& scene)
+    : scene_(scene),
+      changes_(scene.gravity_change.has_value()),
+      steady_(body.size(), scene.gravity),
+      forced_(body.size(), 0) {
+  for (const BoxLoad& load : parameters.loads) {
+    const auto particles = body.inside(load.box);
+    if (load.changes()) changing_.push_back({load, particles});
+    for (const auto i : particles) {
+      const double mass = parameters.material.density * body.volume(i);
+      if (!load.force.isZero(0)) forced_[i] = 1;
+      if (load.changes())
+        changing_.back().masses.push_back(mass);
+      else
+        steady_[i] += load.force / (static_cast<double>(particles.size()) * mass);
+    }
+  }
+  changes_ = changes_ || !changing_.empty();
+  bear_pressures(parameters, body);
+  std::vector<const Clamp*> clamp_of(body.size(), nullptr);  // the last one that has a particle holds it
+  for (const Clamp& clamp : parameters.clamps)
+    for (const auto i : body.inside(clamp.box)) clamp_of[i] = &clamp;
+  for (const Clamp& clamp : parameters.clamps) {
+    if (!clamp.motion) continue;
+    turns_ = turns_ || clamp.motion->turns();
+    MovingClamp& moving = clamps_.emplace_back(MovingClamp{*clamp.motion, {}});
+    for (std::uint32_t i = 0; i < body.size(); ++i)
+      if (clamp_of[i] == &clamp) moving.particles.push_back(i);
+  }
+}
+
+void Drive::bear_pressures(const Parameters& parameters, const Body& body) {
+  for (const BoxLoad& load : parameters.loads) {
+    if (load.pressure == 0) continue;
+    for (const SurfacePiece& piece : body.surface(load.box)) {
+      const MaterialPoint point(piece.place, body.X, 2.0 * parameters.h(), body.shape);
+      point.share([&](std::uint32_t i, double weight) {
+        steady_[i] -= weight * load.pressure / (parameters.material.density * body.volume(i)) * piece.area;
+      });
+    }
+  }
+}
+
+Vec Drive::gravity(double t) const {
+  return scene_.gravity_at(t);
+}
+
+std::vector<Vec> Drive::accelerations(double t) const {
+  std::vector<Vec> a = steady_;
+  const Vec change = scene_.gravity_at(t) - scene_.gravity;
+  if (scene_.gravity_change)
+    for (Vec& a_i : a) a_i += change;
+  for (const auto& [load, particles, masses] : changing_) {
+    const Vec each = load.factor_at(t) / static_cast<double>(particles.size()) * load.force;
+    for (std::size_t n = 0; n < particles.size(); ++n) a[particles[n]] += each / masses[n];
+  }
+  return a;
+}
+
+Pose Drive::pose(double t) const {
+  return turns() ? clamps_.front().motion.pose_at(t) : Pose();
+}
+
+std::vector<std::pair<std::size_t, std::string>> clamp_faults(const Parameters& parameters) {
+  std::vector<std::pair<std::size_t, std::string>> faults;
+  const Clamp* turning = nullptr;
+  for (const Clamp& clamp : parameters.clamps)
+    if (!turning && clamp.motion && clamp.motion->turns()) turning = &clamp;
+  for (std::size_t k = 0; k < parameters.clamps.size(); ++k) {
+    const auto& motion = parameters.clamps[k].motion;
+    if (motion && parameters.formulation == Formulation::updated_lagrangian)
+      faults.emplace_back(k, "a clamp that moves needs formulation = \"total_lagrangian\"");
+    else if (turning && (!motion || *motion != *turning->motion))
+      faults.emplace_back(k, "where a clamp turns, all of a case move as one: this one does not move as '" +
+                                 turning->name + "' does");
+  }
+  return faults;
+}
+
+void take_motions(CaseFile& file, const Scene& scene, Parameters& parameters) {
+  const auto motions = clamp_motions(file, scene);
+  for (std::size_t k = 0; k < std::min(motions.size(), parameters.clamps.size()); ++k) {
+    Clamp& clamp = parameters.clamps[k];
+    clamp.motion = motions[k];
+    if (!clamp.moves_with.empty() && !shared_motion(scene, clamp.moves_with))
+      file.fault(fmt::format("solid.clamp.{}.moves_with", k), no_motion(scene, clamp.moves_with));
+  }
+  for (const auto& [k, message] : clamp_faults(parameters))
+    file.fault(fmt::format("solid.clamp.{}", k), message);
+}
+
+}  // namespace toryu::solid
