@@ -51,7 +51,7 @@ TEST(Nozzle, HasThePressureDropOfItsDrawing) {
     drop += sum[0] / count[0] - sum[1] / count[1];
   }
   RecordProperty("drop_over_lubrication", std::to_string(drop / samples / expected));
-  EXPECT_NEAR(drop / samples / expected, 1, 0.1);
+  EXPECT_NEAR(drop / samples / expected, 1, 0.05);  // filled as its bounds, the drawing has +8 %
 }
 
 }  // namespace
