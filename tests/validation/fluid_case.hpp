@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include "common/case/case_file.hpp"
+#include "common/scene/bodies.hpp"
 #include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
 namespace toryu::fluid {
@@ -25,6 +26,7 @@ struct FluidCase {
     file.ignore_sections({"solid", "coupling"});
     file.read("fluid", parameters, "");
     file.throw_if_faulty();
+    for (const Box& box : left_out_of_fluid(file, scene)) parameters.holes.emplace_back().Box::operator=(box);
     complete_medium(parameters);
     if (parameters.similarity) make_similar(parameters, scene);
   }
