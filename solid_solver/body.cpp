@@ -85,115 +85,119 @@ void fit_region(std::size_t index, const Outline& outline, const Parameters& par
   body.X.insert(body.X.end(), filling.points.begin(), filling.points.end());
   body.cell.resize(body.size(), Vec::Constant(std::sqrt(filling.volume)));
   body.region.resize(body.size(), static_cast<std::uint32_t>(index));
-  /// Particles of a region one behind the other across it: from face to face, worn as they are.
-  struct Line {
-    double place, begin;  ///< along the region, and where the first cell begins [m]
-    double cell = 0;      ///< [m]
-    long count = 0;
+}
+
+/// Particles of a region one behind the other across it: from face to face, worn as they are.
+struct Line {
+  double begin;     ///< of the first cell [m]
+  double cell = 0;  ///< [m]
+  long count = 0;
+};
+
+std::vector<Line> lines_across(const Region& region, int across, double spacing,
+                               const TellFault& tell_fault) {
+  const int along = 1 - across;
+  const double length = region.box.max[along] - region.box.min[along];
+  const long count = cells(region, along, length, spacing, tell_fault);
+  std::vector<Line> lines;
+  for (long k = 0; k < count; ++k) {
+    const double place =
+        region.box.min[along] + (static_cast<double>(k) + 0.5) * (length / static_cast<double>(count));
+    const Remains left = remains_at(region.box, region.worn, across, place);
+    Line line{left.low};
+    line.count = cells(region, across, left.high - left.low, spacing, tell_fault);
+    if (line.count == 0) return {};
+    line.cell = (left.high - left.low) / static_cast<double>(line.count);
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+void fill_region(std::size_t index, const Parameters& parameters, Body& body, const TellFault& tell_fault) {
+  const Region& region = parameters.regions[index];
+  const int across = region.worn.empty() ? 1 : region.worn.front().axis(), along = 1 - across;
+  const std::vector<Line> lines = lines_across(region, across, parameters.spacing, tell_fault);
+  const auto place = [&](std::size_t n, long k) {
+    Vec begin = region.box.min, cell, way;
+    begin[across] = lines[n].begin;
+    cell[along] = (region.box.max[along] - region.box.min[along]) / static_cast<double>(lines.size());
+    cell[across] = lines[n].cell;
+    way[along] = (static_cast<double>(n) + 0.5) * cell[along];
+    way[across] = (static_cast<double>(k) + 0.5) * cell[across];
+    const Vec X = begin + way;
+    const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
+                                 [&](const NamedBox& hole) { return hole.box.contains(X); });
+    if (cut || !region.box.contains(X)) return;
+    body.X.push_back(X);
+    body.cell.push_back(cell);
+    body.region.push_back(static_cast<std::uint32_t>(index));
   };
+  long longest = 0;
+  for (const Line& line : lines) longest = std::max(longest, line.count);
+  for (long k = 0; k < longest; ++k)
+    for (std::size_t n = 0; n < lines.size(); ++n)
+      if (k < lines[n].count) place(n, k);
+}
 
-  std::vector<Line> lines_across(const Region& region, int across, double spacing,
-                                 const TellFault& tell_fault) {
-    const int along = 1 - across;
-    const double length = region.box.max[along] - region.box.min[along];
-    const long count = cells(region, along, length, spacing, tell_fault);
-    std::vector<Line> lines;
-    for (long k = 0; k < count; ++k) {
-      const double place =
-          region.box.min[along] + (static_cast<double>(k) + 0.5) * (length / static_cast<double>(count));
-      const Remains left = remains_at(region.box, region.worn, across, place);
-      Line line{place, left.low};
-      line.count = cells(region, across, left.high - left.low, spacing, tell_fault);
-      if (line.count == 0) return {};
-      line.cell = (left.high - left.low) / static_cast<double>(line.count);
-      lines.push_back(line);
-    }
-    return lines;
+/// Whether regions a and b have more than an edge in common; of round ones, whether a particle of one lies
+/// in the other.
+bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std::size_t b) {
+  const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
+  if (A.is_rectangle() && B.is_rectangle()) {
+    const double tolerance = 1e-6 * parameters.spacing;
+    return ((A.max - B.min).array() > tolerance).all() && ((B.max - A.min).array() > tolerance).all();
   }
+  for (std::size_t i = 0; i < body.size(); ++i)
+    if ((body.region[i] == a && B.contains(body.X[i])) || (body.region[i] == b && A.contains(body.X[i])))
+      return true;
+  return false;
+}
 
-  void fill_region(std::size_t index, const Parameters& parameters, Body& body, const TellFault& tell_fault) {
-    const Region& region = parameters.regions[index];
-    const int across = region.worn.empty() ? 1 : region.worn.front().axis(), along = 1 - across;
-    const std::vector<Line> lines = lines_across(region, across, parameters.spacing, tell_fault);
-    const auto place = [&](const Line& line, long k) {
-      Vec X, cell;
-      X[along] = line.place;
-      X[across] = line.begin + (static_cast<double>(k) + 0.5) * line.cell;
-      cell[along] = (region.box.max[along] - region.box.min[along]) / static_cast<double>(lines.size());
-      cell[across] = line.cell;
-      const bool cut = std::any_of(parameters.holes.begin(), parameters.holes.end(),
-                                   [&](const NamedBox& hole) { return hole.box.contains(X); });
-      if (cut || !region.box.contains(X)) return;
-      body.X.push_back(X);
-      body.cell.push_back(cell);
-      body.region.push_back(static_cast<std::uint32_t>(index));
-    };
-    long longest = 0;
-    for (const Line& line : lines) longest = std::max(longest, line.count);
-    for (long k = 0; k < longest; ++k)
-      for (const Line& line : lines)
-        if (k < line.count) place(line, k);
+void find_outlined_surface(Body& body) {
+  Box bounds = body.outlines[0].bounds();
+  for (const Outline& outline : body.outlines) {
+    bounds.min = bounds.min.cwiseMin(outline.bounds().min);
+    bounds.max = bounds.max.cwiseMax(outline.bounds().max);
   }
+  const Vec margin = Vec::Constant(body.spacing);
+  const auto pieces = body.surface({bounds.min - margin, bounds.max + margin});
+  body.area_vector = area_vectors(body.X, pieces, furthest_particle * body.spacing);
+  for (const SurfacePiece& piece : pieces)
+    body.outside.push_back(piece.place + 0.5 * body.spacing * piece.area.normalized());
+}
 
-  /// Whether regions a and b have more than an edge in common; of round ones, whether a particle of one lies
-  /// in the other.
-  bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std::size_t b) {
-    const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
-    if (A.is_rectangle() && B.is_rectangle()) {
-      const double tolerance = 1e-6 * parameters.spacing;
-      return ((A.max - B.min).array() > tolerance).all() && ((B.max - A.min).array() > tolerance).all();
-    }
-    for (std::size_t i = 0; i < body.size(); ++i)
-      if ((body.region[i] == a && B.contains(body.X[i])) || (body.region[i] == b && A.contains(body.X[i])))
-        return true;
-    return false;
+void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
+  if (load.pressure == 0) {
+    if (body.inside(load.box).empty())
+      tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
+    return;
   }
-
-  void find_outlined_surface(Body & body) {
-    Box bounds = body.outlines[0].bounds();
-    for (const Outline& outline : body.outlines) {
-      bounds.min = bounds.min.cwiseMin(outline.bounds().min);
-      bounds.max = bounds.max.cwiseMax(outline.bounds().max);
+  const auto surface = body.surface(load.box);
+  if (surface.empty())
+    tell_fault("solid.load", fmt::format("load '{}' acts on no surface of the solid", load.name));
+  for (const SurfacePiece& piece : surface) try {
+      MaterialPoint(piece.place, body.X, 2.0 * h, body.shape);
+    } catch (const std::invalid_argument& error) {
+      return tell_fault("solid.load", fmt::format("load '{}': {}", load.name, error.what()));
     }
-    const Vec margin = Vec::Constant(body.spacing);
-    const auto pieces = body.surface({bounds.min - margin, bounds.max + margin});
-    body.area_vector = area_vectors(body.X, pieces, furthest_particle * body.spacing);
-    for (const SurfacePiece& piece : pieces)
-      body.outside.push_back(piece.place + 0.5 * body.spacing * piece.area.normalized());
-  }
+}
 
-  void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
-    if (load.pressure == 0) {
-      if (body.inside(load.box).empty())
-        tell_fault("solid.load", fmt::format("load '{}' acts on no particle of the solid", load.name));
-      return;
-    }
-    const auto surface = body.surface(load.box);
-    if (surface.empty())
-      tell_fault("solid.load", fmt::format("load '{}' acts on no surface of the solid", load.name));
-    for (const SurfacePiece& piece : surface) try {
-        MaterialPoint(piece.place, body.X, 2.0 * h, body.shape);
-      } catch (const std::invalid_argument& error) {
-        return tell_fault("solid.load", fmt::format("load '{}': {}", load.name, error.what()));
+void find_surface(Body& body) {
+  body.area_vector.assign(body.size(), Vec::Zero());
+  if (body.has_outline()) return find_outlined_surface(body);
+  // Half a spacing and a little: where regions meet, their columns need not face each other.
+  OccupancyIndex places(0.6 * body.spacing);
+  places.take(body.X, "");
+  for (std::size_t i = 0; i < body.size(); ++i)
+    for (int axis = 0; axis < dim; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        const Vec normal = side * Vec::Unit(axis);
+        const Vec site = body.X[i] + body.cell[i][axis] * normal;
+        if (places.taken(site)) continue;
+        body.area_vector[i] += body.volume(i) / body.cell[i][axis] * normal;
+        body.outside.push_back(site);
       }
-  }
-
-  void find_surface(Body & body) {
-    body.area_vector.assign(body.size(), Vec::Zero());
-    if (body.has_outline()) return find_outlined_surface(body);
-    // Half a spacing and a little: where regions meet, their columns need not face each other.
-    OccupancyIndex places(0.6 * body.spacing);
-    places.take(body.X, "");
-    for (std::size_t i = 0; i < body.size(); ++i)
-      for (int axis = 0; axis < dim; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-          const Vec normal = side * Vec::Unit(axis);
-          const Vec site = body.X[i] + body.cell[i][axis] * normal;
-          if (places.taken(site)) continue;
-          body.area_vector[i] += body.volume(i) / body.cell[i][axis] * normal;
-          body.outside.push_back(site);
-        }
-  }
+}
 
 }  // namespace
 
