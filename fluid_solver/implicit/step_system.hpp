@@ -10,8 +10,8 @@
 ///
 ///     (rho/dt - V + dt G K D) v = rho v^n/dt - G p^n + rho g + what walls that move do.
 ///
-/// Nothing is assembled: a product is one evaluation of the explicit model's sweeps, so that each pair has
-/// the force that it has there. Pressure and viscosity are not split as projection methods do: that leaves an
+/// Nothing is assembled: a product is one evaluation of the explicit model's sums, so that each pair has the
+/// force that it has there. Pressure and viscosity are not split as projection methods do: that leaves an
 /// error of the order of dt nu/w^2 between walls w apart, and dt is far above w^2/nu here.
 ///
 /// The matrix is not symmetric: where walls extrapolate, the force of a pair depends on who else is near.
