@@ -148,6 +148,8 @@ class SolidModel : public Solver {
             walls, bodies, detachment, bonds, energy);
   }
 
+  /// By gravity and loads, but for those of the interface [m/s2].
+  const Vec& steady_acceleration(std::size_t particle) const { return constant_[particle]; }
   /// Adds to the external acceleration what the interface's impedance z makes of it in a step `dt` [s]:
   ///
   ///     m a = -z n n.(w - w_c),   w = v + dt/2 (a_rest - z/m n n.(w - w_c))

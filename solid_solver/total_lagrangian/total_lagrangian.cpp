@@ -337,7 +337,7 @@ bool TotalLagrangian::is_free(const FreeSurface& surface) const {
   if (bodies_) return false;
   return std::all_of(surface.faces.begin(), surface.faces.end(), [&](std::uint32_t i) {
     const bool pushed = walls_ && !at(state_.push, slot_[i]).isZero();
-    return !pushed && !drive_.is_forced(i) && at(state_.external, slot_[i]) == constant_[i];
+    return !pushed && !drive_.is_forced(i) && at(state_.external, slot_[i]) == steady_acceleration(i);
   });
 }
 
