@@ -10,8 +10,8 @@ namespace toryu {
 
 /// JSON: `case`, as CaseFile::resolved gives it, and `references`, each with what the case says of it and
 /// either its `points` (rows of time [s] and value) or its `fault`; `files`, all that the case names; and
-/// `outlines` of walls: the number of the `wall` and its `rings` of corners [m]. Throws BadInput with the faults of the
-/// overrides.
+/// `outlines` of walls: the number of the `wall` and its `rings` of corners [m]. Throws BadInput with the
+/// faults of the overrides.
 std::string resolved_case(CaseFile& file);
 
 }  // namespace toryu

@@ -17,7 +17,8 @@ std::string name_of(const WornFace& worn) {
 
 void require_remains(ParameterTable& table, const Box& box, const std::vector<WornFace>& worn,
                      const std::string& body) {
-  table.require(worn.empty() || box.is_rectangle(), "worn",
+  if (worn.empty()) return;
+  table.require(box.is_rectangle(), "worn",
                 fmt::format("a {} that is no box has no faces that could be 'worn'", body));
   Vec largest = Vec::Zero();  // off either axis
   for (const WornFace& face : worn) {

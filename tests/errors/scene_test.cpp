@@ -153,7 +153,7 @@ TEST(SceneFaults, RowsOfAFile) {
             "roll.csv:1:1: error: no column 'angle[rad]'; the columns are 'time[s]', 'angle[deg]'");
   EXPECT_EQ(faults("time[s],angle[rad]\n0,0\n1,x\n"),
             "roll.csv:3:1: error: 'x' is no number, in the column 'angle[rad]'");
-  EXPECT_EQ(faults("time[s],angle[rad]\n0,0\n1\n"), "roll.csv:3:1: error: 1 cells in a row under 2 columns");
+  EXPECT_EQ(faults("time[s],angle[rad]\n0,0\n1\n"), "roll.csv:3:1: error: 1 cell in a row under 2 columns");
   EXPECT_EQ(faults("time[s],angle[rad]\n1,0\n1,1\n"),
             "case.toml:11:29: error: times in 'angle' must increase: 1 comes after 1");
 }

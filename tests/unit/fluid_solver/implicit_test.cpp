@@ -376,7 +376,7 @@ TEST(Implicit, SaysThatAStepIsNotSolved) {
                         "iterations of the linear solver (fluid.implicit.largest_iterations: 3) = "));
   thin_under_shear(s);
   EXPECT_THAT(failure_of(s, {.largest_viscosity_updates = 1}),
-              HasSubstr("after 1 updates of the viscosity (fluid.implicit.largest_viscosity_updates) = "));
+              HasSubstr("after 1 update of the viscosity (fluid.implicit.largest_viscosity_updates) = "));
 }
 
 // The passage of 2 mm at 50 mm/s, of 1000 Pa s: 150 kPa at the wall, 2.4 MPa over 16 mm.
