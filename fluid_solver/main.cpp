@@ -176,6 +176,7 @@ void warn_of_start(const CaseFile& file, const Scene& scene, const fluid::Parame
   for (const auto& face : fluid::misplaced_faces(scene.walls, parameters)) log::warn("{}", face);
   for (const auto& thin : fluid::thin_remains(scene.walls, model.reach())) log::warn("{}", thin);
   for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
+  for (const auto& unknown : unknown_meetings(file, scene)) log::warn("{}", unknown);
   for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));
   for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
   if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing))

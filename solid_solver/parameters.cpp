@@ -15,10 +15,10 @@ void describe(ParameterTable& table, NamedBox& box) {
 void describe(ParameterTable& table, Clamp& clamp) {
   table.text("name", clamp.name, {.required = true, .help = "as the log calls it"});
   describe_shape(table, clamp.shape, clamp.box, "its corners");
-  table.text(
-      "moves_with", clamp.moves_with,
-      {.help = "the [[motion]] that it shares, by name; without it the clamp goes with a wall that holds it, "
-               "else it stands still"});
+  if (table.wants(!clamp.moves_with.empty()))
+    table.text("moves_with", clamp.moves_with,
+               {.help = "the [[motion]] that it shares, by name; without it the clamp goes with a wall that "
+                        "holds it, else it stands still"});
 }
 
 void describe(ParameterTable& table, Pulse& pulse) {

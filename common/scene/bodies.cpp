@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "common/scene/meeting.hpp"
+#include "common/scene/outline.hpp"
+#include "common/scene/turning_meeting.hpp"
 
 namespace toryu {
 
@@ -129,10 +131,27 @@ struct Gap {
   double width() const { return std::abs(other - face); }
 };
 
+/// Whether one side of the box lies on the outline, looked at in some places.
+bool has_side_on(const Box& box, const Outline& outline, double tolerance) {
+  constexpr int places = 9;
+  for (int axis = 0; axis < dim; ++axis)
+    for (const Vec& corner : {box.min, box.max}) {
+      int on = 0;
+      for (int k = 0; k < places; ++k) {
+        Vec x = corner;
+        x[1 - axis] = box.min[1 - axis] + (box.max - box.min)[1 - axis] * k / (places - 1);
+        on += outline.nearest(x).distance <= tolerance;
+      }
+      if (on == places) return true;
+    }
+  return false;
+}
+
 /// Whether one side of `held` lies on the wall all along.
 bool is_fixed_on(const Part& held, const Box& wall, double tolerance) {
-  if (!wall.is_rectangle()) return false;
   const Box box = bounds_of(held);
+  if (wall.outline) return is_sound(box) && has_side_on(box, *wall.outline, tolerance);
+  if (wall.round) return false;
   for (int axis = 0; axis < dim; ++axis) {
     const int across = 1 - axis;
     const bool touches = std::abs(box.min[axis] - wall.max[axis]) <= tolerance ||
@@ -253,6 +272,24 @@ class Bodies {
     return lines;
   }
 
+  /// Pairs of walls of which one turns and that are too intricate to be looked at.
+  std::vector<std::string> unknown_meetings() const {
+    std::vector<std::string> said;
+    for (std::size_t i = 0; i < walls_.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const Body &a = walls_[i], &b = walls_[k];
+        const bool turns = (a.motion && a.motion->turns()) || (b.motion && b.motion->turns());
+        const Pair pair{a.part, b.part, a.motion, b.motion};
+        if (!turns || (a.motion && b.motion && *a.motion == *b.motion) || can_turn_with(pair)) continue;
+        if (may_meet_turning(pair, tolerance_, end_time_))
+          said.push_back(
+              fmt::format("{} and {}: whether they meet is not looked at, since one of them turns and "
+                          "has holes or is not convex",
+                          a.name, b.name));
+      }
+    return said;
+  }
+
   std::vector<std::string> passages() const {
     std::vector<std::string> said;
     const auto moves = [](const Held& part) { return part.motion != nullptr; };
@@ -365,6 +402,10 @@ std::vector<std::optional<Motion>> clamp_motions(const CaseFile& file, const Sce
 
 std::vector<std::string> motion_lines(const CaseFile& file, const Scene& scene) {
   return Bodies(file, scene).motion_lines();
+}
+
+std::vector<std::string> unknown_meetings(const CaseFile& file, const Scene& scene) {
+  return Bodies(file, scene).unknown_meetings();
 }
 
 std::vector<std::string> passage_warnings(const CaseFile& file, const Scene& scene) {

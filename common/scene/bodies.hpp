@@ -31,6 +31,9 @@ std::vector<std::string> motion_lines(const CaseFile& file, const Scene& scene);
 /// does not rest on what it seems to touch.
 std::vector<std::string> gap_warnings(const CaseFile& file, const Scene& scene);
 
+/// A sentence for each two walls of which one turns and which are too intricate for `check_bodies`.
+std::vector<std::string> unknown_meetings(const CaseFile& file, const Scene& scene);
+
 /// A sentence for each wall that comes to where the solid is at the start while nothing makes them touch. Of
 /// one that turns it says that this is not looked at.
 std::vector<std::string> passage_warnings(const CaseFile& file, const Scene& scene);

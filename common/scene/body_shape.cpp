@@ -67,10 +67,14 @@ Box placed_box(const BodyShape& shape) {
   return {a.cwiseMin(b), a.cwiseMax(b), shape.box->round};
 }
 
+/// Finer than any particle could tell.
+constexpr double most_corners_of_quarter = 1e4;
+
 /// So many corners that an ellipse's chords keep within the tolerance, and alike in all quarters.
 int corners_of(const Vec& radii, double tolerance) {
   const double share = std::min(0.5, tolerance / radii.maxCoeff());
-  return 4 * static_cast<int>(std::ceil(0.25 * std::numbers::pi / std::acos(1 - share)));
+  const double quarter = std::ceil(0.25 * std::numbers::pi / std::acos(1 - share));
+  return 4 * static_cast<int>(std::min(quarter, most_corners_of_quarter));
 }
 
 Ring ring_of(const std::vector<std::vector<double>>& rows) {

@@ -15,6 +15,9 @@ namespace {
 constexpr int knots_per_period = 16;
 constexpr double most_knots = 20000;  ///< of a sine: of an endless run the beginning
 constexpr int samples_per_knot = 8;
+/// Of a body that spins, to its acceleration within 1 %; beyond so many turns between knots it is not
+/// followed.
+constexpr double samples_per_turn = 16, most_turns = 1e4;
 
 /// A speed [1/s of the amplitude's unit] below this share of the largest is rest.
 constexpr double rounding = 1e-9;
@@ -153,10 +156,13 @@ MotionExtremes extremes(const Motion& motion, const std::vector<Vec>& points, do
   };
   const auto knots = motion.knots(end);
   look(0);
-  for (std::size_t k = 1; k < knots.size(); ++k)
-    for (int part = 1; part <= samples_per_knot; ++part)
-      look(part == samples_per_knot ? knots[k]
-                                    : knots[k - 1] + part * (knots[k] - knots[k - 1]) / samples_per_knot);
+  for (std::size_t k = 1; k < knots.size(); ++k) {
+    const double angle = std::abs(motion.pose_at(knots[k]).angle - motion.pose_at(knots[k - 1]).angle);
+    const double of_turn = samples_per_turn * std::min(angle / (2 * std::numbers::pi), most_turns);
+    const int samples = std::max(samples_per_knot, static_cast<int>(of_turn));
+    for (int part = 1; part <= samples; ++part)
+      look(part == samples ? knots[k] : knots[k - 1] + part * (knots[k] - knots[k - 1]) / samples);
+  }
   return found;
 }
 

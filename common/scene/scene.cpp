@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "common/case/nearest_word.hpp"
 #include "common/case/text_file.hpp"
@@ -79,12 +80,35 @@ void check_names(CaseFile& file, const Scene& scene) {
   }
 }
 
-void check_turns(CaseFile& file, const Scene& scene) {
-  if (scene.periodic == Periodic::none) return;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i)
-    if (scene.walls[i].motion && scene.walls[i].motion->turns())
-      file.fault(fmt::format("wall.{}.motion", i),
-                 "a wall that turns does not go with space that repeats itself");
+void check_motions(CaseFile& file, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Wall& wall = scene.walls[i];
+    const std::string key = fmt::format("wall.{}.{}", i, wall.moves_with.empty() ? "motion" : "moves_with");
+    if (!wall.motion) continue;
+    if (!std::isfinite(largest_speed(*wall.motion, corners_of(wall.box), scene.end_time)))
+      file.fault(key, "its speed is beyond all numbers");
+    if (!wall.motion->turns()) continue;
+    if (scene.periodic != Periodic::none)
+      file.fault(key, "a wall that turns does not go with space that repeats itself");
+    if (file.has("fluid.wall_slip"))
+      file.fault(key, "a wall that turns does not go with [fluid.wall_slip], which knows plane walls alone");
+  }
+}
+
+/// A motion that nothing shares is one that somebody forgot to name.
+void check_shares(CaseFile& file, const Scene& scene) {
+  std::set<std::string> shared;
+  for (const Wall& wall : scene.walls) shared.insert(wall.moves_with);
+  for (std::size_t k = 0; k < file.count("solid.clamp"); ++k)
+    shared.insert(file.value<std::string>(fmt::format("solid.clamp[{}].moves_with", k)).value_or(""));
+  shared.erase("");
+  const auto is_mistyped = [&](const std::string& name) { return !shared_motion(scene, name); };
+  if (std::any_of(shared.begin(), shared.end(), is_mistyped)) return;  // told by itself
+  for (std::size_t i = 0; i < scene.motions.size(); ++i)
+    if (const std::string& name = scene.motions[i].name; !shared.contains(name))
+      file.fault(
+          fmt::format("motion.{}.name", i),
+          fmt::format("nothing moves with '{}': give moves_with = \"{}\" to a wall or a clamp", name, name));
 }
 
 void check_axis(CaseFile& file, const Scene& scene) {
@@ -226,7 +250,8 @@ void describe(ParameterTable& table, Wall& wall) {
              {.required = true, .help = "as the log and the report call it", .names_columns = true});
   describe_shape(table, wall.shape, wall.box, "filled with particles on a lattice of each solver's spacing");
   table.optional("motion", wall.motion, "prescribed motion; without it the wall stands still");
-  table.text("moves_with", wall.moves_with, {.help = "the [[motion]] that it shares with others, by name"});
+  if (table.wants(!wall.moves_with.empty()))
+    table.text("moves_with", wall.moves_with, {.help = "the [[motion]] that it shares with others, by name"});
   table.require(!wall.motion || wall.moves_with.empty(), "moves_with",
                 "a wall has either a 'motion' of its own or one of those that are shared");
   table.optional("press", wall.press, "moves as a pressure and the fluid push it");
@@ -261,7 +286,8 @@ Scene read_scene(CaseFile& file) {
   check_bodies(file, scene);
   check_references(file, scene);
   check_axis(file, scene);
-  check_turns(file, scene);
+  check_motions(file, scene);
+  check_shares(file, scene);
   check_names(file, scene);
   if (scene.periodic != Periodic::none && file.has("solid"))
     file.fault("case.periodic", "a scene with a solid cannot be periodic: solids know no periods");

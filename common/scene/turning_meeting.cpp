@@ -76,14 +76,22 @@ Vec shared_place(const Corners& a, const Corners& b) {
   return mean;
 }
 
-}  // namespace
+/// The circle that holds the corners.
+struct Disc {
+  Vec middle = Vec::Zero();  ///< [m]
+  double radius = 0;         ///< [m]
+  explicit Disc(const Corners& corners) {
+    for (const Vec& x : corners) middle += x / static_cast<double>(corners.size());
+    for (const Vec& x : corners) radius = std::max(radius, (x - middle).norm());
+  }
+};
 
-bool can_turn_with(const Pair& pair) {
-  return is_polygon(pair.a) && is_polygon(pair.b);
-}
-
-std::optional<Meeting> first_turning_meeting(const Pair& pair, double tolerance, double end_time) {
+/// Looks at both, by look(t, pose of a, pose of b), whenever either may have moved by `tolerance` and the
+/// circles that hold them overlap, until a look finds something.
+template <class Look>
+std::optional<Meeting> first_look(const Pair& pair, double tolerance, double end_time, const Look& look) {
   const Corners a = outer_corners(pair.a), b = outer_corners(pair.b);
+  const Disc around_a(a), around_b(b);
   double fastest = 0;
   std::vector<double> times{0, end_time};
   for (const auto& [motion, outline] : {std::pair(pair.motion_a, &a), std::pair(pair.motion_b, &b)})
@@ -98,13 +106,34 @@ std::optional<Meeting> first_turning_meeting(const Pair& pair, double tolerance,
     const int looks = std::max(1, static_cast<int>(std::ceil(length / step)));
     for (int n = 0; n < looks; ++n) {
       const double t = times[k - 1] + n * length / looks;
-      const Corners a_now = placed(a, pose_of(pair.motion_a, t)),
-                    b_now = placed(b, pose_of(pair.motion_b, t));
-      if (std::min(depth_behind_sides(a_now, b_now), depth_behind_sides(b_now, a_now)) > tolerance)
-        return Meeting{t, shared_place(a_now, b_now)};
+      const Pose pose_a = pose_of(pair.motion_a, t), pose_b = pose_of(pair.motion_b, t);
+      const double apart = (pose_a.place(around_a.middle) - pose_b.place(around_b.middle)).norm();
+      if (apart > around_a.radius + around_b.radius) continue;
+      if (auto found = look(t, pose_a, pose_b)) return found;
     }
   }
   return {};
+}
+
+}  // namespace
+
+bool can_turn_with(const Pair& pair) {
+  return is_polygon(pair.a) && is_polygon(pair.b);
+}
+
+bool may_meet_turning(const Pair& pair, double tolerance, double end_time) {
+  const auto near = [](double t, const Pose&, const Pose&) { return std::optional(Meeting{t, Vec::Zero()}); };
+  return first_look(pair, tolerance, end_time, near).has_value();
+}
+
+std::optional<Meeting> first_turning_meeting(const Pair& pair, double tolerance, double end_time) {
+  const Corners a = outer_corners(pair.a), b = outer_corners(pair.b);
+  const auto look = [&](double t, const Pose& pose_a, const Pose& pose_b) -> std::optional<Meeting> {
+    const Corners a_now = placed(a, pose_a), b_now = placed(b, pose_b);
+    if (std::min(depth_behind_sides(a_now, b_now), depth_behind_sides(b_now, a_now)) <= tolerance) return {};
+    return Meeting{t, shared_place(a_now, b_now)};
+  };
+  return first_look(pair, tolerance, end_time, look);
 }
 
 }  // namespace toryu

@@ -147,8 +147,8 @@ TEST(SceneFaults, RowsOfAFile) {
     text.add("roll.csv", file);
     return text.scene_faults();
   };
-  EXPECT_EQ(CaseText(sound_scene + shared).scene_faults(),
-            "case.toml:10:29: error: no file 'roll.csv' in the folder of the case");
+  EXPECT_EQ(CaseText(sound_scene + "moves_with = 'roll'\n" + shared).scene_faults(),
+            "case.toml:11:29: error: no file 'roll.csv' in the folder of the case");
   EXPECT_EQ(faults("time[s],angle[deg]\n0,0\n"),
             "roll.csv:1:1: error: no column 'angle[rad]'; the columns are 'time[s]', 'angle[deg]'");
   EXPECT_EQ(faults("time[s],angle[rad]\n0,0\n1,x\n"),

@@ -9,7 +9,7 @@ NARROWER = 0.95  # share of 'gap' that the narrowest passage may have
 
 def of(view, case):
     """The faults of a case, (key of [recession], words)."""
-    return [fault for look in (nothing_off, worn, gap, rows, pressure, goals) if (fault := look(view, case))]
+    return [fault for look in (nothing_off, worn, shapes, gap, rows, pressure, goals) if (fault := look(view, case))]
 
 
 def boxes(things):
@@ -30,6 +30,17 @@ def nothing_off(_, case):
 def worn(_, case):
     if any("worn" in wall for wall in case.get("wall", [])):
         return "", "the case has walls that are 'worn': the study says how far they are"
+    return None
+
+
+def shapes(_, case):
+    for wall in case.get("wall", []):
+        box = wall.get("box") or {}
+        laid = any(wall.get(key) for key in ("rotate", "translate", "array")) or wall.get("mirror", "none") != "none" or (
+            wall.get("scale", 1) != 1)
+        if wall.get("work_piece") and ("min" not in box or box.get("round") or laid):
+            return "", (f"the work piece '{wall.get('name', '')}' is no box as it stands: a recession wears the faces of boxes "
+                        "that say where they are")
     return None
 
 
