@@ -1,4 +1,6 @@
 // Bodies of a case that are in one place: at the start, as all programs see them, and as walls move.
+#include "common/scene/bodies.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tests/errors/case_text.hpp"
@@ -29,6 +31,34 @@ std::string turning(const std::string& name, const std::string& box, const std::
 std::string pressed(const std::string& name, const std::string& box, const std::string& travel) {
   return "[[wall]]\nname='" + name + "'\nbox={" + box + "}\npress={force=[[0,1]], direction='+x', travel=[" +
          travel + "]}\n";
+}
+
+TEST(Bodies, ClampsGoWithOutlinesThatTheyStandOn) {
+  const auto moving_clamps = [](const std::string& polygon) {
+    const CaseText text(gate + "[[wall]]\nname='lid'\npolygon=" + polygon +
+                        "\nmotion={velocity=[[0,0,0],[1,1,0]]}\n");
+    CaseFile file(text.folder(), {});
+    return clamp_motions(file, read_scene(file)).at(0).has_value();
+  };
+  EXPECT_TRUE(moving_clamps("[[0,2], [3,2], [3,3], [1,3.5], [0,3]]"));
+  EXPECT_FALSE(moving_clamps("[[1.1,2], [3,2], [3,3], [1,3.5], [1.1,3]]"))
+      << "it holds half of the clamp alone";
+  EXPECT_FALSE(moving_clamps("[[0,2.1], [3,2.1], [3,3], [1,3.5], [0,3]]")) << "it stands off";
+}
+
+TEST(Bodies, SayWhichTurnsAreNotLookedAt) {
+  const auto unknown = [](const std::string& place) {
+    const CaseText text(water + "[[wall]]\nname='star'\npolygon=[[-2,-2], [-1,-1.6], [0,-2], [-1,0]]\n" +
+                        "motion.rotation={about=[-1,-1], angular_velocity=[[0,1]]}\n" + wall("post", place));
+    CaseFile file(text.folder(), {});
+    return unknown_meetings(file, read_scene(file));
+  };
+  ASSERT_EQ(unknown("min=[0.2,-1.5], max=[0.5,-1]").size(), 1u);
+  EXPECT_EQ(
+      unknown("min=[0.2,-1.5], max=[0.5,-1]")[0],
+      "the wall 'post' and the wall 'star': whether they meet is not looked at, since one of them turns and "
+      "has holes or is not convex");
+  EXPECT_TRUE(unknown("min=[3,3], max=[3.5,3.5]").empty()) << "out of its reach";
 }
 
 struct Scenery {

@@ -141,6 +141,26 @@ TEST(SceneFaults, MotionThatIsShared) {
             "case.toml:8:1: error: a wall has either a 'motion' of its own or one of those that are shared");
 }
 
+TEST(SceneFaults, MotionThatNothingShares) {
+  CaseText text(sound_scene + shared);
+  text.add("roll.csv", "time[s],angle[rad]\n0,0\n1,0.1\n");
+  EXPECT_EQ(
+      text.scene_faults(),
+      "case.toml:9:1: error: nothing moves with 'roll': give moves_with = \"roll\" to a wall or a clamp");
+}
+
+TEST(SceneFaults, TurnsThatDoNotGoWithTheRest) {
+  const std::string turning = "motion.rotation = { about = [1, 1], angular_velocity = [[0, 1]] }\n";
+  EXPECT_EQ(
+      CaseText(sound_scene + turning + "[fluid]\nwall_slip = {}\n").scene_faults(),
+      "case.toml:8:1: error: a wall that turns does not go with [fluid.wall_slip], which knows plane walls "
+      "alone");
+  EXPECT_EQ(
+      CaseText(sound_scene + "motion.rotation = { about = [1e300, 1], angular_velocity = [[0, 1e300]] }\n")
+          .scene_faults(),
+      "case.toml:8:1: error: its speed is beyond all numbers");
+}
+
 TEST(SceneFaults, RowsOfAFile) {
   const auto faults = [](const std::string& file) {
     CaseText text(sound_scene + "moves_with = 'roll'\n" + shared);

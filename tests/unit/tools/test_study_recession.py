@@ -237,6 +237,12 @@ class Faults(Study):
         self.assertIn(words, self.told(RECESSION, HEAD + 'set = { "wall.upper.worn" = [] }\n'))
         self.assertIn(words, self.told(RECESSION, HEAD, CASE, "--set", "wall.lower.worn=[]"))
 
+    def test_work_pieces_are_boxes_that_say_where_they_are(self):
+        words = "the work piece 'upper' is no box as it stands"
+        upper = "box = { min = [0.0, 0.001], max = [0.010, 0.0025] }"
+        self.assertIn(words, self.told(case=CASE.replace(upper, "circle = { centre = [0.005, 0.01], radius = 0.009 }")))
+        self.assertIn(words, self.told(case=CASE.replace(upper, upper + "\ntranslate = [0.0, 0.001]")))
+
     def test_a_gap_that_is_no_passage_of_the_case(self):
         self.assertIn("window.toml:8: error: 'gap' is the narrowest passage at the start: it is 2 m here, and 0.002 m are "
                       "between 'lower' and 'upper'", self.told(RECESSION.replace("0.002", "2.0")))
