@@ -12,4 +12,10 @@ inline constexpr int dim = 2;
 using Vec = Eigen::Matrix<double, dim, 1>;
 using Mat = Eigen::Matrix<double, dim, dim>;
 
+static_assert(dim == 2, "cross products of the plane");
+/// The component across the plane: positive if b lies anticlockwise of a.
+inline double cross(const Vec& a, const Vec& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
 }  // namespace toryu

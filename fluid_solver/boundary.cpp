@@ -108,6 +108,12 @@ void Boundary::count_force(double dt) {
   counted = true;
 }
 
+void Boundary::count_moment(double further, double dt) {
+  moment += further;
+  power_given += further * angular_velocity;
+  work += dt * further * angular_velocity;
+}
+
 double Boundary::power(const Vec& on_fluid) const {
   if (!moves()) return 0;
   if (const auto* pressed = std::get_if<PressedMotion>(&motion))

@@ -152,6 +152,8 @@ struct Boundary {
   /// Counts what the last evaluation did to the fluid for `dt` [s]; of the interface and of a wall that turns
   /// `force` and `friction_force` must be there.
   void count_force(double dt);
+  /// The same of a moment on the fluid that is no force of particles [N.m per metre depth].
+  void count_moment(double further, double dt);
 };
 
 template <class Of>

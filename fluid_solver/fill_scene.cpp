@@ -6,11 +6,11 @@
 #include <random>
 
 #include "fluid_solver/axis_images.hpp"
+#include "fluid_solver/face_depths.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/initial_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/terms/axisymmetry.hpp"
-#include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/wall_rows.hpp"
 #include "fluid_solver/work_piece.hpp"
 #include "fluid_solver/worn_walls.hpp"

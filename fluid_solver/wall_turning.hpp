@@ -49,8 +49,8 @@ void turn_cluster(Boundary& boundary, const Particles& fluid, const W& kernel, s
 ///
 /// The pair forces of a laminar viscosity are those of the stress mu grad v, which leaves out mu (grad v)^T.
 /// Within the fluid the latter makes no force, but on a wall that turns by omega, to which the fluid sticks,
-/// its moment on the fluid is mu omega times this integral: without it a fluid that turns rigidly with its
-/// tank would need a moment.
+/// its moment on the fluid is mu omega times this integral, and so much by omega is dissipated beyond what
+/// the pairs take: without it a fluid that turns rigidly with its tank would need a moment and heat up.
 double wetted_surface_moment(const Boundary& boundary, const Particles& fluid, const Kernel& kernel);
 
 /// The velocity of particle i of the fluid against the wall, which may turn, at a place of the wall x_w - x_i

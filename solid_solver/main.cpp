@@ -138,6 +138,8 @@ ExitCode solve(const Options& options) {
   file.throw_if_faulty();
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
   for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
+  if (!file.has("fluid"))  // whose program tells of them
+    for (const auto& unknown : unknown_meetings(file, scene)) log::warn("{}", unknown);
   if (options.check) {
     if (!file.has("fluid"))  // whose program tells them
       for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');

@@ -63,14 +63,18 @@ void add_places(const toml::node& node, const toml::array& path, toml::array& pl
         add(static_cast<std::int64_t>(i), inner.source(), inner);
 }
 
-void add_named_files(const toml::node& node, const std::filesystem::path& folder,
+/// Under any key a text that ends as tables and drawings do, under `file` any.
+void add_named_files(std::string_view key, const toml::node& node, const std::filesystem::path& folder,
                      std::set<std::string>& names) {
   if (const toml::table* table = node.as_table()) {
-    const auto name = (*table)["file"].value_exact<std::string>();
-    if (name && fault_of_name(folder, *name).empty()) names.insert(*name);
-    for (const auto& [key, inner] : *table) add_named_files(inner, folder, names);
+    for (const auto& [name, inner] : *table) add_named_files(name.str(), inner, folder, names);
   } else if (const toml::array* array = node.as_array()) {
-    for (const toml::node& inner : *array) add_named_files(inner, folder, names);
+    for (const toml::node& inner : *array) add_named_files("", inner, folder, names);
+  } else if (const auto name = node.value_exact<std::string>()) {
+    const auto ends = [&](const char* ending) { return name->ends_with(ending); };
+    if ((key == "file" || ends(".csv") || ends(".svg") || ends(".dxf")) &&
+        fault_of_name(folder, *name).empty())
+      names.insert(*name);
   }
 }
 
@@ -282,7 +286,7 @@ std::uint64_t CaseFile::hash() const {
 
 std::vector<std::string> CaseFile::named_files() const {
   std::set<std::string> names;
-  add_named_files(content_->root, folder(), names);
+  add_named_files("", content_->root, folder(), names);
   return {names.begin(), names.end()};
 }
 

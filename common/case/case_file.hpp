@@ -80,8 +80,8 @@ class CaseFile {
   std::uint64_t hash() const;
   /// The files that were read: the case's own and its base.
   const std::vector<std::filesystem::path>& inputs() const;
-  /// The files that the case names by a key `file` in any of its sections, relative to its folder, sorted;
-  /// none that is not there.
+  /// The files beside it that the case names in any of its sections, tables and drawings by their endings,
+  /// others by a key `file`: relative to its folder, sorted; none that is not there.
   std::vector<std::string> named_files() const;
   /// The folder of the file: paths in a case are relative to it.
   std::filesystem::path folder() const;

@@ -124,6 +124,8 @@ class ParameterTable {
 
   /// Whether to visit a key that few items have: what is written leaves it out unless it is `given`.
   virtual bool wants(bool /*given*/) const { return true; }
+  /// Whether values are read, so that what they come to is worth finding.
+  virtual bool reads() const { return false; }
 
  protected:
   virtual void word(const std::string& key, int& index, const std::vector<std::string>& words,

@@ -17,11 +17,11 @@ struct Reading {
 class ReadTable final : public ParameterTable {
  public:
   /// `table` is null where the case has no such section; `path` is its dotted name, `where` the same for a
-  /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported,
-  /// `folder` the case's, where the files of its tables are.
+  /// message (" in [[fluid.region]]", nothing for the whole file), `place` where a missing key is reported.
   ReadTable(const toml::table* table, std::string path, std::string where, toml::source_region place,
             const Reading& reading);
 
+  bool reads() const override { return true; }
   void number(const std::string& key, double& value, const NumberRule& rule) override;
   void integer(const std::string& key, int& value, const NumberRule& rule) override;
   void flag(const std::string& key, bool& value, const std::string& help) override;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/scene/meeting.hpp"
+#include "common/scene/case_bodies.hpp"
 #include "common/scene/outline.hpp"
 #include "common/scene/turning_meeting.hpp"
 
@@ -18,103 +18,6 @@ namespace {
 constexpr double touching = 0.1;
 /// Over the fluid's spacing: who stands so far off does not seem to touch.
 constexpr double apart = 0.9;
-
-struct Body {
-  std::string name;  ///< as a sentence calls it
-  std::string key;   ///< of its shape in the case file
-  Part part;
-  const Motion* motion = nullptr;
-  bool travels = false;  ///< between the stops of a press
-};
-
-/// A shape in a list of the case.
-struct Item {
-  std::string name, key;
-  Box box;
-  std::size_t index = 0;        ///< in the list
-  std::string moves_with = {};  ///< the motion that it names
-};
-
-bool is_sound(const Box& box) {
-  return (box.max.array() > box.min.array()).all();
-}
-
-/// The shapes of the list `section`, as far as they are sound.
-std::vector<Item> items(const CaseFile& file, const std::string& section) {
-  std::vector<Item> found;
-  for (std::size_t i = 0; i < file.count(section); ++i) {
-    Item item;
-    BodyShape shape;
-    item.index = i;
-    file.look(fmt::format("{}[{}]", section, i), [&](ParameterTable& table) {
-      table.text("name", item.name, {});
-      table.text("moves_with", item.moves_with, {});
-      if (!describe_optional_shape(table, shape, item.box, "") && section == "fluid.hole")
-        describe(table, item.box);
-    });
-    item.key = fmt::format("{}.{}.{}", section, i, shape.place());
-    if (is_sound(item.box)) found.push_back(std::move(item));
-  }
-  return found;
-}
-
-std::vector<Box> boxes_of(const std::vector<Item>& items) {
-  std::vector<Box> boxes;
-  boxes.reserve(items.size());
-  for (const auto& item : items) boxes.push_back(item.box);
-  return boxes;
-}
-
-/// As they stand or, where a press moves them, with all that they can sweep over.
-std::vector<Body> walls_of(const Scene& scene, bool swept) {
-  std::vector<Body> walls;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    const Wall& wall = scene.walls[i];
-    if (!is_sound(wall.box)) continue;
-    walls.push_back({fmt::format("the wall '{}'", wall.name),
-                     fmt::format("wall.{}.{}", i, wall.shape.place()),
-                     {{swept ? swept_box(wall) : wall.box}, {}},
-                     wall.motion ? &*wall.motion : nullptr,
-                     wall.press.has_value()});
-  }
-  return walls;
-}
-
-/// The regions of `participant` less its holes.
-std::vector<Body> regions_of(const CaseFile& file, const std::string& participant) {
-  const auto holes = boxes_of(items(file, participant + ".hole"));
-  std::vector<Body> regions;
-  for (const auto& region : items(file, participant + ".region"))
-    regions.push_back(
-        {fmt::format("the {}'s region '{}'", participant, region.name), region.key, {{region.box}, holes}});
-  return regions;
-}
-
-/// What a clamp holds of a region.
-struct Held : Body {
-  std::size_t clamp = 0;  ///< in the list of clamps
-};
-
-std::vector<Held> held_parts(const CaseFile& file, const Scene& scene, const std::vector<Body>& regions) {
-  std::vector<Held> held;
-  for (const auto& clamp : items(file, "solid.clamp"))
-    for (const Body& region : regions) {
-      Held part{region, clamp.index};
-      part.part.within.push_back(clamp.box);
-      part.name = fmt::format("the solid's clamp '{}'", clamp.name);
-      part.key = clamp.key;
-      part.motion = shared_motion(scene, clamp.moves_with);
-      held.push_back(part);
-    }
-  return held;
-}
-
-std::vector<Body> free_parts(const CaseFile& file, std::vector<Body> regions) {
-  const auto clamps = boxes_of(items(file, "solid.clamp"));
-  for (Body& region : regions)
-    region.part.without.insert(region.part.without.end(), clamps.begin(), clamps.end());
-  return regions;
-}
 
 double finest_spacing(const CaseFile& file) {
   double finest = 0;
@@ -131,9 +34,12 @@ struct Gap {
   double width() const { return std::abs(other - face); }
 };
 
-/// Whether one side of the box lies on the outline, looked at in some places.
-bool has_side_on(const Box& box, const Outline& outline, double tolerance) {
+/// Whether one side of what is held lies on the wall all along, looked at in some places.
+bool is_fixed_on(const Part& held, const Box& wall, double tolerance) {
   constexpr int places = 9;
+  const Box box = bounds_of(held);
+  if (!box.is_sound()) return false;
+  const Outline outline = outline_of(wall);
   for (int axis = 0; axis < dim; ++axis)
     for (const Vec& corner : {box.min, box.max}) {
       int on = 0;
@@ -144,22 +50,6 @@ bool has_side_on(const Box& box, const Outline& outline, double tolerance) {
       }
       if (on == places) return true;
     }
-  return false;
-}
-
-/// Whether one side of `held` lies on the wall all along.
-bool is_fixed_on(const Part& held, const Box& wall, double tolerance) {
-  const Box box = bounds_of(held);
-  if (wall.outline) return is_sound(box) && has_side_on(box, *wall.outline, tolerance);
-  if (wall.round) return false;
-  for (int axis = 0; axis < dim; ++axis) {
-    const int across = 1 - axis;
-    const bool touches = std::abs(box.min[axis] - wall.max[axis]) <= tolerance ||
-                         std::abs(wall.min[axis] - box.max[axis]) <= tolerance;
-    if (touches && wall.min[across] <= box.min[across] + tolerance &&
-        wall.max[across] >= box.max[across] - tolerance)
-      return (box.max.array() > box.min.array()).all();
-  }
   return false;
 }
 
@@ -193,24 +83,20 @@ class Bodies {
   Bodies(const CaseFile& file, const Scene& scene)
       : file_(file),
         end_time_(scene.end_time),
-        walls_(walls_of(scene, false)),
-        swept_(walls_of(scene, true)),
-        fluid_(regions_of(file, "fluid")),
-        solid_(regions_of(file, "solid")),
+        bodies_(file, scene),
         tolerance_(touching * finest_spacing(file)) {
-    held_ = held_parts(file, scene, solid_);
     const Vec side = (scene.domain.max - scene.domain.min).cwiseMax(0.0);
     origin_ = scene.domain.min;
     if (scene.periodic == Periodic::x || scene.periodic == Periodic::xy) period_[0] = side[0];
     if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy) period_[1] = side[1];
-    for (Held& part : held_)
+    for (Held& part : bodies_.held)
       if (!part.motion) part.motion = motion_of_holder(part);
   }
 
   /// By clamp; none where it stands still.
   std::vector<std::optional<Motion>> clamp_motions() const {
     std::vector<std::optional<Motion>> motions(file_.count("solid.clamp"));
-    for (const Held& part : held_)
+    for (const Held& part : bodies_.held)
       if (part.motion && !motions[part.clamp]) motions[part.clamp] = *part.motion;
     return motions;
   }
@@ -219,27 +105,28 @@ class Bodies {
   using Faults = std::vector<std::pair<std::string, std::string>>;
   Faults faults() const {
     Faults found;
-    for (std::size_t i = 0; i < swept_.size(); ++i)
+    for (std::size_t i = 0; i < bodies_.swept.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) {
-        const bool by_travel = (swept_[i].travels || swept_[k].travels) && !meeting(walls_[i], walls_[k], 0);
-        keep_apart(swept_[i], swept_[k], end_time_, by_travel ? ", with the travel of what is pressed" : "",
-                   found);
+        const bool by_travel = (bodies_.swept[i].travels || bodies_.swept[k].travels) &&
+                               !meeting(bodies_.walls[i], bodies_.walls[k], 0);
+        keep_apart(bodies_.swept[i], bodies_.swept[k], end_time_,
+                   by_travel ? ", with the travel of what is pressed" : "", found);
       }
-    for (const Body& region : fluid_)
-      for (const auto* bodies : {&walls_, &solid_})
+    for (const Body& region : bodies_.fluid)
+      for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
         for (const Body& other : *bodies)
           if (!is_left_out(other)) keep_apart(region, other, 0, "", found);
-    for (const Body& wall : walls_) {
-      for (const Body& part : free_parts(file_, solid_))
+    for (const Body& wall : bodies_.walls) {
+      for (const Body& part : bodies_.free)
         keep_apart(wall, part, 0, "; what a wall holds of a solid is a [[solid.clamp]]", found);
-      for (const Held& part : held_) keep_together(wall, part, found);
+      for (const Held& part : bodies_.held) keep_together(wall, part, found);
     }
     return found;
   }
 
   std::vector<Box> left_out() const {
     std::vector<Box> boxes;
-    for (const auto* bodies : {&walls_, &solid_})
+    for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
       for (const Body& body : *bodies)
         if (is_left_out(body)) boxes.push_back(body.part.within[0]);
     return boxes;
@@ -254,7 +141,7 @@ class Bodies {
     std::vector<Group> groups;
     const auto add = [&](const Body& body) {
       const Box box = bounds_of(body.part);
-      if (!body.motion || (box.max.array() <= box.min.array()).any()) return;
+      if (!body.motion || !box.is_sound()) return;
       auto group = std::find_if(groups.begin(), groups.end(),
                                 [&](const Group& g) { return *g.motion == *body.motion; });
       if (group == groups.end()) group = groups.insert(groups.end(), {body.motion, {}, {}});
@@ -263,8 +150,8 @@ class Bodies {
       for (const Vec& corner : corners_of(body.part.within.size() == 1 ? body.part.within[0] : box))
         group->points.push_back(corner);
     };
-    for (const Body& wall : walls_) add(wall);
-    for (const Held& part : held_) add(part);
+    for (const Body& wall : bodies_.walls) add(wall);
+    for (const Held& part : bodies_.held) add(part);
     std::vector<std::string> lines;
     for (const auto& [motion, names, points] : groups)
       lines.push_back(fmt::format("{} {}: {}", fmt::join(names, ", "), names.size() == 1 ? "moves" : "move",
@@ -275,9 +162,9 @@ class Bodies {
   /// Pairs of walls of which one turns and that are too intricate to be looked at.
   std::vector<std::string> unknown_meetings() const {
     std::vector<std::string> said;
-    for (std::size_t i = 0; i < walls_.size(); ++i)
+    for (std::size_t i = 0; i < bodies_.walls.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) {
-        const Body &a = walls_[i], &b = walls_[k];
+        const Body &a = bodies_.walls[i], &b = bodies_.walls[k];
         const bool turns = (a.motion && a.motion->turns()) || (b.motion && b.motion->turns());
         const Pair pair{a.part, b.part, a.motion, b.motion};
         if (!turns || (a.motion && b.motion && *a.motion == *b.motion) || can_turn_with(pair)) continue;
@@ -293,9 +180,10 @@ class Bodies {
   std::vector<std::string> passages() const {
     std::vector<std::string> said;
     const auto moves = [](const Held& part) { return part.motion != nullptr; };
-    if (file_.has("solid.wall_contact") || std::any_of(held_.begin(), held_.end(), moves)) return said;
-    for (const Body& wall : walls_)
-      for (const Body& part : free_parts(file_, solid_)) {
+    if (file_.has("solid.wall_contact") || std::any_of(bodies_.held.begin(), bodies_.held.end(), moves))
+      return said;
+    for (const Body& wall : bodies_.walls)
+      for (const Body& part : bodies_.free) {
         if (!wall.motion) continue;
         if (wall.motion->turns())
           said.push_back(
@@ -313,8 +201,8 @@ class Bodies {
   std::vector<std::string> gaps() const {
     const double spacing = file_.value<double>("fluid.spacing").value_or(0);
     std::vector<std::string> said;
-    for (const Body& region : fluid_)
-      for (const auto* bodies : {&walls_, &solid_})
+    for (const Body& region : bodies_.fluid)
+      for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
         for (const Body& other : *bodies)
           if (const auto gap = gap_between(region.part.within[0], other.part.within[0], touching * spacing))
             if (gap->width() < apart * spacing) said.push_back(gap_text(region, other, *gap, spacing));
@@ -350,7 +238,7 @@ class Bodies {
   /// None if nothing holds it, or if anything at rest does.
   const Motion* motion_of_holder(const Held& part) const {
     const Motion* motion = nullptr;
-    for (const Body& wall : walls_) {
+    for (const Body& wall : bodies_.walls) {
       if (!holds(wall, part)) continue;
       if (!wall.motion || !moves(*wall.motion)) return nullptr;
       motion = wall.motion;
@@ -378,8 +266,7 @@ class Bodies {
 
   const CaseFile& file_;
   double end_time_;
-  std::vector<Body> walls_, swept_, fluid_, solid_;
-  std::vector<Held> held_;
+  CaseBodies bodies_;
   double tolerance_;
   Vec origin_;  ///< of the domain [m]
   Vec period_ = Vec::Zero();

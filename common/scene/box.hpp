@@ -21,6 +21,8 @@ struct Box {
     return (x.array() >= min.array()).all() && (x.array() < max.array()).all() && (!round || in_ellipse(x)) &&
            (!outline || in_outline(x));
   }
+  /// Whether there is something between its corners.
+  bool is_sound() const { return (max.array() > min.array()).all(); }
   /// Whether it fills its corners.
   bool is_rectangle() const { return !round && !outline; }
   bool in_ellipse(const Vec& x) const {

@@ -27,8 +27,6 @@ constexpr const char* python = "/usr/bin/python3";
 constexpr int ended_well = 0;                       // exit code
 constexpr std::chrono::seconds time_limit{120};     // for a drawing
 constexpr std::size_t largest_answer = 64'000'000;  // [bytes]
-/// Of an answer that is kept: without it the file has been damaged.
-constexpr const char* last_line = "# whole\n";
 
 /// tools/toryu of the tree that the program was built in; empty if it is in none.
 fs::path tools_folder() {
@@ -139,11 +137,9 @@ ToolAnswer ask_drawing_tool(const fs::path& path, const std::string& text,
             .key = "file",
             .fault = "cannot be read: there is no tools/toryu/outline.py in a folder above the program"};
   const fs::path cached = cached_answer(tools, text, arguments);
-  if (!cached.empty() && is_file(cached))
-    if (auto rows = read_text(cached, largest_answer); rows.ends_with(last_line))
-      return {.rows = std::move(rows), .key = {}, .fault = {}};
+  if (auto rows = read_cached(cached)) return {.rows = std::move(*rows), .key = {}, .fault = {}};
   ToolAnswer answer = answer_of(tools, path, arguments);
-  if (answer.fault.empty() && !cached.empty()) keep_cached(cached, answer.rows + last_line);
+  if (answer.fault.empty()) keep_cached(cached, answer.rows);
   return answer;
 }
 

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "common/scene/filling_cache.hpp"
 #include "common/scene/place_index.hpp"

@@ -4,7 +4,6 @@
 
 #include <charconv>
 
-#include "common/case/text_file.hpp"
 #include "common/case/text_hash.hpp"
 #include "common/case/user_cache.hpp"
 #include "common/sph/lanes.hpp"
@@ -15,7 +14,11 @@ namespace {
 
 /// To be raised when outlines are filled in another way.
 constexpr int version = 1;
-constexpr std::uintmax_t largest_filling = 2'000'000'000;  // [bytes]
+#ifdef NDEBUG
+constexpr const char* build = "release";
+#else
+constexpr const char* build = "debug";
+#endif
 
 /// Reads numbers one after the other.
 class Numbers {
@@ -38,7 +41,7 @@ class Numbers {
 
 std::filesystem::path cached_filling(const Outline& outline, double spacing) {
   TextHash hash;
-  hash.add(fmt::format("{} {} {} {}", version, __VERSION__, lane_count, spacing));
+  hash.add(fmt::format("{} {} {} {} {}", version, __VERSION__, build, lane_count, spacing));
   for (const auto& ring : outline.rings()) {
     hash.add("ring");
     for (const Vec& corner : ring) hash.add(fmt::format("{} {}", corner[0], corner[1]));
@@ -47,9 +50,9 @@ std::filesystem::path cached_filling(const Outline& outline, double spacing) {
 }
 
 std::optional<FittedFilling> read_filling(const std::filesystem::path& file) {
-  if (file.empty() || !is_file(file)) return std::nullopt;
-  const std::string text = read_text(file, largest_filling);
-  Numbers numbers(text);
+  const auto text = read_cached(file);
+  if (!text) return std::nullopt;
+  Numbers numbers(*text);
   FittedFilling filling;
   const auto count = numbers.next(), volume = numbers.next(), rounds = numbers.next(),
              spread = numbers.next();
@@ -66,7 +69,6 @@ std::optional<FittedFilling> read_filling(const std::filesystem::path& file) {
 }
 
 void keep_filling(const FittedFilling& filling, const std::filesystem::path& file) {
-  if (file.empty()) return;
   std::string text =
       fmt::format("{} {} {} {}\n", filling.points.size(), filling.volume, filling.rounds, filling.spread);
   for (const Vec& x : filling.points) text += fmt::format("{} {}\n", x[0], x[1]);

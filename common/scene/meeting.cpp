@@ -39,10 +39,6 @@ Part joined(const Part& a, const Part& b, const Vec& a_by, const Vec& b_by) {
   return both;
 }
 
-bool is_empty(const Box& box) {
-  return (box.max.array() <= box.min.array()).any();
-}
-
 bool is_of_rectangles(const Part& part) {
   const auto is_rectangle = [](const Box& box) { return box.is_rectangle(); };
   return std::all_of(part.within.begin(), part.within.end(), is_rectangle) &&
@@ -91,11 +87,11 @@ std::optional<Vec> place_in(const Part& part, double tolerance) {
   Part firm;
   for (const Box& box : part.within) {
     firm.within.push_back(grown(box, -0.5 * tolerance));
-    if (is_empty(firm.within.back())) return {};
+    if (!firm.within.back().is_sound()) return {};
   }
   for (const Box& box : part.without) firm.without.push_back(grown(box, 0.5 * tolerance));
   const Box bounds = bounds_of(firm);
-  if (is_empty(bounds)) return {};
+  if (!bounds.is_sound()) return {};
   const auto is_in = [&](const Vec& x) {
     const auto within = [&](const Box& box) { return holds(box, -0.5 * tolerance, x); };
     const auto without = [&](const Box& box) { return holds(box, 0.5 * tolerance, x); };

@@ -33,8 +33,8 @@ struct Pair {
 };
 
 /// When and where the two first share more than `tolerance` [m], from t = 0 to `end_time` [s]. `period` [m]:
-/// after which space repeats itself along each axis; 0: never. Of two of which one turns and one has holes,
-/// only how they lie at the start is looked at.
+/// after which space repeats itself along each axis; 0: never. Of two of which one turns and one has holes
+/// or is not convex, only how they lie at the start is looked at.
 std::optional<Meeting> first_meeting(const Pair& pair, double tolerance, double end_time, const Vec& period);
 
 }  // namespace toryu

@@ -134,6 +134,7 @@ std::vector<double> Motion::knots(double end) const {
 }
 
 MotionExtremes extremes(const Motion& motion, const std::vector<Vec>& points, double end) {
+  if (!motion.rotation && points.size() > 1) return extremes(motion, {points.front()}, end);
   MotionExtremes found;
   std::vector<Vec> before;  // velocities
   double time_before = 0;

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::uint32_t edges_of_leaf = 4;
 
-double cross(const Vec& a, const Vec& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-
 /// Positive if anticlockwise [m2].
 double signed_area(const Outline::Ring& ring) {
   double sum = 0;
@@ -36,10 +32,6 @@ bool contains(const Outline::Ring& ring, const Vec& x) {
   for (std::size_t k = 0; k < ring.size(); ++k)
     inside ^= ray_crosses(x, ring[k], ring[(k + 1) % ring.size()]);
   return inside;
-}
-
-Vec outward(const Vec& a, const Vec& b) {
-  return Vec(b[1] - a[1], a[0] - b[0]).normalized();
 }
 
 double square_of_distance(const Vec& x, const Vec& low, const Vec& high) {
@@ -208,18 +200,40 @@ std::vector<Outline::Share> Outline::shares_inside(const Vec& a, const Vec& b) c
   return shares;
 }
 
+Outline Outline::moved(const Vec& by) const {
+  Outline copy = *this;
+  for (Ring& ring : copy.rings_)
+    for (Vec& corner : ring) corner += by;
+  for (Edge& edge : copy.edges_) edge.a += by, edge.b += by;
+  for (Node& node : copy.nodes_) node.low += by, node.high += by;
+  return copy;
+}
+
 bool Box::in_outline(const Vec& x) const {
   return outline->contains(x);
 }
 
 Box Box::moved(const Vec& by) const {
   Box box{min + by, max + by, round};
-  if (!outline) return box;
-  auto rings = outline->rings();
-  for (auto& ring : rings)
-    for (Vec& corner : ring) corner += by;
-  box.outline = std::make_shared<const Outline>(std::move(rings));
+  if (outline) box.outline = std::make_shared<const Outline>(outline->moved(by));
   return box;
+}
+
+std::vector<Vec> corners_of(const Box& box) {
+  constexpr int round_corners = 64;
+  std::vector<Vec> corners;
+  if (box.outline) {
+    for (const Outline::Ring& ring : box.outline->rings())
+      corners.insert(corners.end(), ring.begin(), ring.end());
+    return corners;
+  }
+  if (!box.round) return ring_of(box);
+  for (int k = 0; k < round_corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / round_corners;
+    const Vec half = 0.5 * (box.max - box.min), middle = 0.5 * (box.max + box.min);
+    corners.emplace_back(middle + half.cwiseProduct(Vec(std::cos(angle), std::sin(angle))));
+  }
+  return corners;
 }
 
 Box box_of(Outline outline) {

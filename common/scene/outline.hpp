@@ -26,6 +26,7 @@ class Outline {
   Box bounds() const;
   double area() const;    ///< [m2]
   double length() const;  ///< of all rings [m]
+  Outline moved(const Vec& by) const;
   /// Whether a point lies in the shape. One on an edge that two outlines share lies in exactly one of them,
   /// and one on an edge along x or y counts as in a box.
   bool contains(const Vec& x) const;
@@ -66,7 +67,6 @@ class Outline {
 /// What is wrong with rings that should be an outline.
 struct OutlineFault {
   std::string message;
-  Vec place;                 ///< [m]
   std::size_t ring, corner;  ///< from which the edge there comes, counted from 0
 };
 /// The first fault: fewer than three corners, a corner that is there twice, a ring without an area, edges
@@ -76,8 +76,16 @@ std::optional<OutlineFault> fault_of(const std::vector<Outline::Ring>& rings);
 /// The rings of what is left of an outline without a hole; edges may be shared. None if nothing is.
 std::vector<Outline::Ring> difference(const Outline& outline, const Outline& hole);
 
+/// The unit normal of an edge from a to b, outward.
+inline Vec outward(const Vec& a, const Vec& b) {
+  return Vec(b[1] - a[1], a[0] - b[0]).normalized();
+}
+
 /// An ellipse as a ring, whose corners lie so far outside that the area is the ellipse's.
 Outline::Ring ellipse_ring(const Vec& centre, const Vec& radii, int corners = 512);
+/// The corners of a box, of an outline, or of the polygon with 64 corners in an ellipse, outer ones first and
+/// anticlockwise [m].
+std::vector<Vec> corners_of(const Box& box);
 /// What lies within an outline, as a shape of a body.
 Box box_of(Outline outline);
 /// The corners of a box, or the ellipse in it if it is round.

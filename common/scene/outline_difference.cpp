@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -12,10 +11,6 @@ namespace {
 
 using Ring = Outline::Ring;
 using Segment = std::pair<std::size_t, std::size_t>;  ///< of numbered places
-
-double cross(const Vec& a, const Vec& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
 
 /// Numbered places; two that are nearer than a tolerance are one.
 class Places {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "common/scene/outline.hpp"
 
@@ -14,10 +13,6 @@ using Ring = Outline::Ring;
 
 /// Of the extent of a ring: what is nearer is the same place.
 constexpr double same = 1e-12;
-
-double cross(const Vec& a, const Vec& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
 
 std::string text(const Vec& place) {
   return fmt::format("({:g}, {:g}) m", place[0], place[1]);
@@ -48,10 +43,9 @@ std::optional<Vec> common_place(const Edge& p, const Edge& q) {
 
 std::optional<OutlineFault> fault_of(const Ring& ring, std::size_t number) {
   if (ring.size() < 3)
-    return OutlineFault{fmt::format("has {} corners; an outline has at least 3", ring.size()),
-                        ring.empty() ? Vec(Vec::Zero()) : ring[0], number, 0};
+    return OutlineFault{fmt::format("has {} corners; an outline has at least 3", ring.size()), number, 0};
   for (std::size_t k = 0; k < ring.size(); ++k)
-    if (!ring[k].allFinite()) return OutlineFault{"has a corner that is no number", ring[k], number, k};
+    if (!ring[k].allFinite()) return OutlineFault{"has a corner that is no number", number, k};
   Vec low = ring[0], high = ring[0];
   for (const Vec& corner : ring) {
     low = low.cwiseMin(corner);
@@ -61,7 +55,7 @@ std::optional<OutlineFault> fault_of(const Ring& ring, std::size_t number) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec &a = ring[k], &b = ring[(k + 1) % ring.size()];
     if ((b - a).norm() <= same * extent)
-      return OutlineFault{fmt::format("has the corner {} twice", text(a)), a, number, k};
+      return OutlineFault{fmt::format("has the corner {} twice", text(a)), number, k};
   }
   return std::nullopt;
 }
@@ -84,7 +78,7 @@ std::optional<Vec> meeting(const Edge& p, const Edge& q) {
 }  // namespace
 
 std::optional<OutlineFault> fault_of(const std::vector<Ring>& rings) {
-  if (rings.empty()) return OutlineFault{"has no ring", Vec::Zero(), 0, 0};
+  if (rings.empty()) return OutlineFault{"has no ring", 0, 0};
   std::vector<Edge> edges;
   for (std::size_t r = 0; r < rings.size(); ++r) {
     if (auto fault = fault_of(rings[r], r)) return fault;
@@ -98,11 +92,10 @@ std::optional<OutlineFault> fault_of(const std::vector<Ring>& rings) {
       const Edge &p = edges[i], &q = edges[j];
       if (p.low()[1] > q.high()[1] || q.low()[1] > p.high()[1]) continue;
       if (const auto place = meeting(p, q))
-        return OutlineFault{fmt::format("crosses or touches itself at {}", text(*place)), *place, p.ring,
-                            p.number};
+        return OutlineFault{fmt::format("crosses or touches itself at {}", text(*place)), p.ring, p.number};
     }
   for (std::size_t r = 0; r < rings.size(); ++r)
-    if (!has_area(rings[r])) return OutlineFault{"encloses no area", rings[r][0], r, 0};
+    if (!has_area(rings[r])) return OutlineFault{"encloses no area", r, 0};
   return std::nullopt;
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/scene/fill_outline.hpp"
 #include "common/scene/place_index.hpp"
@@ -22,10 +21,6 @@ struct Sample {
   bool corner = false;  ///< where a point must be
 };
 
-Vec outward(const Vec& a, const Vec& b) {
-  return Vec(b[1] - a[1], a[0] - b[0]).normalized();
-}
-
 /// The curve at `depth` inside a ring, in order; parts of it may lie outside the shape or nearer to it.
 std::vector<Sample> offset_curve(const Ring& ring, double depth, double step) {
   std::vector<Sample> samples;
@@ -33,9 +28,7 @@ std::vector<Sample> offset_curve(const Ring& ring, double depth, double step) {
   const auto normal = [&](std::size_t k) { return outward(ring[k % n], ring[(k + 1) % n]); };
   for (std::size_t k = 0; k < n; ++k) {
     const Vec before = normal(k + n - 1), here = normal(k), after = normal(k + 1), &corner = ring[k];
-    const auto turn = [](const Vec& p, const Vec& q) {
-      return std::atan2(p[0] * q[1] - p[1] * q[0], p.dot(q));
-    };
+    const auto turn = [](const Vec& p, const Vec& q) { return std::atan2(cross(p, q), p.dot(q)); };
     const double turned = turn(before, here);
     if (turned > sharp_turn)  // the rows meet at a point
       samples.push_back({corner - depth / (1 + before.dot(here)) * (before + here), true});

@@ -19,10 +19,6 @@ namespace toryu {
 namespace {
 
 /// A box whose own faults have been reported is left alone.
-bool sound(const Box& box) {
-  return (box.max.array() > box.min.array()).all();
-}
-
 bool box_in_box(const Box& inner, const Box& outer) {
   return (inner.min.array() >= outer.min.array()).all() && (inner.max.array() <= outer.max.array()).all();
 }
@@ -31,11 +27,11 @@ void check_walls(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
     const std::string key = fmt::format("wall.{}", i);
-    if (sound(wall.box) && sound(scene.domain) && !box_in_box(wall.box, scene.domain))
+    if (wall.box.is_sound() && scene.domain.is_sound() && !box_in_box(wall.box, scene.domain))
       file.fault(key + "." + wall.shape.place(),
                  fmt::format("the {} of wall '{}' is not within [case.domain]",
                              wall.box.outline ? "outline" : "box", wall.name));
-    else if (wall.press && sound(wall.box) && sound(scene.domain) &&
+    else if (wall.press && wall.box.is_sound() && scene.domain.is_sound() &&
              !box_in_box(swept_box(wall), scene.domain))
       file.fault(key + ".press.travel",
                  fmt::format("the wall '{}' leaves [case.domain] by its travel", wall.name));
@@ -80,10 +76,19 @@ void check_names(CaseFile& file, const Scene& scene) {
   }
 }
 
+/// By which a wall moves.
+std::string motion_key(const Scene& scene, std::size_t i) {
+  const Wall& wall = scene.walls[i];
+  return fmt::format("wall.{}.{}", i,
+                     wall.press                ? "press"
+                     : wall.moves_with.empty() ? "motion"
+                                               : "moves_with");
+}
+
 void check_motions(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
-    const std::string key = fmt::format("wall.{}.{}", i, wall.moves_with.empty() ? "motion" : "moves_with");
+    const std::string key = motion_key(scene, i);
     if (!wall.motion) continue;
     if (!std::isfinite(largest_speed(*wall.motion, corners_of(wall.box), scene.end_time)))
       file.fault(key, "its speed is beyond all numbers");
@@ -124,14 +129,13 @@ void check_axis(CaseFile& file, const Scene& scene) {
     file.fault("case.gravity_change", "gravity about an axis cannot change: leave it out");
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
-    const std::string key = fmt::format("wall.{}", i);
     if (wall.box.min[1] < 0)
-      file.fault(key + "." + wall.shape.place(),
+      file.fault(fmt::format("wall.{}.{}", i, wall.shape.place()),
                  fmt::format("the wall '{}' crosses the axis: y is the distance from it, at "
                              "least 0",
                              wall.name));
     if (moves_across(wall, scene.end_time))
-      file.fault(key + (wall.press ? ".press" : ".motion"),
+      file.fault(motion_key(scene, i),
                  fmt::format("the wall '{}' moves across the axis: it can move along x alone", wall.name));
   }
 }
@@ -170,21 +174,6 @@ void keep_beside(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-std::vector<Vec> corners_of(const Box& box) {
-  constexpr int round_corners = 64;
-  std::vector<Vec> corners;
-  for (int k = 0; k < (box.round ? round_corners : 0); ++k) {
-    const double angle = 2 * std::numbers::pi * k / round_corners;
-    const Vec half = 0.5 * (box.max - box.min), middle = 0.5 * (box.max + box.min);
-    corners.emplace_back(middle + half.cwiseProduct(Vec(std::cos(angle), std::sin(angle))));
-  }
-  if (box.outline)
-    for (const Outline::Ring& ring : box.outline->rings())
-      corners.insert(corners.end(), ring.begin(), ring.end());
-  if (!box.is_rectangle()) return corners;
-  return {box.min, {box.max[0], box.min[1]}, box.max, {box.min[0], box.max[1]}};
-}
 
 const Motion* shared_motion(const Scene& scene, const std::string& name) {
   for (const NamedMotion& named : scene.motions)
@@ -319,6 +308,7 @@ void check_folder(CaseFile& file, const std::filesystem::path& out) {
 
 void copy_named_files(const CaseFile& file, const std::filesystem::path& out) {
   for (const auto& name : file.named_files()) {
+    if (!fault_of_results_name(name).empty()) continue;  // a table: the case written there holds its rows
     const auto source = file.folder() / name, target = out / name;
     std::filesystem::create_directories(target.parent_path());
     if (std::filesystem::exists(target)) {

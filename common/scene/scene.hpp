@@ -77,8 +77,6 @@ struct Scene {
   std::vector<NamedMotion> motions = {};
   Vec gravity_at(double t) const { return gravity_change ? gravity_change->at(gravity, t) : gravity; }
 };
-/// The corners of a box, of a round one of the polygon with 64 corners in it, anticlockwise [m].
-std::vector<Vec> corners_of(const Box& box);
 /// Of all walls whose motion is prescribed [m/s].
 double largest_wall_speed(const Scene& scene);
 /// The keys of [case]; walls and references are sections of their own.

@@ -21,8 +21,7 @@ Corners outer_corners(const Part& part) {
 bool is_convex(const Corners& corners) {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec &a = corners[k], &b = corners[(k + 1) % corners.size()], &c = corners[(k + 2) % corners.size()];
-    const Vec in = b - a, out = c - b;
-    if (in[0] * out[1] - in[1] * out[0] < 0) return false;
+    if (cross(b - a, c - b) < 0) return false;
   }
   return true;
 }
@@ -48,9 +47,9 @@ Pose pose_of(const Motion* motion, double t) {
 double depth_behind_sides(const Corners& a, const Corners& b) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < a.size(); ++k) {
-    const Vec along = (a[(k + 1) % a.size()] - a[k]).normalized(), outward(along[1], -along[0]);
+    const Vec normal = outward(a[k], a[(k + 1) % a.size()]);
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec& x : b) nearest = std::min(nearest, outward.dot(x - a[k]));
+    for (const Vec& x : b) nearest = std::min(nearest, normal.dot(x - a[k]));
     least = std::min(least, -nearest);
   }
   return least;

@@ -5,6 +5,7 @@
 #include "fluid_solver/terms/axisymmetry.hpp"
 #include "fluid_solver/terms/density_gradient.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
+#include "fluid_solver/wall_turning.hpp"
 #include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 #include "fluid_solver/weakly_compressible/further_forces.hpp"
 #include "fluid_solver/weakly_compressible/pair_loop.hpp"
@@ -227,6 +228,13 @@ void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& bounda
       friction_->measure_contact(boundary, fluid);
       friction_->brake_fluid(fluid, p_offset, boundary, boundary.force_on_fluid.friction_by_cluster);
     }
+}
+
+double Dynamics::moment_beside_pairs(const Particles& fluid, const Boundary& wall) const {
+  const auto& viscosity = parameters_.laminar_viscosity;
+  if (!viscosity || !viscous_walls()) return 0;
+  return viscosity->dynamic_viscosity * wall.angular_velocity *
+         wetted_surface_moment(wall, fluid, medium_.kernel);
 }
 
 double Dynamics::pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const {

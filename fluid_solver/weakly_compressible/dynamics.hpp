@@ -43,6 +43,9 @@ class Dynamics {
 
   /// Of a medium that is held at a mean pressure: what contact adds to p [Pa].
   double pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const;
+  /// Of a wall that turns: the moment on the fluid that the pair forces of a laminar viscosity leave out
+  /// (wall_turning.hpp). It gives the fluid as much as its viscosity takes in addition [N.m per metre depth].
+  double moment_beside_pairs(const Particles& fluid, const Boundary& wall) const;
   /// What each term of the case takes from the fluid's energy, with the fields of the last evaluation;
   /// nothing before the first step.
   std::vector<Power> powers(const Particles& fluid, const ClusterList& neighbours,

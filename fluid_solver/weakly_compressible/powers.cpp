@@ -201,6 +201,9 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
       terms_.diffusion);
   note_viscous(ArtificialViscosity::section, terms_.artificial);
   note_viscous("viscosity", terms_.viscous);
+  for (const Boundary& boundary : boundaries)
+    if (known && parameters_.laminar_viscosity && boundary.turns())
+      found.back().value += boundary.angular_velocity * moment_beside_pairs(fluid, boundary);
   if (friction_)
     note(Friction::section, Taken::dissipated, [&](const auto&) {
       return friction_->power(fluid, pressure_offset(fluid, boundaries), boundaries);

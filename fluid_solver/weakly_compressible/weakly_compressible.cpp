@@ -5,7 +5,6 @@
 
 #include "common/sph/skin.hpp"
 #include "fluid_solver/stability_warnings.hpp"
-#include "fluid_solver/wall_turning.hpp"
 #include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
@@ -218,17 +217,8 @@ void WeaklyCompressible::accumulate_reaction(double dt) {
   }
   note_surface(dt);
   count_forces(dt);
-  add_moments_of_turning();
-}
-
-/// What the pair forces of a laminar viscosity leave out; powers and work are theirs alone, as the energy.
-void WeaklyCompressible::add_moments_of_turning() {
-  const auto& viscosity = parameters_.laminar_viscosity;
-  if (!viscosity || parameters_.wall_model.slip != WallSlip::no_slip) return;
   for (Boundary& boundary : state_.boundaries)
-    if (boundary.turns())
-      boundary.moment += viscosity->dynamic_viscosity * boundary.angular_velocity *
-                         wetted_surface_moment(boundary, state_.fluid, kernel_);
+    if (boundary.turns()) boundary.count_moment(dynamics_.moment_beside_pairs(state_.fluid, boundary), dt);
 }
 
 void WeaklyCompressible::note_surface(double dt) {

@@ -48,7 +48,6 @@ class WeaklyCompressible final : public FluidModel {
   void accumulate_reaction(double dt);
   void shift(double dt);
   void note_surface(double dt);
-  void add_moments_of_turning();
   void note_extremes();
 
   Dynamics dynamics_;

@@ -178,6 +178,26 @@ TEST(SceneFaults, RowsOfAFile) {
             "case.toml:11:29: error: times in 'angle' must increase: 1 comes after 1");
 }
 
+TEST(SceneFaults, NoneOfATableInAFileThatEntersTheHash) {
+  CaseText text(sound_scene + "moves_with = 'roll'\n" + shared);
+  const auto hash = [&](const std::string& rows) {
+    text.add("roll.csv", "time[s],angle[rad]\n" + rows);
+    return CaseFile(text.folder(), {}).hash();
+  };
+  EXPECT_NE(hash("0,0\n1,1\n"), hash("0,0\n1,2\n"));
+  EXPECT_EQ(CaseFile(text.folder(), {}).named_files(), std::vector<std::string>{"roll.csv"});
+}
+
+TEST(SceneFaults, SharedMotionAcrossTheAxis) {
+  EXPECT_EQ(
+      CaseText(
+          round_scene +
+          "[[wall]]\nname = 'pin'\nbox = {min=[0,0], max=[1,1]}\nmoves_with = 'up'\n[[motion]]\nname = 'up'\n"
+          "velocity = [[0, 0, 1]]\n")
+          .scene_faults(),
+      "case.toml:9:1: error: the wall 'pin' moves across the axis: it can move along x alone");
+}
+
 const std::string travel = "direction = '+y', travel = [0, 0.5]";
 
 TEST(SceneFaults, PressWithoutPressureOrWithTwo) {

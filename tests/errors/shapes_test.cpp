@@ -171,11 +171,11 @@ TEST(Shapes, OfACsvAreInMetres) {
   EXPECT_EQ(box.min, Vec(1, 0));
 }
 
-const std::string water =
+const std::string tank_of_water =
     tank + "circle={centre=[0,0], radius=1}\n[fluid]\nspacing=0.1\n[[fluid.region]]\nname='water'\n";
 
 TEST(Shapes, AreLeftOutOfTheFluidUnlessTheyAreBoxes) {
-  const CaseText written(water + "box={min=[0,0], max=[3,3]}\n");
+  const CaseText written(tank_of_water + "box={min=[0,0], max=[3,3]}\n");
   EXPECT_EQ(written.scene_faults(), "");
   CaseFile file(written.folder(), {});
   EXPECT_EQ(left_out_of_fluid(file, read_scene(file)).size(), 1u);

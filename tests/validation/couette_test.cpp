@@ -9,7 +9,7 @@
 #include "tests/validation/fluid_case.hpp"
 
 namespace toryu::fluid {
-namespace {
+namespace couette_test {
 
 constexpr double H = 1.0, nu = 0.1, U = 0.01, pi = std::numbers::pi;
 
@@ -77,5 +77,5 @@ TEST(Couette, FollowsTheExactProfile) {
   }
 }
 
-}  // namespace
+}  // namespace couette_test
 }  // namespace toryu::fluid

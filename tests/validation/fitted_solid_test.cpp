@@ -1,14 +1,12 @@
 /// Particles that fit round and slanted outlines, against exact solutions of elasticity.
-#include <omp.h>
 
 #include <cmath>
 
 #include "solid_case.hpp"
+#include "tests/one_thread.hpp"
 
 namespace toryu::solid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 struct StressAt {
   double xx, yy, xy;

@@ -1,17 +1,13 @@
 /// A fluid case of the project, run inside the test, so that every particle can be looked at.
 #pragma once
 
-#include <omp.h>
-
 #include "common/case/case_file.hpp"
 #include "common/scene/bodies.hpp"
 #include "fluid_solver/wall_rows.hpp"
 #include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
+#include "tests/one_thread.hpp"
 
 namespace toryu::fluid {
-
-/// These fluids are small, and tests run beside each other: one thread each.
-inline const bool one_thread = (omp_set_num_threads(1), true);
 
 struct FluidCase {
   /// `overrides` as after --set: "fluid.spacing=0.1".

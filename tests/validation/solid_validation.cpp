@@ -1,16 +1,13 @@
 /// The solid against exact and finite-element solutions, seconds each.
-#include <omp.h>
 
 #include <numbers>
 
 #include "solid_case.hpp"
 #include "solid_plate.hpp"
+#include "tests/one_thread.hpp"
 
 namespace toryu::solid {
 namespace {
-
-/// These solids are small, and tests run beside each other: one thread each.
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 class OscillatingPlate : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Rows, OscillatingPlate, testing::Values(4, 5, 10));

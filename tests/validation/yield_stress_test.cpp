@@ -8,7 +8,7 @@
 #include "tests/validation/fluid_case.hpp"
 
 namespace toryu::fluid {
-namespace {
+namespace yield_stress_test {
 
 constexpr double width = 1;
 
@@ -61,5 +61,5 @@ TEST(Bingham, FlowsAsAPlugBetweenParabolas) {
   EXPECT_LT(fine.plug, 0.02);
 }
 
-}  // namespace
+}  // namespace yield_stress_test
 }  // namespace toryu::fluid

@@ -12,7 +12,7 @@
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
-namespace {
+namespace axisymmetry_test {
 
 constexpr double h = 0.1, area = 0.0025, pi = std::numbers::pi;
 
@@ -282,5 +282,5 @@ TEST(AxisFaults, NameWhatIsOfThePlane) {
   EXPECT_TRUE(axis_faults(s.parameters, s.scene).empty());
 }
 
-}  // namespace
+}  // namespace axisymmetry_test
 }  // namespace toryu::fluid

@@ -5,10 +5,11 @@
 #include <functional>
 #include <numeric>
 
+#include "fluid_solver/face_depths.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
 
 namespace toryu::fluid {
-namespace {
+namespace boundary_test {
 
 constexpr double d_0 = 0.1, h = 1.3 * d_0;
 const CubicSpline kernel(h);
@@ -338,5 +339,5 @@ TEST(FaceDepths, AreHowFarTheBodyGoesOn) {
   EXPECT_EQ(lattice_face_depths(L, 1.0, 2).up[0], Vec(1.5, 2.0)) << "no farther than is asked for";
 }
 
-}  // namespace
+}  // namespace boundary_test
 }  // namespace toryu::fluid

@@ -2,15 +2,13 @@
 #include "fluid_solver/weakly_compressible/consistent_gradients.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include "fluid_solver/neighbours.hpp"
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 constexpr double d_0 = 0.05, rho = 1000, mu = 3;
 const WendlandC2 kernel(1.5 * d_0);

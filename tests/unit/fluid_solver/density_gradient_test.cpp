@@ -10,7 +10,7 @@
 #include "tests/unit/fluid_solver/few_particles.hpp"
 
 namespace toryu::fluid {
-namespace {
+namespace density_gradient_test {
 
 constexpr double d_0 = 0.1, h = 1.3 * d_0;
 const CubicSpline kernel(h);
@@ -103,5 +103,5 @@ TEST(DensityDiffusion, LeavesALinearDensityAloneEvenAtAWall) {
   EXPECT_LT(rate(DensityDiffusionTerm<true>{1}), 1e-10 * plain);
 }
 
-}  // namespace
+}  // namespace density_gradient_test
 }  // namespace toryu::fluid

@@ -2,24 +2,16 @@
 #include "fluid_solver/energy_balance.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <map>
 
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/plate.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
-
-std::map<std::string, double> columns(const WeaklyCompressible& solver) {
-  std::map<std::string, double> found;
-  for (const auto& seen : solver.observe()) found[seen.name] = seen.value;
-  return found;
-}
 
 /// Runs to `end` by steps of `share` of the limit with a row at each, the powers of every tenth.
 std::map<std::string, double> after(WeaklyCompressible& solver, double end, double share = 1) {

@@ -7,13 +7,11 @@
 #include <numeric>
 
 #include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-// On a busy machine threads wait for one another: one, where a test does not ask for more.
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 double total_angular_momentum(const WeaklyCompressible& solver) {
   const auto& f = solver.particles();

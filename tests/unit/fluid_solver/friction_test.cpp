@@ -3,19 +3,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <numbers>
 
 #include "fluid_solver/axis_images.hpp"
 #include "fluid_solver/terms/axisymmetry.hpp"
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 constexpr double d_0 = 0.1, h = 1.2 * d_0, mu_A = 0.4, eps = 1e-3;
 const CubicSpline kernel(h);

@@ -11,8 +11,7 @@
 #include "common/error/failure.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/implicit/implicit_faults.hpp"
-#include "fluid_solver/implicit/implicit_twin.hpp"
-#include "fluid_solver/implicit/krylov.hpp"
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
@@ -21,8 +20,6 @@ namespace {
 
 using testing::HasSubstr;
 using Vector = StepSystem::Vector;
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 constexpr double h = 0.013, c_0 = 20, mu = 3, dt = 0.7e-3;
 
@@ -253,37 +250,6 @@ TEST(Implicit, TakesFewIterationsWhereTheFlowIsSteady) {
   EXPECT_LT(model.figures()[1].second, 2.8);
 }
 
-/// Of 1, 2, ... on the diagonal and ones above it.
-struct Solved {
-  long iterations;
-  double residual;  ///< |b - A x|/|b|
-};
-Solved solved(long size, double tolerance, long most) {
-  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(size, size);
-  for (long i = 0; i < size; ++i) A(i, i) = static_cast<double>(i + 1), A(i, (i + 1) % size) += 1;
-  const DiagonalBlocks ones(static_cast<std::size_t>(size / 2), Eigen::Matrix2d::Identity());
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(size);
-  const KrylovResult found = solve_by_gmres(
-      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x; }, ones, b, tolerance, most);
-  return {found.iterations, (b - A * found.x).norm() / b.norm()};
-}
-
-TEST(Gmres, SolvesInAsManyIterationsAsThereAreUnknowns) {
-  const Solved exact = solved(20, 1e-12, 100);
-  EXPECT_LT(exact.residual, 1e-12);
-  EXPECT_LE(exact.iterations, 20);
-  const Solved rough = solved(20, 0.1, 100);
-  EXPECT_LT(rough.residual, 0.1 * (1 + 1e-9));
-  EXPECT_LT(rough.iterations, exact.iterations);
-  EXPECT_EQ(solved(20, 1e-12, 3).iterations, 3);
-}
-
-TEST(Gmres, GoesOnFromWhatItHasAfterSixtyDirections) {
-  const Solved restarted = solved(400, 1e-8, 2000);
-  EXPECT_GT(restarted.iterations, 60);
-  EXPECT_LT(restarted.residual, 1e-8 * (1 + 1e-6));
-}
-
 /// Slow vortices in a periodic square, and the rate at which they decay.
 constexpr double k = 2 * M_PI, nu = 1.0, rate = 2 * nu * k * k;
 Setting vortices() {
@@ -377,26 +343,6 @@ TEST(Implicit, SaysThatAStepIsNotSolved) {
   thin_under_shear(s);
   EXPECT_THAT(failure_of(s, {.largest_viscosity_updates = 1}),
               HasSubstr("after 1 update of the viscosity (fluid.implicit.largest_viscosity_updates) = "));
-}
-
-// The passage of 2 mm at 50 mm/s, of 1000 Pa s: 150 kPa at the wall, 2.4 MPa over 16 mm.
-TEST(ImplicitTwin, HasTheOwnDensityAndTheSameCompression) {
-  Parameters p;
-  p.density = 1200;
-  p.laminar_viscosity = LaminarViscosity{1000};
-  p.density_diffusion = DensityDiffusion{};
-  EXPECT_FALSE(implicit_twin(p, {}));
-  p.similarity = Similarity{.mean_speed = 0.05, .passage_width = 0.002, .passage_length = 0.016};
-  const Parameters twin = implicit_twin(p, {}).value();
-  EXPECT_EQ(twin.density, 1200);
-  EXPECT_NEAR(twin.sound_speed, std::sqrt(2.4e6 / (0.01 * 1200)), 0.01);
-  EXPECT_NEAR(twin.background_pressure->pressure, 0.65 * 2.4e6, 1);
-  EXPECT_NEAR(twin.implicit->expected_speed, 0.075, 1e-12);
-  EXPECT_THAT(keys_of_twin(twin),
-              HasSubstr("model = \"implicit\", similarity = false, sound_speed = 447.2,"));
-  EXPECT_TRUE(implicit_faults(twin, {}, false).empty());
-  p.friction = Friction{};
-  EXPECT_FALSE(implicit_twin(p, {}));
 }
 
 std::string faults_of(const Parameters& p, bool with_solid = false, const Scene& scene = {}) {

@@ -1,15 +1,13 @@
 // The fluid's momentum is what the boundaries and gravity have given it.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <map>
 
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 /// Water between a piston that pushes, a wall, and a floor that rubs.
 Setting pushed_water() {

@@ -2,16 +2,14 @@
 #include "fluid_solver/period.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <numeric>
 
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 Scene room(Periodic periodic, const Vec& max) {
   Scene scene;

@@ -1,14 +1,12 @@
 // Pistons that a press moves: the law of one by hand, what stops it, what of the pressure the medium knows.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include "fluid_solver/held_pressure.hpp"
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 PressedMotion piston() {
   return {.press = {.pressure = {{0, 10}, {2, 30}},

@@ -12,7 +12,7 @@
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
-namespace {
+namespace rheology_test {
 
 TEST(PowerLaw, IsConsistencyTimesAPowerOfTheShearRate) {
   const PowerLaw thinning{2.0, 0.5, 0.01, 100};
@@ -268,5 +268,5 @@ TEST(ThinningFluid, TakesTheStepOfItsLargestViscosity) {
   EXPECT_NEAR(solver.time_step_limit(), limit(largest + artificial), 1e-12);
 }
 
-}  // namespace
+}  // namespace rheology_test
 }  // namespace toryu::fluid

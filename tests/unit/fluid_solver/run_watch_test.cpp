@@ -3,13 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <omp.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <sstream>
 
 #include "common/error/failure.hpp"
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
@@ -17,8 +17,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 /// What the log says meanwhile.
 class Said {

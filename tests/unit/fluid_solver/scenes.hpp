@@ -42,6 +42,13 @@ inline Setting collapsing_column() {
   return s;
 }
 
+/// What a row of the record holds, by the name of the column.
+inline std::map<std::string, double> columns(const FluidModel& solver) {
+  std::map<std::string, double> found;
+  for (const auto& seen : solver.observe()) found[seen.name] = seen.value;
+  return found;
+}
+
 inline void run_until(WeaklyCompressible& solver, double end) {
   while (solver.time() < end - 1e-12) solver.advance(std::min(solver.time_step_limit(), end - solver.time()));
 }

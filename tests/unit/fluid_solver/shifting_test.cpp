@@ -2,17 +2,15 @@
 #include "fluid_solver/weakly_compressible/shifting.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include "fluid_solver/free_surface.hpp"
 #include "fluid_solver/terms/tensile_control.hpp"
 #include "fluid_solver/weakly_compressible/polymer.hpp"
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
-namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
+namespace shifting_test {
 
 constexpr double d_0 = 0.05;
 
@@ -200,5 +198,5 @@ TEST(Shifting, BesideAWallTheDensityFollowsTheParticles) {
   EXPECT_GT(beside, 10);
 }
 
-}  // namespace
+}  // namespace shifting_test
 }  // namespace toryu::fluid

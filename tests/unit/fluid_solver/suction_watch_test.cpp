@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 namespace toryu::fluid {
-namespace {
+namespace suction_watch_test {
 
 const EquationOfState state{.rho_0 = 1000, .c_0 = 20, .gamma = 1};
 
@@ -71,5 +71,5 @@ TEST(SuctionWatch, LeavesOutWhatTensileControlHelps) {
   EXPECT_FALSE(medium.after(20, -10));
 }
 
-}  // namespace
+}  // namespace suction_watch_test
 }  // namespace toryu::fluid

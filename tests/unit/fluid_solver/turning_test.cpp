@@ -1,22 +1,14 @@
 // Walls that turn, and gravity that changes.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <map>
 
+#include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
 namespace {
-
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
-
-std::map<std::string, double> columns(const FluidModel& solver) {
-  std::map<std::string, double> found;
-  for (const auto& seen : solver.observe()) found[seen.name] = seen.value;
-  return found;
-}
 
 Motion turning_at(double rate, const Vec& about) {
   return Motion{.rotation = Rotation{about, {.angular_velocity = {{0, rate}}}}};
@@ -107,6 +99,19 @@ TEST(TurningWall, TheEnergyBalanceClosesAsForOneThatShifts) {
   EXPECT_LT(std::abs(row.at("energy_remainder")), 0.03 * row.at("work_from_paddle"));
 }
 
+TEST(TurningWall, WhatThickFluidTakesIsDissipated) {
+  Setting s = stirred_square(Integrator::symplectic);
+  s.parameters.laminar_viscosity = LaminarViscosity{50};
+  WeaklyCompressible solver = s.solver();
+  while (solver.time() < 0.15) {
+    solver.advance(0.2 * solver.time_step_limit());
+    solver.record(solver.time());
+  }
+  const auto row = columns(solver);
+  EXPECT_GT(row.at("dissipated_by_viscosity"), 0.5 * row.at("work_from_paddle"));
+  EXPECT_LT(std::abs(row.at("energy_remainder")), 1e-3 * row.at("work_from_paddle"));
+}
+
 /// A square tank full of a thick fluid, which turns at 10 rad/s about a point off its middle.
 Setting spun_tank(double spacing) {
   Setting s = empty_space();
@@ -149,7 +154,9 @@ ErrorsOfRigidTurn errors_of_rigid_turn(double spacing) {
   }
   errors.energy = std::abs(energy / energy_of_turning - 1);
   errors.pressure = std::abs((n * xy - x * y) / (n * xx - x * x) / (0.5 * 1000 * 100) - 1);
-  errors.moment = std::abs(columns(solver).at("moment_from_tank")) / (2 * 500 * 10 * 0.16);
+  const auto row = columns(solver);
+  errors.moment = std::abs(row.at("moment_from_tank")) / (2 * 500 * 10 * 0.16);
+  EXPECT_NEAR(row.at("power_from_tank"), 10 * row.at("moment_from_tank"), 1e-9 * 500 * 100);
   return errors;
 }
 

@@ -13,7 +13,7 @@
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
-namespace {
+namespace viscoelasticity_test {
 
 using Matrix = Eigen::Matrix2d;
 
@@ -220,5 +220,5 @@ TEST(ViscoelasticFluid, TakesTheStepOfItsElasticWavesAndRelaxation) {
   EXPECT_EQ(quick.time_step_rule(), "relaxation");
 }
 
-}  // namespace
+}  // namespace viscoelasticity_test
 }  // namespace toryu::fluid

@@ -9,7 +9,7 @@
 #include "samples.hpp"
 
 namespace toryu::solid {
-namespace {
+namespace hookes_law_test {
 
 using Stress2 = Symmetric<double>;
 using Gradient = Tensor<double>;
@@ -102,5 +102,5 @@ TEST(PatchTest, UniaxialIsotropicAndShearedPlatesHaveTheStressOfHookesLaw) {
   }
 }
 
-}  // namespace
+}  // namespace hookes_law_test
 }  // namespace toryu::solid

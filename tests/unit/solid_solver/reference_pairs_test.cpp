@@ -8,7 +8,7 @@
 #include "solid_solver/terms/saint_venant_kirchhoff.hpp"
 
 namespace toryu::solid {
-namespace {
+namespace reference_pairs_test {
 
 constexpr double h = 1.0;
 
@@ -208,5 +208,5 @@ TEST(SaintVenantKirchhoff, PassesThePatchTests) {
   EXPECT_NEAR(shear[1] / (G * eps), 1.0, 1e-6);
 }
 
-}  // namespace
+}  // namespace reference_pairs_test
 }  // namespace toryu::solid

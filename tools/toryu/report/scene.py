@@ -96,7 +96,7 @@ def motion_of(case, wall):
 def rows_of(motion):
     """Rows of time, velocity x, y of a prescribed motion; none if it cannot be read, or is more than a table of
     velocities: the picture shows such walls as they lie at the start."""
-    if any(kind in motion for kind in ("position", "sine", "rotation")):
+    if any(motion.get(kind) for kind in ("position", "sine", "rotation")):
         return np.empty((0, 3))
     speed, time = motion.get("speed", 1), motion.get("time", 1)
     rows = motion.get("velocity", [])

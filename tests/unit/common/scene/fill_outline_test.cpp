@@ -13,6 +13,9 @@
 namespace toryu {
 namespace {
 
+/// Fillings of a test are of the code as it is, not of what the user's cache has kept.
+[[maybe_unused]] const bool no_cache = setenv("XDG_CACHE_HOME", "/dev/null/none", 1) == 0;
+
 using Ring = Outline::Ring;
 
 Ring turned(const Ring& ring, double angle) {
@@ -96,7 +99,7 @@ TEST(FillingCache, GivesBackEveryBit) {
   EXPECT_EQ(kept->points, filling.points);
   EXPECT_EQ(kept->volume, filling.volume);
   EXPECT_EQ(kept->spread, filling.spread);
-  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 10);  // within the last number
   EXPECT_FALSE(read_filling(file));
   std::filesystem::remove(file);
   EXPECT_NE(cached_filling(outline, 2.0), cached_filling(outline, 2.5));
