@@ -94,5 +94,5 @@ function(toryu_python_test name)
   add_test(NAME ${name} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT} ${ARG_ARGUMENTS})
   string(JOIN ":" path ${PROJECT_SOURCE_DIR}/tools ${PROJECT_SOURCE_DIR}/tests ${ARG_MODULES})
   set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;PYTHONPATH=${path};${ARG_ENVIRONMENT}")
+    ENVIRONMENT "PYTHONPYCACHEPREFIX=${CMAKE_BINARY_DIR}/pycache;PYTHONPATH=${path};${ARG_ENVIRONMENT}")
 endfunction()

@@ -13,7 +13,7 @@ namespace {
 /// Below this sum of V_f W_sf (0.25 at a plane interface) there is no contact to speak of.
 constexpr double least_contact_sum = 1e-3;
 /// Below this share rows differ too little in their distance to tell the bend of the velocity.
-constexpr double least_spread = 0.01;
+constexpr double least_spread_of_rows = 0.01;
 constexpr double first_row = 1.0;  ///< what is nearer to the face, over the spacing
 
 /// Kernel means about one surface particle.
@@ -49,7 +49,7 @@ Contact contact_of(const Boundary& surface, std::size_t k, const Vec& side, cons
 }
 
 /// Of a surface particle at rest or in motion, where the medium sticks to it.
-struct Face {
+struct SeenFace {
   Vec x, v, normal;
   double spacing;
   /// Distance of a place from the face, which is half a spacing in front of the particle [m].
@@ -67,7 +67,7 @@ class ShearFit {
     y2v_ += w * y * y * v;
   }
   /// Whether its rows differ enough in their distance to tell the bend of the velocity.
-  bool bends() const { return determinant() > least_spread * y2_ * y4_; }
+  bool bends() const { return determinant() > least_spread_of_rows * y2_ * y4_; }
   Vec rate() const {
     if (y2_ == 0) return Vec::Zero();
     return bends() ? Vec((y4_ * yv_ - y3_ * y2v_) / determinant()) : Vec(yv_ / y2_);
@@ -98,7 +98,7 @@ void over_seen(std::span<const ShiftedNeighbours> near, const Vec& shift, const 
 /// (what walls extrapolate to themselves is a kernel mean), so the fit is to the next rows, about the
 /// particle nearest to a place two spacings from the face, and to the first one only where there are no
 /// others.
-double shear_rate_at(const Boundary& surface, std::size_t k, const Face& face, const Particles& fluid,
+double shear_rate_at(const Boundary& surface, std::size_t k, const SeenFace& face, const Particles& fluid,
                      const ClusterList& neighbours, const Kernel& kernel) {
   ShearFit beside, farther;
   const Vec middle = face.x + 2.5 * face.spacing * face.normal;

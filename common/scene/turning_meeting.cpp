@@ -10,15 +10,15 @@ namespace toryu {
 
 namespace {
 
-using Corners = std::vector<Vec>;  ///< of a convex polygon, anticlockwise
+using Polygon = std::vector<Vec>;  ///< convex, its corners anticlockwise
 
 constexpr double most_looks = 1e5;
 
-Corners outer_corners(const Part& part) {
+Polygon outer_corners(const Part& part) {
   return corners_of(part.within.size() == 1 ? part.within.front() : bounds_of(part));
 }
 
-bool is_convex(const Corners& corners) {
+bool is_convex(const Polygon& corners) {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec &a = corners[k], &b = corners[(k + 1) % corners.size()], &c = corners[(k + 2) % corners.size()];
     if (cross(b - a, c - b) < 0) return false;
@@ -33,8 +33,8 @@ bool is_polygon(const Part& part) {
   return part.within.front().outline->rings().size() == 1 && is_convex(corners_of(part.within.front()));
 }
 
-Corners placed(const Corners& outline, const Pose& pose) {
-  Corners moved;
+Polygon placed(const Polygon& outline, const Pose& pose) {
+  Polygon moved;
   for (const Vec& X : outline) moved.push_back(pose.place(X));
   return moved;
 }
@@ -44,7 +44,7 @@ Pose pose_of(const Motion* motion, double t) {
 }
 
 /// How far the one reaches into the other: the least along the normals of the sides of `a` [m].
-double depth_behind_sides(const Corners& a, const Corners& b) {
+double depth_behind_sides(const Polygon& a, const Polygon& b) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Vec normal = outward(a[k], a[(k + 1) % a.size()]);
@@ -56,11 +56,11 @@ double depth_behind_sides(const Corners& a, const Corners& b) {
 }
 
 /// The mean of the corners of what both share.
-Vec shared_place(const Corners& a, const Corners& b) {
-  Corners left = b;
+Vec shared_place(const Polygon& a, const Polygon& b) {
+  Polygon left = b;
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Vec along = a[(k + 1) % a.size()] - a[k], inward(-along[1], along[0]);
-    Corners kept;
+    Polygon kept;
     for (std::size_t n = 0; n < left.size(); ++n) {
       const Vec &x = left[n], &y = left[(n + 1) % left.size()];
       const double x_in = inward.dot(x - a[k]), y_in = inward.dot(y - a[k]);
@@ -79,7 +79,7 @@ Vec shared_place(const Corners& a, const Corners& b) {
 struct Disc {
   Vec middle = Vec::Zero();  ///< [m]
   double radius = 0;         ///< [m]
-  explicit Disc(const Corners& corners) {
+  explicit Disc(const Polygon& corners) {
     for (const Vec& x : corners) middle += x / static_cast<double>(corners.size());
     for (const Vec& x : corners) radius = std::max(radius, (x - middle).norm());
   }
@@ -89,7 +89,7 @@ struct Disc {
 /// circles that hold them overlap, until a look finds something.
 template <class Look>
 std::optional<Meeting> first_look(const Pair& pair, double tolerance, double end_time, const Look& look) {
-  const Corners a = outer_corners(pair.a), b = outer_corners(pair.b);
+  const Polygon a = outer_corners(pair.a), b = outer_corners(pair.b);
   const Disc around_a(a), around_b(b);
   double fastest = 0;
   std::vector<double> times{0, end_time};
@@ -126,9 +126,9 @@ bool may_meet_turning(const Pair& pair, double tolerance, double end_time) {
 }
 
 std::optional<Meeting> first_turning_meeting(const Pair& pair, double tolerance, double end_time) {
-  const Corners a = outer_corners(pair.a), b = outer_corners(pair.b);
+  const Polygon a = outer_corners(pair.a), b = outer_corners(pair.b);
   const auto look = [&](double t, const Pose& pose_a, const Pose& pose_b) -> std::optional<Meeting> {
-    const Corners a_now = placed(a, pose_a), b_now = placed(b, pose_b);
+    const Polygon a_now = placed(a, pose_a), b_now = placed(b, pose_b);
     if (std::min(depth_behind_sides(a_now, b_now), depth_behind_sides(b_now, a_now)) <= tolerance) return {};
     return Meeting{t, shared_place(a_now, b_now)};
   };

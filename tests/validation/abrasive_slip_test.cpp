@@ -16,8 +16,7 @@ TEST(AbrasiveSlip, SolutionIsTheOneByHand) {
 }
 
 TEST(AbrasiveSlip, HasThePressureDropAndSlipOfANewtonianMedium) {
-  for (const char* b : {"1e-7", "3e-7", "1e-6"})
-    expect_sliding("case.toml", 1e-4, 0.02, 0.02, {std::string("fluid.wall_slip.coefficient=") + b});
+  expect_sliding("case.toml", 1e-4, 0.02, 0.02);  // b 3e-7 m/(Pa s); less and more in the long tests
 }
 
 TEST(AbrasiveSlip, HasThePressureDropAndSlipOfAPowerLawAtTenAcross) {
@@ -30,12 +29,6 @@ TEST(AbrasiveSlip, RemovesWhateverTheSpacing) {
   RecordProperty("depth_at_10_over_20_across", std::to_string(coarse / fine));
   EXPECT_GT(fine, 0);
   EXPECT_NEAR(coarse / fine, 1, 0.05);
-}
-
-TEST(CoulombDuct, LosesItsPressureByTheExponential) {
-  const SlidingFlow flow = run_abrasive_slip("coulomb.toml", 1e-4);
-  RecordProperty("log_slope", std::to_string(flow.log_slope));
-  EXPECT_NEAR(flow.log_slope, -2 * 0.05 / 2e-3, 0.5);
 }
 
 TEST(CoulombDuct, RulesWhereItIsLessThanTheSlipLaw) {

@@ -53,6 +53,19 @@ inline void run_until(WeaklyCompressible& solver, double end) {
   while (solver.time() < end - 1e-12) solver.advance(std::min(solver.time_step_limit(), end - solver.time()));
 }
 
+/// Runs to `end` by steps of `share` of the limit with a row at each, the powers of every tenth.
+inline std::map<std::string, double> after(WeaklyCompressible& solver, double end, double share = 1) {
+  while (solver.time() < end - 1e-12) {
+    solver.advance(std::min(share * solver.time_step_limit(), end - solver.time()));
+    solver.record(solver.time());
+  }
+  return columns(solver);
+}
+
+inline Motion turning_at(double rate, const Vec& about) {
+  return Motion{.rotation = Rotation{about, {.angular_velocity = {{0, rate}}}}};
+}
+
 /// A field by the particles' numbers at the start.
 inline std::vector<Vec> by_id(const WeaklyCompressible& solver, const VecField& field) {
   const auto& f = solver.particles();

@@ -46,12 +46,17 @@ def figure(columns=1, height=HEIGHT):
 
 def save(made, path):
     """PATH.png and PATH.svg, on white; returns the SVG for a page, in the page's own colours."""
+    made.draw_without_rendering()
+    made.set_layout_engine("none")  # the panels stay where they are now: to lay them out takes as long as to draw them
     made.savefig(path.with_name(path.name + ".png"), dpi=160, facecolor="white")
+    text = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": path.name}):
-        made.savefig(path.with_name(path.name + ".svg"), facecolor="white", metadata={"Date": None})
-        text = io.StringIO()
         made.savefig(text, format="svg", metadata={"Date": None})
-    return for_page(text.getvalue())
+    text = text.getvalue()
+    head = text.index('<g id="figure_1">')
+    white = '<rect width="100%" height="100%" fill="white"/>\n '
+    path.with_name(path.name + ".svg").write_text(text[:head] + white + text[head:], encoding="utf-8")
+    return for_page(text)
 
 
 def for_page(text):
