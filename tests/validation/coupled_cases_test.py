@@ -11,6 +11,8 @@ import tempfile
 import tomllib
 import unittest
 
+import path_difference
+
 PATHS = {}
 
 
@@ -54,6 +56,18 @@ class SloshingBeam(unittest.TestCase):
         self.assertLess(abs(rows[-1]["tip_displacement_x[m]"] / (-0.0574 * turned) - 1.12), 0.1)
         self.assertNotEqual(rows[-1]["work_of_clamps[J/m]"], 0)
         self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+class SlantedGate(unittest.TestCase):
+    def test_goes_the_way_of_the_gate(self):
+        with tempfile.TemporaryDirectory() as folder:
+            outs = [pathlib.Path(folder) / case for case in ("elastic_gate", "slanted_gate")]
+            for out in outs:
+                done = launch(out.name, out, "--set=fluid.spacing=0.0025", "--set=case.frame_interval=0", "--end-time=0.13")
+                self.assertEqual(done.returncode, 0, done.stderr)
+            found = path_difference.difference(*outs)
+        self.assertLess(abs(found.peak), 0.01)
+        self.assertLess(found.path, 0.01)
 
 
 class SubmergedBeam(unittest.TestCase):

@@ -1,6 +1,6 @@
 """Starts a part of toryu, whatever the environment says of Python and of the locale:
 
-    python3 -I -X utf8 tools/toryu launch|study|report ...
+    python3 -I -X utf8 tools/toryu launch|study|report|compare ...
 """
 
 import pathlib

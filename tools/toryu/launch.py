@@ -49,6 +49,8 @@ def parse(arguments):
     parser.add_argument("--threads", metavar="N")
     parser.add_argument("--log-level", metavar="LEVEL")
     parser.add_argument("--check", action="store_true", help="only check the case file")
+    parser.add_argument("--compare", metavar=("OUT_A", "OUT_B"), nargs=2, help="lay the results of two runs over each other, "
+                        "in place of a run")
     parser.add_argument("--describe", action="store_true", help="list the keys of the case's sections with units, "
                                                                 "defaults and ranges")
     parser.add_argument("--print-case", action="store_true", help="print the case as it is read, with its base and the "
@@ -100,13 +102,13 @@ def is_study(argument, coupler):
     return False
 
 
-def run_study(arguments):
-    """Goes on as toryu.study, which needs a package more."""
+def go_on_as(part, arguments):
+    """Becomes toryu.study or toryu.compare, which need a package more."""
     if importlib.util.find_spec("matplotlib") is None:
         installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "study"]).returncode
         if installed != DONE:
             raise SystemExit(installed)
-    os.execv(sys.executable, program.python("study", *arguments))
+    os.execv(sys.executable, program.python(part, *arguments))
 
 
 def install_for_drawings(case):
@@ -260,9 +262,11 @@ def report(options, case, code, words):
 
 
 def main(arguments):
+    if "--compare" in arguments:
+        go_on_as("compare", [argument for argument in arguments if argument != "--compare"])
     coupler = programs_folder(arguments) / "coupler"
     if any(is_study(argument, coupler) for argument in arguments):
-        run_study(arguments)
+        go_on_as("study", arguments)
     options = parse(arguments)
     case = case_of(options)
     install_for_drawings(case)

@@ -155,12 +155,19 @@ def faults_of(references, out):
     """What is wrong with the references of a case, or with what they are drawn over, a sentence each."""
     found = [f"reference '{r['label']}': {r['fault']}" for r in references if "fault" in r]
     for comparison in compare(references, out):
-        columns = read_series(out, comparison.series)
-        if columns and comparison.column not in columns:
-            near = difflib.get_close_matches(comparison.column, columns, n=1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
-            found.append(f"reference '{comparison.label}': {comparison.series}.csv has no column '{comparison.column}'{hint}")
+        if fault := without_column(out, f"{comparison.series}.csv:{comparison.column}"):
+            found.append(f"reference '{comparison.label}': {fault}")
     return found
+
+
+def without_column(out, series):
+    """That FILE.csv of FILE.csv:COLUMN lacks the column, and which is near to it; "" if it does not, or is not there."""
+    file, _, column = series.partition(":")
+    columns = read_series(out, file.removesuffix(".csv"))
+    if not columns or column in columns:
+        return ""
+    near = difflib.get_close_matches(column, columns, n=1)
+    return f"{file} has no column '{column}'" + (f"; did you mean '{near[0]}'?" if near else "")
 
 
 def _compare(out, reference):

@@ -2,6 +2,7 @@
 
 import math
 import pathlib
+import re
 import unittest
 
 from toryu_testing.study_case import TWO_AXES, Study
@@ -32,7 +33,12 @@ run = "processor_time"
 
     def test_metrics(self):
         self.write(TWO_AXES + self.METRICS)
-        self.assertIn("no run gives 'absent'\n", self.done().stdout)
+        ended = self.done()
+        fault = "fluid.csv has no column 'pressure[Pa]'"
+        self.assertIn(f"no run gives 'absent': {fault}\n", ended.stdout)
+        told = [line for line in ended.stderr.splitlines() if line.startswith("warning:")]
+        self.assertEqual(len(told), 1)  # as soon as a run shows it, and once
+        self.assertRegex(told[0], f"^warning: metric 'absent': in .*/runs/.* {re.escape(fault)}$")
         row = self.table()[2]  # x = 2, y = 4: speed = 2 + 4 t up to 3 s
         self.assertEqual([row[name] for name in ("end[m/s]", "middle[mm/s]", "speed", "absent[Pa]", "busy[s]")],
                          ["14", "8000", "6", "", "0.25"])

@@ -12,7 +12,7 @@ import time
 
 from toryu import PROGRAMS, counted, program
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
-from toryu.study import (bisection, calibration, calibration_search, charts, checks, map_file, page, recession,
+from toryu.study import (bisection, calibration, calibration_search, charts, checks, map_file, metrics, page, recession,
                          recession_search, removal, runner, study_file, table, terms, timing, verdicts)
 from toryu.study.document import BadStudy
 from toryu.study.progress import Progress, duration
@@ -164,7 +164,8 @@ def finish(study, records, out, kept, elapsed, versions):
         print(timing.sentence(study.timing, records))
     for metric in study.metrics:
         if not any(math.isfinite(value) for value in made.column(metric.name)):
-            print(f"no run gives '{metric.name}'")
+            causes = {metrics.absent(study, record).get(metric.name) for record in records} - {None}
+            print(f"no run gives '{metric.name}'" + (f": {causes.pop()}" if len(causes) == 1 else ""))
     for answer in answers:
         print(answer.sentence)
     for name in ("table.csv", "charts", "study.html"):

@@ -121,6 +121,12 @@ def of_series(kind, times, values, level=None):
             "amplitude_loss": lambda: oscillation.amplitude_loss(times, values, level)}[kind]()
 
 
+def absent(study, record):
+    """Metric -> why its series is not in the results of a run that is done."""
+    return {metric.name: fault for metric in study.metrics if metric.series and record.exit_code == DONE
+            and (fault := results.without_column(record.folder, metric.series))}
+
+
 def non_finite(study, record):
     """The first series of the metrics that holds a value that is no number, else ""."""
     for metric in study.metrics:

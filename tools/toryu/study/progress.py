@@ -56,6 +56,10 @@ class Progress:
         print(f"\r{text}\x1b[K" if self.terminal else text, end="" if self.terminal else "\n", file=self.stream,
               flush=True)
 
+    def tell(self, sentence):
+        """A line of its own."""
+        print(f"\r\x1b[K{sentence}" if self.terminal else sentence, file=self.stream, flush=True)
+
     def end(self):
         if self.terminal and self.last:
             print(file=self.stream)

@@ -15,7 +15,7 @@ from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import (BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, own_pause, pauses,
                              requests_to_end, start)
 from toryu.results_folder import newest_checkpoint, remove_former
-from toryu.study import timing
+from toryu.study import metrics, timing
 
 RECORD = "run.json"  # in the folder of a run that is done: without it the run goes on or starts afresh
 # of a Record, in its file
@@ -162,6 +162,7 @@ class Runner:
         self.time_limit = study.map.time_limit if study.map else None  # [s] by the clock
         self.verdicts = {DONE, PHYSICS_FAILED} | ({BAD_INPUT} if study.map else set())  # exit codes that are results
         self.running = {}  # process -> Running
+        self.absent = set()  # metrics that were told of
         self.overdue = set()  # processes that were asked to end at the time limit
         self.loops = {}  # setting key -> the reference loop before its run
         self.interruptions = 0
@@ -191,6 +192,7 @@ class Runner:
                 self._end_overdue()
                 for record in self._ended():
                     records[record.setting.key] = record
+                    self._tell_absent(record)
                 self.progress.show(len(records), [time.monotonic() - r.began for r in self.running.values()])
         finally:
             self._end_all()
@@ -240,6 +242,13 @@ class Runner:
                 record.loops = [asdict(loop) for loop in (self.loops.pop(setting.key), timing.run_loop(self.bin))]
             write_record(record)
             yield record
+
+    def _tell_absent(self, record):
+        """That a metric is not to be had, as soon as a run shows it, and once: other runs may have it."""
+        for name, fault in metrics.absent(self.study, record).items():
+            if name not in self.absent:
+                self.absent.add(name)
+                self.progress.tell(f"warning: metric '{name}': in {record.folder} {fault}")
 
     def _end_overdue(self):
         """A launcher that is asked to end kills its processes if they do not."""

@@ -1,0 +1,51 @@
+"""How far the tip of the slanted gate departs from that of the gate: the path is turned back by 30 degrees.
+
+    /usr/bin/python3 cases/slanted_gate/path_difference.py OUT_OF_GATE OUT_OF_SLANTED_GATE
+"""
+
+import argparse
+import csv
+import math
+import pathlib
+from dataclasses import dataclass
+
+ANGLE = math.radians(30)
+
+
+@dataclass
+class Difference:
+    """Of two paths over the times that both have."""
+
+    peak: float  # of the distance from the start, less 1
+    path: float  # root mean square of the distance between both, over the peak
+
+
+def path_of(out, angle=0.0):
+    """time [s] -> displacement [m] of the tip, turned by `angle` clockwise."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    with open(pathlib.Path(out) / "solid.csv", newline="", encoding="utf-8") as file:
+        rows = [(float(row["time[s]"]), float(row["tip_displacement_x[m]"]), float(row["tip_displacement_y[m]"]))
+                for row in csv.DictReader(file)]
+    return {round(time, 6): (cosine * x + sine * y, cosine * y - sine * x) for time, x, y in rows}
+
+
+def difference(gate, slanted):
+    exact, found = path_of(gate), path_of(slanted, ANGLE)
+    times = sorted(exact.keys() & found.keys())
+    peak = max(math.hypot(*exact[time]) for time in times)
+    squares = [math.dist(exact[time], found[time]) ** 2 for time in times]
+    return Difference(max(math.hypot(*found[time]) for time in times) / peak - 1,
+                      math.sqrt(sum(squares) / len(squares)) / peak)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("gate", type=pathlib.Path)
+    parser.add_argument("slanted", type=pathlib.Path)
+    options = parser.parse_args()
+    found = difference(options.gate, options.slanted)
+    print(f"peak {100 * found.peak:+.2f} %, path {100 * found.path:.2f} % of the peak, root mean square")
+
+
+if __name__ == "__main__":
+    main()

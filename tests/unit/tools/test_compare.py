@@ -1,0 +1,107 @@
+"""Two runs laid over each other: figures worked by hand, what is told, what cannot be compared."""
+
+import csv
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from toryu.compare import runs
+
+CASE = """[fluid]
+spacing = {spacing}
+[[fluid.observer]]
+name = "gauge"
+[[wall]]
+name = "floor"
+[wall.box]
+max = [1.0, 0.0]
+"""
+
+
+class Compared(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        # at the times of both: 0 and 0.5 against 0 and 1, 1 and 2 against 1.5 and 2
+        self.first = self.run_of("coarse", 0.1, "time[s],gauge_level[m],energy[J/m],same[1],old[1]\n"
+                                 "0,0,1,5,1\n1,1,-4,5,1\n2,2,2,5,1\n")
+        self.second = self.run_of("fine", 0.05, "time[s],gauge_level[m],energy[J/m],same[1],new[1]\n"
+                                  "0,0,1,5,1\n1,1.5,-4,5,1\n2,2,-2,5,1\n")
+
+    def run_of(self, name, spacing, series):
+        out = self.folder / name
+        out.mkdir()
+        (out / "fluid.csv").write_text(series)
+        (out / "used_case.toml").write_text(CASE.format(spacing=spacing))
+        return out
+
+    def command(self, *arguments):
+        return subprocess.run([sys.executable, "-m", "toryu.launch", "--compare", *map(str, arguments)], text=True,
+                              capture_output=True, timeout=60, cwd=self.folder)
+
+    def test_figures_are_those_by_hand(self):
+        found = runs.compare(self.first, self.second)
+        gauge, energy = found.columns  # of observers first, though the energy is farther apart
+        self.assertEqual((gauge.name, gauge.peaks, gauge.change), ("gauge_level[m]", [2, 2], 0))
+        self.assertAlmostEqual(gauge.distance, math.sqrt(0.5**2 / 3) / 2)
+        self.assertEqual((energy.name, energy.peaks), ("energy[J/m]", [-4, -4]))
+        self.assertAlmostEqual(energy.distance, math.sqrt(4**2 / 3) / 4)
+        self.assertEqual(found.alike, 1)
+        self.assertEqual(found.alone, ["fluid.csv:new[1]", "fluid.csv:old[1]"])
+        self.assertEqual(found.settings, [("fluid.spacing", "0.1", "0.05")])
+
+    def test_only_times_that_both_reached_count(self):
+        (self.second / "fluid.csv").write_text("time[s],gauge_level[m]\n0.5,0.5\n1.5,3\n")
+        (gauge,) = runs.compare(self.first, self.second).columns
+        self.assertEqual(gauge.times, [[1], [0.5, 1.5]])
+        self.assertAlmostEqual(gauge.distance, 0.75)  # 1.75 in between against 1
+        self.assertAlmostEqual(gauge.change, 2)
+
+    def test_settings_go_by_the_names_of_sections(self):
+        used = self.second / "used_case.toml"
+        used.write_text(used.read_text().replace("max = [1.0, 0.0]", "max = [2.0, 0.0]").replace("0.05", "0.1"))
+        self.assertEqual(runs.compare(self.first, self.second).settings, [("wall.floor.box.max", "[1.0, 0.0]", "[2.0, 0.0]")])
+
+    def test_a_damaged_case_leaves_the_series(self):
+        (self.second / "used_case.toml").write_bytes(b"\xff[")
+        found = runs.compare(self.first, self.second)
+        self.assertEqual((len(found.columns), found.settings), (2, []))
+
+    def test_tells_and_leaves_table_charts_and_page(self):
+        ended = self.command(self.first, self.second)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        self.assertIn("fluid.spacing: 0.1 | 0.05\n", ended.stdout)
+        self.assertRegex(ended.stdout, r"fluid.csv:gauge_level\[m\] +2 +2 +0.00 % +14.43 %\n")
+        out = self.folder / "out/coarse_against_fine"
+        with open(out / "table.csv", newline="") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(rows[1][:3], ["fluid.csv:gauge_level[m]", "2", "2"])
+        page = (out / "compare.html").read_text()
+        self.assertEqual(page.count("<svg"), 2)
+        self.assertIn("fluid.csv:new[1]", page)
+        self.assertTrue((out / "charts/chart_02.png").is_file())
+
+    def test_two_runs_that_are_the_same_are_said_to_be(self):
+        (self.second / "fluid.csv").write_bytes((self.first / "fluid.csv").read_bytes())
+        self.assertIn("all of the 4 columns that both have are the same\n", self.command(self.first, self.second).stdout)
+
+    def test_what_cannot_be_compared(self):
+        empty = self.folder / "empty"
+        empty.mkdir()
+        for arguments, fault in (((self.first, self.folder / "absent"), "is no folder of results"),
+                                 ((empty, self.second), "holds no series"),
+                                 ((self.first, self.folder / "coarse/../coarse"), "is the same run as")):
+            with self.subTest(fault):
+                ended = self.command(*arguments)
+                self.assertEqual(ended.returncode, 2)
+                self.assertRegex(ended.stderr, f"^{arguments[1] if 'same' in fault else ''}.*: error: {fault}")
+                self.assertEqual(ended.stderr.count("\n"), 1)
+        self.assertEqual(self.command(self.first).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

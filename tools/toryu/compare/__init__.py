@@ -1,0 +1,1 @@
+"""Lays two runs over each other: what they set otherwise, how far their series lie apart, charts, a page."""

@@ -1,0 +1,58 @@
+"""`compare.html`: one page that needs no network and no other file; its charts lie beside it too."""
+
+import html
+import math
+import pathlib
+import string
+
+from toryu import program
+from toryu.report import tables
+from toryu.results import readable, unit_of
+from toryu.study import drawing
+from toryu.study.page import figure
+from toryu.study.table import readable_size
+
+HERE = pathlib.Path(__file__).resolve().parent
+MOST_DRAWN = 16  # columns, the farthest apart first
+
+
+def write(comparison, names, out):
+    drawn = [(f"{column.series}: {readable(column.name)}", draw(column, names, out / "charts" / f"chart_{number:02}"),
+              f"charts/chart_{number:02}") for number, column in enumerate(comparison.columns[:MOST_DRAWN], 1)]
+    left_out = len(comparison.columns) - len(drawn)
+    text = string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
+        title=html.escape(" against ".join(names)),
+        style=(HERE.parent / "report/style.css").read_text(encoding="utf-8"),
+        settings=settings(comparison, names), charts="".join(map(figure, drawn)), columns=columns(comparison, names),
+        left_out=f"{left_out} that differ less are in the table alone." if left_out else "",
+        alike=f"{comparison.alike} columns are the same in both." + (
+            f" One run alone has {html.escape(', '.join(comparison.alone))}." if comparison.alone else ""))
+    program.write_whole(out / "compare.html", text)
+
+
+def draw(column, names, path):
+    """Both lines, the second dashed over the first."""
+    made, (panel,) = drawing.figure()
+    factor, unit = readable_size(unit_of(column.name), [v for run in column.values for v in run])
+    for number, (name, times, values) in enumerate(zip(names, column.times, column.values)):
+        panel.plot(times, [factor * v for v in values], color=drawing.LINES[number], label=name,
+                   linestyle="-" if number == 0 else (0, (4, 2)))
+    panel.set_xlabel("time [s]")
+    panel.set_ylabel(f"{readable(column.name)} [{unit}]" if unit else readable(column.name))
+    panel.legend()
+    return drawing.save(made, path)
+
+
+def settings(comparison, names):
+    if not comparison.settings:
+        return "<p>None that both runs tell.</p>"
+    return tables.table(["key of the case", *names], comparison.settings)
+
+
+def columns(comparison, names):
+    def shown(value):
+        return f"{100 * value:.2f} %" if math.isfinite(value) else "–"
+
+    rows = [[column.place, *map(tables.number, column.peaks), shown(column.change), shown(column.distance)]
+            for column in comparison.columns]
+    return tables.table(["series", *(f"peak, {name}" for name in names), "change", "distance"], rows, range(1, 5))
