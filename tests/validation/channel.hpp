@@ -94,6 +94,14 @@ inline ChannelFlow run_channel(const FluidCase& the_case, const DevelopedFlow& e
   return middle.mean();
 }
 
+inline void expect_within_two_percent(const ChannelFlow& flow, double gradient) {
+  testing::Test::RecordProperty("pressure_gradient_over_exact",
+                                std::to_string(flow.pressure_gradient / gradient));
+  testing::Test::RecordProperty("profile_error", std::to_string(flow.profile_error));
+  EXPECT_NEAR(flow.pressure_gradient / gradient, 1.0, 0.02);
+  EXPECT_LT(flow.profile_error, 0.02);
+}
+
 /// In the passage that [fluid.similarity] of the case describes.
 inline DevelopedFlow flow_in_passage(const FluidCase& the_case) {
   const Similarity& passage = *the_case.parameters.similarity;
