@@ -9,7 +9,7 @@ from toryu import results
 from toryu.program import whole_file
 
 SERIES = ("fluid", "solid")  # the coupler's tells of the machine, and of them again
-NOT_PHYSICS = ("case.title",)  # of the settings
+NOT_PHYSICS = ("case.title", "reference.")  # how the keys of such settings begin
 
 
 @dataclass
@@ -89,7 +89,7 @@ def different_settings(first, second):
         return []
     cases = [dict(flat(case)) for case in (first, second)]
     keys = sorted(key for key in cases[0].keys() | cases[1].keys()
-                  if cases[0].get(key) != cases[1].get(key) and key not in NOT_PHYSICS)
+                  if cases[0].get(key) != cases[1].get(key) and not key.startswith(NOT_PHYSICS))
     return [(key, *(str(case.get(key, "-")) for case in cases)) for key in keys]
 
 
