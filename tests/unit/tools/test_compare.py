@@ -61,6 +61,15 @@ class Compared(unittest.TestCase):
         self.assertAlmostEqual(gauge.distance, 0.75)  # 1.75 in between against 1
         self.assertAlmostEqual(gauge.change, 2)
 
+    def test_without_a_number_at_the_times_of_both_nothing_is_the_same(self):
+        (self.second / "fluid.csv").write_text("time[s],gauge_level[m],energy[J/m]\n0,nan,nan\n1,inf,nan\n")
+        found = runs.compare(self.first, self.second)
+        self.assertEqual((found.columns, found.alike), ([], 0))
+        self.assertEqual(found.apart, ["fluid.csv:energy[J/m]", "fluid.csv:gauge_level[m]"])
+        said = self.command(self.first, self.second).stdout
+        self.assertIn("without a number at the times that both reached: fluid.csv:energy[J/m], fluid.csv:gauge_level[m]\n"
+                      "no column that can be compared differs; 0 the same in both\n", said)
+
     def test_settings_go_by_the_names_of_sections(self):
         used = self.second / "used_case.toml"
         used.write_text(used.read_text().replace("max = [1.0, 0.0]", "max = [2.0, 0.0]").replace("0.05", "0.1"))
@@ -70,6 +79,9 @@ class Compared(unittest.TestCase):
         (self.second / "used_case.toml").write_bytes(b"\xff[")
         found = runs.compare(self.first, self.second)
         self.assertEqual((len(found.columns), found.settings), (2, []))
+        for text in ("fluid = 3\n", "[fluid]\nobserver = 3\n", "[[fluid.observer]]\nname = 3\n[[fluid.observer]]\n"):
+            (self.second / "used_case.toml").write_text(text)
+            self.assertEqual(len(runs.compare(self.first, self.second).columns), 2, text)
 
     def test_tells_and_leaves_table_charts_and_page(self):
         ended = self.command(self.first, self.second)
@@ -87,7 +99,7 @@ class Compared(unittest.TestCase):
 
     def test_two_runs_that_are_the_same_are_said_to_be(self):
         (self.second / "fluid.csv").write_bytes((self.first / "fluid.csv").read_bytes())
-        self.assertIn("all of the 4 columns that both have are the same\n", self.command(self.first, self.second).stdout)
+        self.assertIn("no column that can be compared differs; 4 the same in both\n", self.command(self.first, self.second).stdout)
 
     def test_what_cannot_be_compared(self):
         empty = self.folder / "empty"

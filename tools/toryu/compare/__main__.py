@@ -17,8 +17,9 @@ MOST_TOLD = 12  # columns and settings on the terminal; the table has all
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh --compare", allow_abbrev=False, description="Lays two runs over each other: what they set otherwise, "
-        "how far their series lie apart over the times that both reached, charts of what differs most, a page.")
+        prog="run.sh --compare", allow_abbrev=False, description="Lays two runs over each other: what they set "
+        "otherwise, how far their series lie apart over the times that both reached, charts of what differs most, "
+        "a page.")
     parser.add_argument("first", metavar="OUT_A", type=pathlib.Path, help="results folder of a run")
     parser.add_argument("second", metavar="OUT_B", type=pathlib.Path, help="of the run that is held against it")
     parser.add_argument("--out", metavar="DIR", type=pathlib.Path, help="where table, charts and page go; default "
@@ -53,8 +54,11 @@ def tell(comparison, names):
         print(f"{key}: {values[0]} | {values[1]}")
     if len(comparison.settings) > MOST_TOLD:
         print(f"and {counted(len(comparison.settings) - MOST_TOLD, 'setting')} more")
+    if comparison.apart:
+        print(f"without a number at the times that both reached: {', '.join(comparison.apart[:MOST_TOLD])}"
+              + (", ..." if len(comparison.apart) > MOST_TOLD else ""))
     if not comparison.columns:
-        print(f"all of the {counted(comparison.alike, 'column')} that both have are the same")
+        print(f"no column that can be compared differs; {comparison.alike} the same in both")
         return
     shown = comparison.columns[:MOST_TOLD]
     width = max(len(column.place) for column in shown)

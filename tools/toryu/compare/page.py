@@ -26,6 +26,7 @@ def write(comparison, names, out):
         settings=settings(comparison, names), charts="".join(map(figure, drawn)), columns=columns(comparison, names),
         left_out=f"{left_out} that differ less are in the table alone." if left_out else "",
         alike=f"{comparison.alike} columns are the same in both." + (
+            f" Without a number at such times: {html.escape(', '.join(comparison.apart))}." if comparison.apart else "") + (
             f" One run alone has {html.escape(', '.join(comparison.alone))}." if comparison.alone else ""))
     program.write_whole(out / "compare.html", text)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from toryu import results
 from toryu.program import whole_file
+from toryu.report import data
 
 SERIES = ("fluid", "solid")  # the coupler's tells of the machine, and of them again
 NOT_PHYSICS = ("case.title", "reference.")  # how the keys of such settings begin
@@ -36,27 +37,30 @@ class Column:
 @dataclass
 class Comparison:
     columns: list[Column]  # that differ: of observers first, each by its distance, the farthest apart first
+    apart: list[str]  # FILE.csv:COLUMN without a number at the times that both reached
     alike: int  # columns that are the same, value by value
     alone: list[str]  # FILE.csv:COLUMN of one run only
     settings: list[tuple[str, str, str]]  # key of the case, value of either run
 
 
 def compare(first, second):
-    columns, alike, alone = [], 0, []
+    columns, apart, alike, alone = [], [], 0, []
     for series in SERIES:
         runs = [results.read_series(out, series) for out in (first, second)]
         alone += [f"{series}.csv:{name}" for name in sorted(runs[0].keys() ^ runs[1].keys())]
-        for name in runs[0].keys() & runs[1].keys() - {"time[s]"}:
+        for name in sorted(runs[0].keys() & runs[1].keys() - {"time[s]"}):
             if runs[0]["time[s]"] == runs[1]["time[s]"] and runs[0][name] == runs[1][name]:
                 alike += 1
             elif column := column_of(series, name, runs):
                 columns.append(column)
+            else:
+                apart.append(f"{series}.csv:{name}")
     cases = [case_of(out) for out in (first, second)]
     observed = tuple(f"{item.get('name')}_" for case in cases for series in SERIES
-                     for item in case.get(series, {}).get("observer", []))
+                     for item in data.tables_of(data.table(case, series), "observer"))
     columns.sort(key=lambda c: (not c.name.startswith(observed), -c.distance if math.isfinite(c.distance) else 1,
                                 c.place))
-    return Comparison(columns, alike, alone, different_settings(*cases))
+    return Comparison(columns, apart, alike, alone, different_settings(*cases))
 
 
 def column_of(series, name, runs):
