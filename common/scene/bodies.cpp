@@ -153,6 +153,7 @@ class Bodies {
     for (const Body& wall : bodies_.walls) add(wall);
     for (const Held& part : bodies_.held) add(part);
     std::vector<std::string> lines;
+    lines.reserve(groups.size());
     for (const auto& [motion, names, points] : groups)
       lines.push_back(fmt::format("{} {}: {}", fmt::join(names, ", "), names.size() == 1 ? "moves" : "move",
                                   text_of(extremes(*motion, points, end_time_), *motion)));

@@ -177,7 +177,7 @@ class Approach {
     std::sort(times.begin(), times.end());
     for (std::size_t k = 1; k < times.size(); ++k)
       if (times[k] > times[k - 1] && open.contains(stretch.at(0.5 * (times[k - 1] + times[k]))))
-        if (const auto meeting = between(stretch, times[k - 1], times[k], shift)) return meeting;
+        if (auto meeting = between(stretch, times[k - 1], times[k], shift)) return meeting;
     return {};
   }
 
@@ -254,7 +254,7 @@ std::optional<Meeting> first_meeting(const Pair& pair, double tolerance, double 
       turns(pair.motion_a) || turns(pair.motion_b))
     return can_turn_with(pair) ? first_turning_meeting(pair, tolerance, end_time) : std::nullopt;
   for (const Stretch& stretch : stretches_of(pair, end_time))
-    if (const auto meeting = approach.earliest_during(stretch, period)) return meeting;
+    if (auto meeting = approach.earliest_during(stretch, period)) return meeting;
   return {};
 }
 

@@ -145,6 +145,7 @@ MotionExtremes extremes(const Motion& motion, const std::vector<Vec>& points, do
     found.least_angle = std::min(found.least_angle, pose.angle);
     found.most_angle = std::max(found.most_angle, pose.angle);
     std::vector<Vec> now;
+    now.reserve(points.size());
     for (const Vec& X : points) now.push_back(pose.velocity_of(X));
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (now[k].norm() > found.speed) found.speed = now[k].norm(), found.time_of_speed = t;

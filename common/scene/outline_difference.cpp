@@ -67,7 +67,7 @@ std::vector<Segment> cut_edges(const Outline& outline, const Outline& other, dou
 
 /// Joins segments end to end. Where several go on from a place, the one most to the left, so that rings that
 /// share a corner stay apart.
-std::vector<Ring> chained(std::vector<Segment> segments, const Places& places) {
+std::vector<Ring> chained(const std::vector<Segment>& segments, const Places& places) {
   std::multimap<std::size_t, std::size_t> from;
   for (const auto& [a, b] : segments) from.emplace(a, b);
   std::vector<Ring> rings;
@@ -116,7 +116,7 @@ std::vector<Ring> difference(const Outline& outline, const Outline& hole) {
   for (const Segment& s : of_hole)
     if (!own_set.contains(s) && !own_set.contains(turned(s)) && outline.contains(middle(s)))
       kept.push_back(turned(s));
-  return chained(std::move(kept), places);
+  return chained(kept, places);
 }
 
 }  // namespace toryu
