@@ -70,6 +70,32 @@ class Compared(unittest.TestCase):
         self.assertIn("without a number at the times that both reached: fluid.csv:energy[J/m], fluid.csv:gauge_level[m]\n"
                       "no column that can be compared differs; 0 the same in both\n", said)
 
+    def test_a_line_sampled_at_other_times_is_no_distance(self):
+        (self.first / "fluid.csv").write_text("time[s],g[1],h[1]\n0.5,0.5,nan\n1.5,1.5,1\n2.5,2.5,1\n")
+        (self.second / "fluid.csv").write_text("time[s],g[1],h[1]\n0,0,1\n1,1,1\n2,2,1\n3,3,-1e308\n")
+        for pair in ((self.first, self.second), (self.second, self.first)):
+            g = next(column for column in runs.compare(*pair).columns if column.name == "g[1]")
+            self.assertAlmostEqual(g.distance, 0)
+
+    def test_large_numbers_and_what_is_no_number(self):
+        (self.first / "fluid.csv").write_text("time[s],g[1],h[1]\n0,1,nan\n1,2,1\n")
+        (self.second / "fluid.csv").write_text("time[s],g[1],h[1]\n0,1e200,nan\n1,-1e300,1\n")
+        found = runs.compare(self.first, self.second)
+        self.assertEqual((len(found.columns), found.alike), (1, 1))
+        self.assertAlmostEqual(found.columns[0].distance / (1e300 / math.sqrt(2) / 2), 1)
+
+    def test_what_another_wrote_stays(self):
+        out = self.folder / "study"
+        (out / "charts").mkdir(parents=True)
+        (out / "charts/chart_07.svg").write_text("of a study")
+        for folder in (out, self.first):
+            ended = self.command(self.first, self.second, "--out", folder)
+            self.assertEqual((ended.returncode, ended.stderr), (2, f"{folder}: error: holds something else than a comparison; "
+                                                                   "give --out another folder\n"))
+        self.assertEqual((out / "charts/chart_07.svg").read_text(), "of a study")
+        for _ in range(2):  # its own it writes anew
+            self.assertEqual(self.command(self.first, self.second).returncode, 0)
+
     def test_settings_go_by_the_names_of_sections(self):
         used = self.second / "used_case.toml"
         used.write_text(used.read_text().replace("max = [1.0, 0.0]", "max = [2.0, 0.0]").replace("0.05", "0.1"))

@@ -5,6 +5,7 @@
 
 import argparse
 import math
+import os
 import pathlib
 import sys
 
@@ -31,7 +32,8 @@ def names_of(folders):
     """The shortest last parts of the paths that tell them apart."""
     parts = [folder.resolve().parts for folder in folders]
     count = next((n for n in range(1, max(map(len, parts)) + 1) if parts[0][-n:] != parts[1][-n:]), 0)
-    return ["_".join(part.strip("/") for part in path[-count:]) for path in parts]
+    names = ["_".join(part.strip("/") for part in path[-count:]) for path in parts]
+    return [os.fsencode(name).decode("utf-8", "backslashreplace") for name in names]
 
 
 def fault_of(options):
@@ -67,7 +69,7 @@ def tell(comparison, names):
         peaks = "  ".join(f"{peak:12.5g}" for peak in column.peaks)
         print(f"{column.place:{width}}  {peaks}  {percent(column.change):>10}  {percent(column.distance)}")
     if (rest := len(comparison.columns) - len(shown)) or comparison.alike:
-        print(f"and {counted(rest, 'column')} more; {comparison.alike} the same in both")
+        print((f"and {counted(rest, 'column')} more; " if rest else "") + f"{comparison.alike} the same in both")
 
 
 def main(arguments):
@@ -77,6 +79,9 @@ def main(arguments):
         return BAD_INPUT
     names = names_of((options.first, options.second))
     out = options.out or pathlib.Path("out") / f"{names[0]}_against_{names[1]}"
+    if out.is_dir() and any(out.iterdir()) and not (out / "compare.html").is_file():
+        print(f"{out}: error: holds something else than a comparison; give --out another folder", file=sys.stderr)
+        return BAD_INPUT
     comparison = runs.compare(options.first, options.second)
     (out / "charts").mkdir(parents=True, exist_ok=True)
     for former in (out / "charts").glob("chart_[0-9][0-9].*"):

@@ -49,7 +49,7 @@ def compare(first, second):
         runs = [results.read_series(out, series) for out in (first, second)]
         alone += [f"{series}.csv:{name}" for name in sorted(runs[0].keys() ^ runs[1].keys())]
         for name in sorted(runs[0].keys() & runs[1].keys() - {"time[s]"}):
-            if runs[0]["time[s]"] == runs[1]["time[s]"] and runs[0][name] == runs[1][name]:
+            if runs[0]["time[s]"] == runs[1]["time[s]"] and same(runs[0][name], runs[1][name]):
                 alike += 1
             elif column := column_of(series, name, runs):
                 columns.append(column)
@@ -63,6 +63,11 @@ def compare(first, second):
     return Comparison(columns, apart, alike, alone, different_settings(*cases))
 
 
+def same(first, second):
+    """Value by value; what is no number in both is the same."""
+    return all(a == b or a != a and b != b for a, b in zip(first, second))
+
+
 def column_of(series, name, runs):
     """The column, or None if a run has no number in it where both are."""
     begin, end = (limit(run["time[s]"][place] for run in runs) for limit, place in ((max, 0), (min, -1)))
@@ -74,8 +79,10 @@ def column_of(series, name, runs):
         times.append([t for t, _ in points])
         values.append([v for _, v in points])
     peaks = [results.peak(*run)[1] for run in zip(times, values)]
-    squares = [(results.interpolate(t, times[1], values[1]) - v) ** 2 for t, v in zip(times[0], values[0])]
-    distance = math.sqrt(sum(squares) / len(squares)) / abs(peaks[0]) if peaks[0] else math.nan
+    # rows of the second before and after the window count for what lies between
+    whole = [[x for x, v in zip(runs[1][key], runs[1][name]) if math.isfinite(v)] for key in ("time[s]", name)]
+    differences = [results.interpolate(t, *whole) - v for t, v in zip(times[0], values[0])]
+    distance = math.hypot(*differences) / math.sqrt(len(differences)) / abs(peaks[0]) if peaks[0] else math.nan
     return Column(series, name, times, values, peaks, distance)
 
 
