@@ -24,7 +24,7 @@ esac
 results=$(mktemp)
 trap 'rm -f "$results"' EXIT
 failed=0
-# Many tests wait for processes: one more than the cores hold.
+# Many tests wait for processes, so there is room for one more than there are cores.
 run_tests() { # FOLDER CTEST-OPTIONS...
   ctest --test-dir "$1" --output-on-failure --no-tests=error --parallel $(($(nproc) + 1)) "${@:2}" | tee -a "$results" || failed=1
 }

@@ -59,8 +59,8 @@ add_custom_target(unit_tests)
 
 # toryu_test(NAME SOURCES a.cpp ... LIBRARIES x ... [LABEL unit] [TIMEOUT 300]): a GoogleTest executable, one CTest entry a test case.
 # Tests run side by side: one thread each unless a test asks for more. Two tests whose threads wait for each other on the
-# same two cores take thirty times as long. Its files are compiled several at once, in less than half of the time: names of
-# one that clash with another's belong into a namespace of its own.
+# same two cores take thirty times as long. Its files are compiled several at once, which is faster: names of one that
+# clash with another's belong into a namespace of its own.
 function(toryu_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_LABEL)

@@ -18,11 +18,11 @@ namespace toryu {
 
 namespace {
 
-/// A box whose own faults have been reported is left alone.
 bool box_in_box(const Box& inner, const Box& outer) {
   return (inner.min.array() >= outer.min.array()).all() && (inner.max.array() <= outer.max.array()).all();
 }
 
+/// A box whose own faults have been reported is left alone.
 void check_walls(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];

@@ -4,7 +4,6 @@
 """
 
 import argparse
-import math
 import os
 import pathlib
 import sys
@@ -47,11 +46,7 @@ def fault_of(options):
     return ""
 
 
-def percent(value):
-    return f"{100 * value:.2f} %" if math.isfinite(value) else "-"
-
-
-def tell(comparison, names):
+def tell(comparison):
     for key, *values in comparison.settings[:MOST_TOLD]:
         print(f"{key}: {values[0]} | {values[1]}")
     if len(comparison.settings) > MOST_TOLD:
@@ -67,7 +62,7 @@ def tell(comparison, names):
     print(f"{'':{width}}  {'first peak':>12}  {'second peak':>12}  {'change':>10}  distance")
     for column in shown:
         peaks = "  ".join(f"{peak:12.5g}" for peak in column.peaks)
-        print(f"{column.place:{width}}  {peaks}  {percent(column.change):>10}  {percent(column.distance)}")
+        print(f"{column.place:{width}}  {peaks}  {runs.percent(column.change):>10}  {runs.percent(column.distance)}")
     if (rest := len(comparison.columns) - len(shown)) or comparison.alike:
         print((f"and {counted(rest, 'column')} more; " if rest else "") + f"{comparison.alike} the same in both")
 
@@ -88,7 +83,7 @@ def main(arguments):
         former.unlink()
     runs.write_table(comparison, names, out / "table.csv")
     page.write(comparison, names, out)
-    tell(comparison, names)
+    tell(comparison)
     for name in ("table.csv", "charts", "compare.html"):
         print(f"{name.partition('.')[0]:7} {out / name}")
     program.must_be_printed()

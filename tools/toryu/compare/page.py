@@ -1,11 +1,11 @@
 """`compare.html`: one page that needs no network and no other file; its charts lie beside it too."""
 
 import html
-import math
 import pathlib
 import string
 
 from toryu import program
+from toryu.compare.runs import percent
 from toryu.report import tables
 from toryu.results import readable, unit_of
 from toryu.study import drawing
@@ -51,9 +51,6 @@ def settings(comparison, names):
 
 
 def columns(comparison, names):
-    def shown(value):
-        return f"{100 * value:.2f} %" if math.isfinite(value) else "–"
-
-    rows = [[column.place, *map(tables.number, column.peaks), shown(column.change), shown(column.distance)]
+    rows = [[column.place, *map(tables.number, column.peaks), percent(column.change), percent(column.distance)]
             for column in comparison.columns]
     return tables.table(["series", *(f"peak, {name}" for name in names), "change", "distance"], rows, range(1, 5))

@@ -117,6 +117,10 @@ def flat(table, prefix=""):
             yield place, value
 
 
+def percent(share):
+    return f"{100 * share:.2f} %" if math.isfinite(share) else "-"
+
+
 def write_table(comparison, names, path):
     with whole_file(path) as file:
         writer = csv.writer(file)

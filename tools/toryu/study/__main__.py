@@ -164,7 +164,7 @@ def finish(study, records, out, kept, elapsed, versions):
         print(timing.sentence(study.timing, records))
     for metric in study.metrics:
         if not any(math.isfinite(value) for value in made.column(metric.name)):
-            causes = {metrics.absent(study, record).get(metric.name) for record in records} - {None}
+            causes = {metrics.absent(metric, record) for record in records} - {""}
             print(f"no run gives '{metric.name}'" + (f": {causes.pop()}" if len(causes) == 1 else ""))
     for answer in answers:
         print(answer.sentence)

@@ -121,10 +121,9 @@ def of_series(kind, times, values, level=None):
             "amplitude_loss": lambda: oscillation.amplitude_loss(times, values, level)}[kind]()
 
 
-def absent(study, record):
-    """Metric -> why its series is not in the results of a run that is done."""
-    return {metric.name: fault for metric in study.metrics if metric.series and record.exit_code == DONE
-            and (fault := results.without_column(record.folder, metric.series))}
+def absent(metric, record):
+    """Why its series is not in the results of a run that is done; "" if it is, or may not be."""
+    return results.without_column(record.folder, metric.series) if metric.series and record.exit_code == DONE else ""
 
 
 def non_finite(study, record):

@@ -245,10 +245,10 @@ class Runner:
 
     def _tell_absent(self, record):
         """That a metric is not to be had, as soon as a run shows it, and once: other runs may have it."""
-        for name, fault in metrics.absent(self.study, record).items():
-            if name not in self.absent:
-                self.absent.add(name)
-                self.progress.tell(f"warning: metric '{name}': in {record.folder} {fault}")
+        for metric in self.study.metrics:
+            if metric.name not in self.absent and (fault := metrics.absent(metric, record)):
+                self.absent.add(metric.name)
+                self.progress.tell(f"warning: metric '{metric.name}': in {record.folder} {fault}")
 
     def _end_overdue(self):
         """A launcher that is asked to end kills its processes if they do not."""
