@@ -121,6 +121,8 @@ class Bodies {
         keep_apart(wall, part, 0, "; what a wall holds of a solid is a [[solid.clamp]]", found);
       for (const Held& part : bodies_.held) keep_together(wall, part, found);
     }
+    for (std::size_t i = 0; i < bodies_.held.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) keep_alike(bodies_.held[i], bodies_.held[k], found);
     return found;
   }
 
@@ -257,6 +259,17 @@ class Bodies {
     const std::string how = !part_moves ? "stands still" : wall_moves ? "moves otherwise" : "moves";
     faults.emplace_back(wall.key, fmt::format("{} {}, and {}, which it holds, {}", wall.name,
                                               wall_moves ? "moves" : "stands still", part.name, how));
+  }
+
+  /// What two clamps hold can follow but one of them.
+  void keep_alike(const Held& a, const Held& b, Faults& faults) const {
+    if (a.clamp == b.clamp) return;
+    const bool a_moves = a.motion && moves(*a.motion), b_moves = b.motion && moves(*b.motion);
+    if ((!a_moves && !b_moves) || (a_moves && b_moves && *a.motion == *b.motion)) return;
+    if (const auto found = meeting(a, b, 0))
+      faults.emplace_back(
+          a.key, fmt::format("{} overlaps {} near ({:.6g}, {:.6g}) m, and they do not move alike", a.name,
+                             b.name, found->place[0], found->place[1]));
   }
 
   bool moves(const Motion& motion) const {

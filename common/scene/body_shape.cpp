@@ -17,6 +17,8 @@ using Ring = Outline::Ring;
 constexpr double default_tolerance = 1e-4;
 /// Copies of which none may overlap another.
 constexpr int most_copies = 10'000;
+/// Whoever turns a shape by more than a full turn means another unit [degrees].
+constexpr double full_turn = 360;
 
 constexpr const char* one_shape = "a body has one of 'box', 'circle', 'polygon' and 'file'";
 
@@ -105,6 +107,12 @@ std::string text_of(const OutlineFault& fault, std::size_t rings) {
   return fmt::format("{}, at its corner {}{}, counted from 0", fault.message, fault.corner, ring);
 }
 
+/// Of a shape that was sound before it was placed: too small, or too far away for its corners to be told
+/// apart.
+std::string vanishing(const std::string& name, const OutlineFault& fault, std::size_t rings) {
+  return fmt::format("{}, mirrored, scaled, rotated and moved, {}", name, text_of(fault, rings));
+}
+
 std::vector<Ring> copies_of(const std::vector<Ring>& rings, const Array& array) {
   std::vector<Ring> all;
   for (int copy = 0; copy < array.count; ++copy) {
@@ -120,7 +128,10 @@ std::vector<Ring> copies_of(const std::vector<Ring>& rings, const Array& array) 
 /// Sets `box` to what a shape of which one kind is given comes to, or says what is wrong.
 std::optional<ShapeFault> solve(const BodyShape& shape, Box& box) {
   if (stays_a_box(shape)) {
-    box = placed_box(shape);
+    const Box placed = placed_box(shape);
+    if (const auto fault = fault_of({ring_of(placed)}))
+      return ShapeFault{"box", vanishing("'box'", *fault, 1)};
+    box = placed;
     return {};
   }
   std::vector<Ring> rings;
@@ -141,6 +152,8 @@ std::optional<ShapeFault> solve(const BodyShape& shape, Box& box) {
     rings = copies_of(rings, *shape.array);
     if (const auto fault = fault_of(rings))
       return ShapeFault{"array", "copies overlap or touch: one " + fault->message};
+  } else if (const auto fault = fault_of(rings)) {
+    return ShapeFault{key, vanishing(name, *fault, rings.size())};
   }
   box = box_of(Outline(std::move(rings)));
   return {};
@@ -158,7 +171,8 @@ void describe_placing(ParameterTable& table, BodyShape& shape) {
   if (table.wants(shape.scale != 1))
     table.number("scale", shape.scale, {.minimum = 0, .above_minimum = true, .help = "of all lengths"});
   if (table.wants(shape.rotate != 0))
-    table.number("rotate", shape.rotate, {.unit = "degrees", .help = "anticlockwise"});
+    table.number("rotate", shape.rotate,
+                 {.unit = "degrees", .minimum = -full_turn, .maximum = full_turn, .help = "anticlockwise"});
   if (table.wants(!shape.translate.isZero(0)))
     table.vector("translate", shape.translate, {.unit = "m", .help = "moves the shape, after all of these"});
   table.optional("array", shape.array, "copies of the shape, at last");
@@ -207,7 +221,10 @@ void describe(ParameterTable& table, Array& array) {
                 {.minimum = 1, .maximum = most_copies, .required = true, .help = "copies, with the first"});
   table.vector("translate", array.translate, {.unit = "m", .help = "from each copy to the next"});
   table.number("rotate", array.rotate,
-               {.unit = "degrees", .help = "from each copy to the next, anticlockwise"});
+               {.unit = "degrees",
+                .minimum = -full_turn,
+                .maximum = full_turn,
+                .help = "from each copy to the next, anticlockwise"});
   table.vector("about", array.about, {.unit = "m", .help = "the point about which the copies are rotated"});
 }
 

@@ -34,6 +34,15 @@ bool contains(const Outline::Ring& ring, const Vec& x) {
   return inside;
 }
 
+Box bounds_of(const Outline::Ring& ring) {
+  Box box{ring[0], ring[0]};
+  for (const Vec& corner : ring) {
+    box.min = box.min.cwiseMin(corner);
+    box.max = box.max.cwiseMax(corner);
+  }
+  return box;
+}
+
 double square_of_distance(const Vec& x, const Vec& low, const Vec& high) {
   return (low - x).cwiseMax(x - high).cwiseMax(Vec::Zero()).squaredNorm();
 }
@@ -45,14 +54,16 @@ Vec Outline::Edge::normal() const {
 }
 
 Outline::Outline(std::vector<Ring> rings) : rings_(std::move(rings)) {
+  std::vector<Box> bounds;
+  for (const Ring& ring : rings_) bounds.push_back(bounds_of(ring));
   std::vector<char> hole;
-  for (const Ring& ring : rings_) {
+  for (std::size_t k = 0; k < rings_.size(); ++k) {
     // Rings may share a corner, so that the middle of an edge tells.
-    const Vec place = 0.5 * (ring[0] + ring[1]);
-    const auto around = std::count_if(rings_.begin(), rings_.end(), [&](const Ring& other) {
-      return &other != &ring && toryu::contains(other, place);
-    });
-    hole.push_back(around % 2 == 1);
+    const Vec place = 0.5 * (rings_[k][0] + rings_[k][1]);
+    bool inside = false;
+    for (std::size_t other = 0; other < rings_.size(); ++other)
+      if (other != k && bounds[other].contains(place)) inside ^= toryu::contains(rings_[other], place);
+    hole.push_back(inside);
   }
   for (std::size_t k = 0; k < rings_.size(); ++k) {
     if ((signed_area(rings_[k]) < 0) != (hole[k] != 0)) std::reverse(rings_[k].begin(), rings_[k].end());

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/errors/case_text.hpp"
 
 namespace toryu {
@@ -124,6 +126,26 @@ INSTANTIATE_TEST_SUITE_P(
                 "case.toml:24:1: error: the wall 'lid' stands still, and the solid's clamp 'root', which it "
                 "holds, "
                 "moves"}),
+    name_of<Scenery>);
+
+/// Two clamps on the gate, which move with the motions of these names.
+std::string clamped(const std::string& box, const std::string& root, const std::string& top) {
+  std::string motions;
+  for (const auto& name : std::set<std::string>{root, top})
+    if (!name.empty()) motions += "[[motion]]\nname='" + name + "'\nvelocity=[[0,0,0],[1,1,0]]\n";
+  const auto with = [](const std::string& name) { return name.empty() ? "" : "moves_with='" + name + "'\n"; };
+  return motions + gate + with(root) + "[[solid.clamp]]\nname='top'\nbox={" + box + "}\n" + with(top);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfClamps, BodyFaults,
+    testing::Values(
+        Scenery{"NoneOfClampsThatOnlyTouch", clamped("min=[1,0.5], max=[1.2,1]", "", "roll"), ""},
+        Scenery{"NoneOfClampsThatMoveAlike", clamped("min=[1,0.5], max=[1.2,1.5]", "roll_too", "roll"), ""},
+        Scenery{"NoneOfClampsAtRest", clamped("min=[1,0.5], max=[1.2,1.5]", "", ""), ""},
+        Scenery{"ClampsOfWhichOneMoves", clamped("min=[1,0.5], max=[1.2,1.5]", "", "roll"),
+                "case.toml:23:1: error: the solid's clamp 'top' overlaps the solid's clamp 'root' near (1.1, "
+                "1.25) m, and they do not move alike"}),
     name_of<Scenery>);
 
 INSTANTIATE_TEST_SUITE_P(

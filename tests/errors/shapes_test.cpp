@@ -142,6 +142,29 @@ TEST(Shapes, OfABoxThatIsTurned) {
   EXPECT_FALSE(box.contains({-0.4, 0.1}));
 }
 
+TEST(ShapeFaults, OfPlacesWhereNothingIsLeft) {
+  const std::string square = "polygon=[[1,1],[2,1],[2,2],[1,2]]\n", box = "box={min=[1,1], max=[2,2]}\n",
+                    lost = ", mirrored, scaled, rotated and moved, has ";
+  EXPECT_THAT(
+      faults_of(square + "translate=[1e308,0]\n"),
+      testing::HasSubstr("case.toml:7:1: error: 'polygon'" + lost + "the corner (1e+308, 1) m twice"));
+  EXPECT_THAT(faults_of(square + "scale=1e-300\nabout=[1,0]\n"),
+              testing::HasSubstr("'polygon'" + lost + "the corner (1, 1e-300) m twice"));
+  EXPECT_THAT(faults_of(square + "scale=1e308\n"),
+              testing::HasSubstr("'polygon'" + lost + "a corner that is no number"));
+  EXPECT_THAT(faults_of(box + "translate=[0,1e300]\n"), testing::HasSubstr("'box'" + lost + "the corner"));
+  EXPECT_EQ(faults_of(box + "translate=[0,5]\nscale=1e-3\n"), "");
+}
+
+TEST(ShapeFaults, OfTurnsInNoDegrees) {
+  const std::string square = "polygon=[[1,1],[2,1],[2,2],[1,2]]\n";
+  EXPECT_THAT(
+      faults_of(square + "rotate=1e308\n"),
+      testing::HasSubstr("case.toml:8:1: error: 'rotate' in [[wall]] must be from -360 to 360 [degrees]"));
+  EXPECT_THAT(faults_of(square + "array={count=2, rotate=361}\n"), testing::HasSubstr("'rotate'"));
+  EXPECT_EQ(faults_of(square + "rotate=-360\n"), "");
+}
+
 TEST(Shapes, OfACircleHaveItsAreaAndKeepTheTolerance) {
   const Box disc = wall_of("circle={centre=[1,2], radius=3}\ntolerance=0.01\n");
   ASSERT_TRUE(disc.outline);
