@@ -12,5 +12,5 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 "$root/tools/install.sh" run
 toryu=(/usr/bin/python3 -I -X utf8 "$root/tools/toryu")
 case ${1---help} in -h | --help) exec "${toryu[@]}" launch --help ;; esac
-"$root/tools/build.sh" release -DTORYU_TESTS?=OFF fluid_solver solid_solver coupler reference_loop
+"$root/tools/build.sh" release -DTORYU_TESTS?=OFF fluid_solver solid_solver coupler replayed_fluid replayed_solid reference_loop
 exec "${toryu[@]}" launch "$@"

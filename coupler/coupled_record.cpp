@@ -23,6 +23,7 @@ CoupledRecord::CoupledRecord(const Settings& settings, const CouplingStart& star
       series_due_(settings.series_interval, 1),
       series_(settings.out, "coupler") {
   if (settings.frame_interval > 0) interface_.emplace(settings.out, start.interface);
+  if (settings.coupling.record == Record::every_window) exchange_.emplace(settings.out, start);
 }
 
 void CoupledRecord::begin(const InterfaceMotion& motion) {
@@ -47,6 +48,7 @@ void CoupledRecord::write(double time, const Window& window, const Exchange& don
   last_frame_ = !interface_ || frames_due_.reached(time);
   if (last_row_) write_series(time, window, done);
   if (interface_ && last_frame_) interface_->write(time, done.solid.motion, done.applied);
+  if (exchange_) exchange_->write(window, done.fluid, done.solid);
 }
 
 void CoupledRecord::write_last(double time, const Window& window, const Exchange& done) {
@@ -159,6 +161,7 @@ void CoupledRecord::write_series(double time, const Window& window, const Exchan
 void CoupledRecord::complete() {
   series_.complete();
   if (interface_) interface_->complete();
+  if (exchange_) exchange_->complete();
 }
 
 void CoupledRecord::write_state(std::ostream& stream) {
@@ -169,6 +172,7 @@ void CoupledRecord::write_state(std::ostream& stream) {
   now.series_due = series_due_.state();
   now.series = series_.state();
   if (interface_) now.interface = interface_->state();
+  if (exchange_) now.exchange = exchange_->state();
   write_states(stream, now);
 }
 
@@ -180,6 +184,7 @@ void CoupledRecord::read_state(std::istream& stream, double time) {
   series_due_.resume(state_.series_due, time);
   series_.resume(state_.series);
   if (interface_ && state_.interface) interface_->resume(*state_.interface);
+  if (exchange_ && state_.exchange) exchange_->resume(*state_.exchange);
 }
 
 void CoupledRecord::report(Summary& summary) const {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/exchange/exchange_file.hpp"
 #include "common/loop/schedule.hpp"
 #include "common/output/results.hpp"
 #include "coupler/added_mass.hpp"
@@ -63,6 +64,7 @@ class CoupledRecord {
     Schedule::State frames_due, series_due;
     SeriesWriter::State series;
     std::optional<InterfaceRecord::State> interface;
+    std::optional<ExchangeWriter::State> exchange;
     Row row;
     bool warned_of_impulse = false, warned_of_mass = false, warned_of_work = false;
     double lightest_layer = std::numeric_limits<double>::infinity();  ///< of all windows, over a row of fluid
@@ -92,6 +94,7 @@ class CoupledRecord {
   Schedule frames_due_, series_due_;
   SeriesWriter series_;
   std::optional<InterfaceRecord> interface_;
+  std::optional<ExchangeWriter> exchange_;
 };
 
 template <class Archive>
@@ -102,12 +105,12 @@ void serialize(Archive& archive, CoupledRecord::Row& row) {
 
 template <class Archive>
 void serialize(Archive& archive, CoupledRecord::State& state) {
-  auto& [audit, work, frames_due, series_due, series, interface, row, warned_of_impulse, warned_of_mass,
-         warned_of_work, lightest_layer, round_trips, fluid_compute, solid_compute, smallest_window,
-         largest_window, iterations, unconverged, unconverged_in_a_row] = state;
-  archive(audit, work, frames_due, series_due, series, interface, row, warned_of_impulse, warned_of_mass,
-          warned_of_work, lightest_layer, round_trips, fluid_compute, solid_compute, smallest_window,
-          largest_window, iterations, unconverged, unconverged_in_a_row);
+  auto& [audit, work, frames_due, series_due, series, interface, exchange, row, warned_of_impulse,
+         warned_of_mass, warned_of_work, lightest_layer, round_trips, fluid_compute, solid_compute,
+         smallest_window, largest_window, iterations, unconverged, unconverged_in_a_row] = state;
+  archive(audit, work, frames_due, series_due, series, interface, exchange, row, warned_of_impulse,
+          warned_of_mass, warned_of_work, lightest_layer, round_trips, fluid_compute, solid_compute,
+          smallest_window, largest_window, iterations, unconverged, unconverged_in_a_row);
 }
 
 }  // namespace toryu::coupling

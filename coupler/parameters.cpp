@@ -59,6 +59,11 @@ void describe(ParameterTable& table, Parameters& p) {
                 .above_minimum = true,
                 .help = "the run fails once the exchange has made more work than this share of the largest "
                         "that the fluid gave or the solid's energy changed by, and goes on to make it"});
+  table.choice(
+      "record", p.record, {"frames", "every_window"},
+      {.help =
+           "what is kept of the exchange: the interface at each frame in interface.h5, or beside it every "
+           "window in exchange.h5, for a replay of either side alone"});
   table.texts("loads", p.loads,
               {.help = "what the solid feels of the fluid: 'pressure_and_viscous', 'friction', or both"});
   const auto known = [](const std::string& word) {

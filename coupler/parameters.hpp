@@ -26,6 +26,9 @@ struct ImplicitParameters {
 };
 void describe(ParameterTable& table, ImplicitParameters& p);
 
+/// What is kept of the exchange: `interface.h5`, or `exchange.h5` beside it.
+enum class Record { frames, every_window };
+
 struct Parameters {
   SchemeKind scheme = SchemeKind::serial_robin;
   std::optional<ImplicitParameters> implicit;
@@ -33,6 +36,7 @@ struct Parameters {
   int fluid_steps_per_window = 1;
   double time_limit = 30;         ///< [s]
   double largest_false_work = 1;  ///< made by the exchange, over the largest work of the fluid
+  Record record = Record::frames;
   std::vector<std::string> loads = {"pressure_and_viscous", "friction"};
 
   bool passes_on(const std::string& load) const;

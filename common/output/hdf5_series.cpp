@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "common/error/failure.hpp"
 #include "common/error/machine.hpp"
 #include "common/output/atomic_file.hpp"
+#include "common/output/hdf5_reader.hpp"
 #include "common/run/log.hpp"
 
 namespace toryu {
@@ -63,9 +63,9 @@ void write_constant(hid_t file, const std::string& name, hid_t type, const HdfSe
   for (const auto& [key, text] : attributes) text_attribute(made, key, text);
 }
 
-/// Transfers row number `row` of a series between a dataset and memory.
-bool transfer(const HdfHandle& dataset, const HdfSeriesFile::Shape& row_shape, hsize_t row,
-              const std::function<herr_t(hid_t memory, hid_t space)>& transfer_selected) {
+/// Writes row number `row` of a series.
+bool write_row(const HdfHandle& dataset, const HdfSeriesFile::Shape& row_shape, hsize_t row,
+               const double* values) {
   HdfSeriesFile::Shape start(row_shape.size(), 0), count = row_shape;
   start.insert(start.begin(), row);
   count.insert(count.begin(), 1);
@@ -73,7 +73,7 @@ bool transfer(const HdfHandle& dataset, const HdfSeriesFile::Shape& row_shape, h
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
   const HdfHandle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
                          "row");
-  return transfer_selected(memory, space) >= 0;
+  return H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values) >= 0;
 }
 
 }  // namespace
@@ -138,10 +138,7 @@ void HdfSeriesFile::write_all(std::ifstream& rows) const {
       auto size = series_[k].shape;
       size.insert(size.begin(), n + 1);
       const bool written =
-          H5Dset_extent(datasets[k], size.data()) >= 0 &&
-          transfer(datasets[k], series_[k].shape, n, [&](hid_t memory, hid_t space) {
-            return H5Dwrite(datasets[k], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values);
-          });
+          H5Dset_extent(datasets[k], size.data()) >= 0 && write_row(datasets[k], series_[k].shape, n, values);
       hdf5_must(written, writing);
     }
   }
@@ -169,7 +166,7 @@ void HdfSeriesFile::series(const std::string& name, const std::string& unit, con
   series_.push_back({name, unit, row_shape});
 }
 
-void HdfSeriesFile::append(std::initializer_list<const double*> rows) {
+void HdfSeriesFile::append(const std::vector<const double*>& rows) {
   const auto fail = [&] { fail_to_write(rows_path(), errno); };
   if (!spool_ && !(spool_ = std::fopen(rows_path().c_str(), "wb"))) fail();
   auto row = rows.begin();
@@ -206,33 +203,22 @@ void HdfSeriesFile::resume(const State& then) {
 
 /// The rows of a file that was completed.
 void HdfSeriesFile::read_back(std::uint64_t rows) const {
-  const auto missing = [&](const std::string& what) {
+  try {
+    HdfReader file(path_);
+    std::ofstream spool(rows_path(), std::ios::binary | std::ios::trunc);
+    for (std::size_t n = 0; n < rows; ++n)
+      for (const auto& series : series_) {
+        const auto row = file.row(series.name, n);
+        spool.write(reinterpret_cast<const char*>(row.data()),
+                    static_cast<std::streamsize>(row.size() * sizeof(double)));
+      }
+    spool.close();
+    if (!spool) fail_to_write(rows_path(), errno);
+  } catch (const BadInput& fault) {
     std::error_code ignored;
     std::filesystem::remove(rows_path(), ignored);
-    throw BadInput({{.place = path_.string(), .message = "cannot go on: " + what}});
-  };
-  if (!std::filesystem::exists(path_)) missing("there is no such file");
-  const hid_t opened = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (opened < 0) missing("it is no HDF5 file, or not whole");
-  const HdfHandle file(opened, H5Fclose, "read it");
-  std::vector<HdfHandle> datasets;
-  for (const auto& series : series_) {
-    if (H5Lexists(file, series.name.c_str(), H5P_DEFAULT) <= 0) missing("it has no " + series.name);
-    datasets.emplace_back(H5Dopen2(file, series.name.c_str(), H5P_DEFAULT), H5Dclose, series.name);
+    throw BadInput({{.place = path_.string(), .message = "cannot go on: " + fault.errors().front().message}});
   }
-  std::ofstream spool(rows_path(), std::ios::binary | std::ios::trunc);
-  std::vector<double> row(row_size() / sizeof(double));
-  for (hsize_t n = 0; n < rows; ++n) {
-    double* values = row.data();
-    for (std::size_t k = 0; k < series_.size(); values += series_[k++].size())
-      if (!transfer(datasets[k], series_[k].shape, n, [&](hid_t memory, hid_t space) {
-            return H5Dread(datasets[k], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values);
-          }))
-        missing(fmt::format("it has less than {} rows", rows));
-    spool.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(row_size()));
-  }
-  spool.close();
-  if (!spool) missing(fmt::format("'{}' cannot be written", rows_path().string()));
 }
 
 }  // namespace toryu

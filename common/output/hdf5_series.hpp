@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdio>
-#include <initializer_list>
 #include <vector>
 
 #include "common/output/hdf5_file.hpp"
@@ -36,7 +35,7 @@ class HdfSeriesFile {
   void series(const std::string& name, const std::string& unit, const Shape& row_shape);
   /// Adds a row to each series, in the order in which they were made. Throws MachineFailure, naming the
   /// file, if it cannot be written.
-  void append(std::initializer_list<const double*> rows);
+  void append(const std::vector<const double*>& rows);
   /// Makes the file of its rows: none follows. Throws MachineFailure if that fails; the rows stay then.
   void complete();
 

@@ -16,14 +16,19 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 
 /// Values as typed. They are checked here and not by CLI11, which stops at the first fault.
 struct Typed {
-  std::string case_path, out, end_time, threads = "0", log_level = "info";
+  std::string case_path, out, record, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
   bool check = false, outlook = false, describe = false, print_case = false, resolved = false,
        restart = false, overwrite = false;
   bool can_checkpoint = false, version = false, help = false;
 };
 
-void declare(CLI::App& app, Typed& typed) {
+/// Whether a program answers with what another run recorded.
+bool replays(const std::string& role) {
+  return role.starts_with("replayed_");
+}
+
+void declare(CLI::App& app, const std::string& role, Typed& typed) {
   app.set_help_flag("");
   app.allow_extras();
   app.add_option("CASE", typed.case_path, "A case.toml, or a folder that holds one");
@@ -39,6 +44,8 @@ void declare(CLI::App& app, Typed& typed) {
       ->type_name("N");
   app.add_option("--log-level", typed.log_level, "trace, debug, info (default), warn, error or off")
       ->type_name("LEVEL");
+  if (replays(role))
+    app.add_option("--record", typed.record, "Results of the run that is replayed")->type_name("DIR");
   app.add_flag("--check", typed.check, "Check the case, compute nothing");
   app.add_flag("--outlook", typed.outlook, "With --check: make some steps, and tell what a run would take");
   app.add_flag("--describe", typed.describe,
@@ -94,7 +101,7 @@ std::optional<int> thread_count(const std::string& text) {
 Options parse_options(const std::string& role, const std::vector<std::string>& arguments) {
   CLI::App app("", role);
   Typed typed;
-  declare(app, typed);
+  declare(app, role, typed);
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
@@ -116,6 +123,9 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
     options.threads = *threads;
   else
     faults.push_back({.place = "--threads " + typed.threads, .message = "must be an integer of at least 0"});
+  if (replays(role) && typed.record.empty() && !typed.describe)
+    faults.push_back({.place = role, .message = "no --record given; see --help"});
+  options.record = typed.record;
   if (options.restart && options.overwrite)
     faults.push_back(
         {.place = "--restart", .message = "goes on with results that --overwrite would replace"});
@@ -141,7 +151,7 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
 std::string help_text(const std::string& role) {
   CLI::App app("", role);
   Typed typed;
-  declare(app, typed);
+  declare(app, role, typed);
   return app.help();
 }
 

@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-from toryu import PROGRAMS, program, summary_text
+from toryu import PROGRAMS, program, replay, summary_text
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED, Run, says_yes
@@ -55,6 +55,9 @@ def parse(arguments):
                                                                 "defaults and ranges")
     parser.add_argument("--print-case", action="store_true", help="print the case as it is read, with its base and the "
                                                                   "values of --set")
+    parser.add_argument("--replay", metavar="RESULTS", help="run one side alone, against what the other one answered in "
+                        "the run that left RESULTS with [coupling] record = 'every_window'; what it answers is compared")
+    parser.add_argument("--only", choices=["fluid", "solid"], help="the side of a replay that runs")
     parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
     parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
     parser.add_argument("--no-report", action="store_true", help="leave report.html out")
@@ -71,6 +74,18 @@ def parse(arguments):
         if (value := getattr(options, name)) is not None:
             options.passed_on.append(f"--{name.replace('_', '-')}={value}")
     return options
+
+
+def settle_replay(options, case):
+    """The recorded side of a replay takes its program's place."""
+    if fault := replay.fault_of(options, case):
+        raise SystemExit(complain(fault))
+    if options.replay is None:
+        return
+    setattr(options, replay.OTHER[options.only], options.bin / f"replayed_{replay.OTHER[options.only]}")
+    options.passed_on += [f"--set={pair}" for pair in replay.settings(options, case)]
+    if options.restart is None and options.out is None:
+        options.out = pathlib.Path("out") / f"{case.name}_replay_{options.only}"
 
 
 def settle_folder(options, case):
@@ -261,6 +276,13 @@ def report(options, case, code, words):
     return failed
 
 
+def compared_with_record(options):
+    try:
+        return replay.sum_up(options)
+    except replay.BadRecord as error:
+        raise SystemExit(complain(str(error)))
+
+
 def main(arguments):
     if "--compare" in arguments:
         go_on_as("compare", [argument for argument in arguments if argument != "--compare"])
@@ -270,9 +292,12 @@ def main(arguments):
     options = parse(arguments)
     case = case_of(options)
     install_for_drawings(case)
+    settle_replay(options, case)
     settle_folder(options, case)
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
                 for name, executable in programs(options, case).items()}
+    if options.replay is not None:
+        commands[f"{replay.OTHER[options.only]}_solver"].append(f"--record={options.replay}")
     if options.print_case:
         return subprocess.run([options.bin / "coupler", options.case, "--print-case", *options.passed_on]).returncode
     if options.describe:
@@ -295,6 +320,8 @@ def main(arguments):
         code, words = Run(commands, lead=next(iter(commands)), environment=environment)()
         if words:
             print(words, file=sys.stderr)
+        if options.replay is not None and code == DONE:
+            print(compared_with_record(options))
         # A restart that is refused leaves the report of the run before.
         refused = code == BAD_INPUT and options.restart is not None
         unreported = DONE if refused else report(options, case, code, words)

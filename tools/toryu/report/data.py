@@ -156,7 +156,7 @@ def group_of(column):
 
 def charts(out, comparisons, faults=None):
     """Charts of the comparisons with references, and of all other columns by participant."""
-    series = {name: results.read_series(out, name, faults) for name in results.PARTICIPANTS}
+    series = {name: results.read_series(out, name, faults) for name in (*results.PARTICIPANTS, "replay")}
     compared, shown = [], set()
     for comparison in comparisons:
         key = (comparison.series, comparison.column)

@@ -192,7 +192,7 @@ TEST_F(Output, AnHdfSeriesGoesOnWhereReadingItBackWasCutShort) {
   EXPECT_THAT(numbers_in(path), ElementsAre(0, 1, 7));
   Numbers more(path);
   EXPECT_THAT([&] { more.file.resume({4}); },
-              testing::ThrowsMessage<BadInput>(HasSubstr("it has less than 4 rows")));
+              testing::ThrowsMessage<BadInput>(HasSubstr("'x' in it has no more than 3 rows")));
   EXPECT_THAT(files(), ElementsAre("a.h5"));
 }
 

@@ -1,0 +1,152 @@
+"""A replay: one side of a case runs against what the other one answered in a run that was recorded, and what it answers
+is held against the record, window by window."""
+
+import csv
+import math
+import pathlib
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+
+from toryu import program
+
+FILE = "exchange.h5"
+ANSWERS = {"solid": {"position": "m", "velocity": "m/s"},
+           "fluid": {"pressure": "Pa", "force": "N/m", "friction_force": "N/m"}}  # of each side, with their units
+OTHER = {"solid": "fluid", "fluid": "solid"}
+CHUNK = 256  # windows that are held at once
+HINT = "a run leaves it with [coupling] record = 'every_window'"
+
+
+class BadRecord(Exception):
+    """Why a record is of no use."""
+
+
+@dataclass
+class Difference:
+    """How far one answer lies from the record."""
+
+    name: str
+    unit: str
+    distance: np.ndarray  # window: root mean square over the interface
+    largest: np.ndarray  # window: of all components
+    scale: float  # largest root mean square of the record, of a position that of its displacement
+    same: np.ndarray  # window: whether every bit is that of the record
+
+
+def fault_of(options, case):
+    """What is wrong with the options of a replay; "" if nothing."""
+    if options.replay is None:
+        return "--only: error: is the side of a --replay RESULTS that runs" if options.only else ""
+    if options.only is None:
+        return f"--replay {options.replay}: error: say which side runs: --only solid or --only fluid"
+    if case.kind != "coupled":
+        return f"{case.file}: error: is not of a fluid with a solid: there is no other side to replay"
+    if getattr(options, OTHER[options.only]) is not None:
+        return f"--{OTHER[options.only]}: error: with --only {options.only} the {OTHER[options.only]} is the record's"
+    record = pathlib.Path(options.replay)
+    if not (record / FILE).is_file():
+        return f"--replay {record}: error: holds no {FILE}; {HINT}"
+    if options.out is not None and pathlib.Path(options.out).resolve() == record.resolve():
+        return f"--out {options.out}: error: is the record itself"
+    return ""
+
+
+def settings(options, case):
+    """What the replay sets otherwise than the case: key=value."""
+    changed = ["coupling.record='every_window'"]
+    coupling = case.content.get("coupling", {})
+    # Iterations would answer a load that does not answer them. The solid takes the load of the last one.
+    if options.only == "solid" and coupling.get("scheme") == "serial_implicit":
+        changed.append("coupling.scheme='serial_explicit'")
+        if "implicit" in coupling:
+            changed.append("coupling.implicit=false")
+    return changed
+
+
+def at(file, name, times, kind):
+    """The record's `name` at `times` [s], of a motion at the ends of windows and of a load in their middle."""
+    ends = file["window_start"][:] + (1.0 if kind == "motion" else 0.5) * file["window_length"][:]
+    upper = np.clip(np.searchsorted(ends, times), 1, len(ends) - 1) if len(ends) > 1 else np.zeros(len(times), int)
+    lower = np.maximum(upper - 1, 0)
+    first, last = lower.min(), upper.max() + 1
+    values = file[name][first:last]
+    width = np.where(upper > lower, ends[upper] - ends[lower], 1.0)
+    share = np.clip((times - ends[lower]) / width, 0, 1).reshape(-1, *[1] * (values.ndim - 1))
+    return (1 - share) * values[lower - first] + share * values[upper - first]
+
+
+def difference(record, run, name, unit, aligned):
+    """Compares one answer of all windows."""
+    kind = "motion" if name in ANSWERS["solid"] else "load"
+    starts, lengths = run["window_start"][:], run["window_length"][:]
+    times = starts + (1.0 if kind == "motion" else 0.5) * lengths
+    distance, largest, same, scale = [], [], [], 0.0
+    origin = record["start_position"][:] if name == "position" else 0.0
+    for first in range(0, len(times), CHUNK):
+        part = slice(first, first + CHUNK)
+        found = run[name][part]
+        expected = record[name][part] if aligned else at(record, name, times[part], kind)
+        apart = (found - expected).reshape(len(found), -1)
+        same.append(aligned & (found == expected).reshape(len(found), -1).all(axis=1))
+        distance.append(np.sqrt((apart**2).sum(axis=1) / max(found.shape[1], 1)))
+        largest.append(np.abs(apart).max(axis=1, initial=0.0))
+        size = (expected - origin).reshape(len(found), -1)
+        scale = max(scale, float(np.sqrt((size**2).sum(axis=1) / max(found.shape[1], 1)).max(initial=0.0)))
+    return Difference(name, unit, np.concatenate(distance), np.concatenate(largest), scale, np.concatenate(same))
+
+
+def compare(record, out, side):
+    """Times [s] and the differences of all that the side `side` answers. Raises BadRecord if a file is of no use."""
+    with open_record(record) as before, open_record(out) as now:
+        try:
+            windows = [(file["window_start"][:], file["window_length"][:]) for file in (before, now)]
+            count = len(windows[1][0])
+            if count == 0:
+                raise BadRecord(f"{out / FILE}: error: holds no window")
+            aligned = all(np.array_equal(a[:count], b) for a, b in zip(*windows))
+            return windows[1][0] + windows[1][1], [difference(before, now, name, unit, aligned)
+                                                   for name, unit in ANSWERS[side].items()]
+        except (OSError, KeyError, ValueError, TypeError, RuntimeError) as error:
+            raise BadRecord(f"{out / FILE}, {record / FILE}: error: cannot be compared: {error}") from None
+
+
+def open_record(folder):
+    try:
+        return h5py.File(folder / FILE)
+    except OSError as error:
+        raise BadRecord(f"{folder / FILE}: error: cannot be read: {error}") from None
+
+
+def tell(side, times, differences):
+    """The differences as lines of text."""
+    count = len(times)
+    if all(d.same.all() for d in differences):
+        return f"replay, the {side} alone: in {count} windows every answer is that of the record, bit for bit"
+    lines = [f"replay, the {side} alone, {count} windows; root mean square distance from the record over the interface:"]
+    for d in differences:
+        worst = int(np.argmax(d.distance))
+        share = f", {100 * d.distance[worst] / d.scale:.2g} % of the record's largest" if d.scale > 0 else ""
+        since = "the same in all" if not d.largest.any() else f"from window {int(np.argmax(d.largest > 0)) + 1} on"
+        lines.append(f"  {d.name.replace('_', ' ')}: at most {d.distance[worst]:.3g} {d.unit} at t = {times[worst]:.4g} s"
+                     f"{share}; {since}")
+    return "\n".join(lines)
+
+
+def write(path, times, differences):
+    """`replay.csv`: a row a window."""
+    with program.whole_file(path) as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["time[s]", *(f"{d.name}_{what}[{d.unit}]" for d in differences
+                                      for what in ("distance", "largest_difference"))])
+        for k, time in enumerate(times):
+            writer.writerow(map(repr, [float(time), *(float(v[k]) for d in differences for v in (d.distance, d.largest))]))
+
+
+def sum_up(options):
+    """Compares the run in options.out with the record: writes replay.csv, returns what to say."""
+    record, out = pathlib.Path(options.replay), pathlib.Path(options.out)
+    times, differences = compare(record, out, options.only)
+    write(out / "replay.csv", times, differences)
+    return tell(options.only, times, differences)
