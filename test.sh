@@ -14,7 +14,7 @@ groups=(run study import test)
 case ${1-} in
   "") ;;
   --browser) without=(long benchmark) groups+=(browser) ;;
-  --all) without=(none) groups+=(browser) all=1 ;;
+  --all) without=(none) groups+=(browser cluster) all=1 ;;
   *)
     echo "test.sh: unknown option '$1'; --browser, --all or none" >&2
     exit 2

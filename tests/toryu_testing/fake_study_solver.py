@@ -71,7 +71,9 @@ elif values["fluid.checkpoints"]:
         (out / "checkpoint/000001/manifest.toml").touch()
 time.sleep(0 if restart else values["fluid.seconds"])
 while values["fluid.hangs"]:
-    time.sleep(1)
+    if (out / "stop").exists():
+        sys.exit(130)
+    time.sleep(0.1)
 code = int(values["fluid.fails"])
 speed = values["fluid.step"] * math.sqrt(values["fluid.k"]) if values["fluid.step"] < values["fluid.islands"] else 0
 code = 3 if speed > 2 else code

@@ -7,13 +7,14 @@ import argparse
 import math
 import os
 import pathlib
+import shutil
 import sys
 import time
 
 from toryu import PROGRAMS, counted, program
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
-from toryu.study import (bisection, calibration, calibration_search, charts, checks, map_file, metrics, page, recession,
-                         recession_search, removal, runner, study_file, table, terms, timing, verdicts)
+from toryu.study import (bisection, calibration, calibration_search, charts, checks, elsewhere, hosts, map_file, metrics, page,
+                         recession, recession_search, removal, runner, slurm, study_file, table, terms, timing, verdicts)
 from toryu.study.document import BadStudy
 from toryu.study.progress import Progress, duration
 from toryu.study.settings import Maker, settings
@@ -22,6 +23,8 @@ VIEWS = [study_file.View("removal", removal.read, removal.add_axes),
          study_file.View("map", map_file.read, map_file.add_axes), study_file.View("terms", terms.read, terms.add_axes),
          study_file.View("recession", recession.read, recession.add_axes),
          study_file.View("calibration", calibration.read, calibration.add_axes)]
+SBATCH = {"partition": "where the jobs go", "account": "who pays for them", "time": "longest time of a run, as sbatch takes it; "
+          "one that takes longer goes on from its checkpoint in a new job"}
 
 
 def parse(arguments):
@@ -37,6 +40,13 @@ def parse(arguments):
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time; default: as many as fit the cores, one if "
                         "the study has [timing]")
     parser.add_argument("--threads", metavar="N", type=int, default=1, help="threads of each run; default 1")
+    parser.add_argument("--on", metavar="WHERE", help="run elsewhere, where this folder is too: 'slurm', or hosts that ssh "
+                        "reaches, with commas between or one a line in a file, for GNU parallel; --jobs is then the most at "
+                        "a time, on each host")
+    for name, meaning in SBATCH.items():
+        parser.add_argument(f"--{name}", metavar=name.upper(), help=f"{meaning}, for Slurm")
+    parser.add_argument("--sbatch", metavar="OPTION", action="append", default=[],
+                        help="any other option of sbatch, as --sbatch=--mem=2G; repeatable")
     parser.add_argument("--small", action="store_true", help="the small version that the study's table [small] describes")
     parser.add_argument("--check", action="store_true", help="only check the study and what it sets in the case")
     parser.add_argument("--list", action="store_true", help="list the runs, and which are done")
@@ -51,6 +61,29 @@ def parse(arguments):
             raise BadStudy(f"--set {pair}: error: expected section.key=value")
     options.cores = cores
     return options
+
+
+def queue_of(study, options):
+    """Where else the runs are made; None if here."""
+    given = [f"--{name}={value}" for name in SBATCH if (value := getattr(options, name)) is not None] + options.sbatch
+    if given and options.on != "slurm":
+        raise BadStudy(f"{given[0]}: error: is an option of --on slurm")
+    if options.on is None:
+        return None
+    if study.timing:
+        raise BadStudy(f"--on {options.on}: error: a study with [timing] compares times of one machine")
+    kind = slurm if options.on == "slurm" else hosts
+    if missing := [name for name in kind.PROGRAMS if not shutil.which(name)]:
+        raise BadStudy(f"--on {options.on}: error: needs the program '{missing[0]}', which is not here")
+    if kind is slurm:
+        return slurm.Slurm(study.name, options.jobs, options.threads, given)
+    return hosts.Hosts(options.on, options.jobs, options.threads)
+
+
+def runner_of(study, out, options):
+    if queue := queue_of(study, options):
+        return elsewhere.Elsewhere(study, out, options.bin, options.threads, Progress(), queue)
+    return runner.Runner(study, out, options.bin, jobs_at_a_time(study, options), options.threads, Progress())
 
 
 def jobs_at_a_time(study, options):
@@ -73,7 +106,7 @@ def run(options):
     out = options.out or pathlib.Path("out") / study.name
     programs = checks.programs(study, options.bin)
     make = Maker(study, options.set, checks.identity(programs), f"{options.threads} threads" if study.timing else None)
-    runs = runner.Runner(study, out, options.bin, jobs_at_a_time(study, options), options.threads, Progress())
+    runs = runner_of(study, out, options)
     known, done = known_runs(study, make, runs)
     if options.list:
         list_runs(known, done)

@@ -22,7 +22,7 @@ RECORD = "run.json"  # in the folder of a run that is done: without it the run g
 KEPT = {"exit_code": int, "cause": str, "elapsed": (int, float), "threads": int, "jobs": int, "loops": list, "files": dict}
 LOCK = "study.lock"
 WRITTEN = ("table.csv", "study.html", "edges.csv", "terms.csv", "recession.csv", "goals.csv", "table.md", "calibration.toml",
-           "calibration.csv", "charts", "runs")  # by studies
+           "calibration.csv", "charts", "runs", "queue")  # by studies
 OUTPUT = "output.txt"  # what the run printed
 POLL = 0.05  # [s]
 HUNG = 124  # in the place of an exit code: the run was ended because it took longer than it may
@@ -207,16 +207,18 @@ class Runner:
     def command(self, setting, *options):
         return program.python("launch", self.study.case, f"--bin={self.bin}", *setting.options(), *options)
 
+    def _whole_command(self, setting, goes_on):
+        extra = ["--restart"] * goes_on + ["--no-report"] * (not self.study.keep_frames)
+        return self.command(setting, f"--out={self.folder(setting)}", f"--threads={self.threads}", *extra)
+
     def _start(self, setting, may_go_on=True):
         """A run that was left half done goes on from its newest checkpoint; one whose time counts is run whole."""
         folder = self.folder(setting)
         goes_on = prepare(folder, may_go_on and not self.study.timing)
-        extra = ["--restart"] * goes_on + ["--no-report"] * (not self.study.keep_frames)
-        command = self.command(setting, f"--out={folder}", f"--threads={self.threads}", *extra)
         if self.study.timing:
             self.loops[setting.key] = timing.run_loop(self.bin)
         with open(folder / OUTPUT, "wb") as output:
-            self.running[start(command, output)] = Running(setting, folder, time.monotonic(), goes_on)
+            self.running[start(self._whole_command(setting, goes_on), output)] = Running(setting, folder, time.monotonic(), goes_on)
 
     def _ended(self):
         """Records of the runs that ended since; a failure of physics is a result, any other ends the study."""
@@ -225,23 +227,26 @@ class Runner:
             setting, folder = run.setting, run.folder
             if self.interruptions:
                 continue  # how it ended says nothing
-            age = time.monotonic() - run.began
             code = HUNG if process in self.overdue else process.returncode
             if code == BAD_INPUT and run.goes_on:  # its checkpoint is of no use
                 self._start(setting, may_go_on=False)
                 continue
-            cause = cause_of(folder, code) if code != DONE else ""
-            if code == HUNG:
-                cause = f"still running after {self.time_limit:g} s, at the time {reached(folder):.4g} s; ended"
-            elif code not in self.verdicts:
-                words = (folder / OUTPUT).read_text(encoding="utf-8", errors="replace").strip()
-                raise Ended(code if code > 0 else 1, f"{words}\nthe run with {setting} ended with exit code {code}: the "
-                                                     f"study stops; see {folder}")
-            record = Record(setting, folder, code, cause, age, self.threads, self.jobs)
+            record = self._judged(setting, folder, code, time.monotonic() - run.began)
             if self.study.timing:
                 record.loops = [asdict(loop) for loop in (self.loops.pop(setting.key), timing.run_loop(self.bin))]
             write_record(record)
             yield record
+
+    def _judged(self, setting, folder, code, age):
+        """The record of a run that ended so after `age` [s]; raises Ended if that is no result."""
+        cause = cause_of(folder, code) if code != DONE else ""
+        if code == HUNG:
+            cause = f"still running after {self.time_limit:g} s, at the time {reached(folder):.4g} s; ended"
+        elif code not in self.verdicts:
+            words = (folder / OUTPUT).read_text(encoding="utf-8", errors="replace").strip()
+            raise Ended(code if code > 0 else 1, f"{words}\nthe run with {setting} ended with exit code {code}: the study "
+                                                 f"stops; see {folder}")
+        return Record(setting, folder, code, cause, age, self.threads, self.jobs)
 
     def _tell_absent(self, record):
         """That a metric is not to be had, as soon as a run shows it, and once: other runs may have it."""

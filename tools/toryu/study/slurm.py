@@ -1,0 +1,58 @@
+"""Slurm as the queue of a study: an array of jobs a submission."""
+
+import shlex
+import subprocess
+
+from toryu import program
+from toryu.processes import MACHINE
+from toryu.study.runner import Ended
+
+PROGRAMS = ("sbatch", "squeue", "scancel")
+SIGNAL_BEFORE_LIMIT = 60  # [s] before the limit of time, in which a run writes its last checkpoint
+PATIENCE = 60  # [s] for an answer
+UNKNOWN = "Invalid job id"  # squeue says so once none of the jobs is known
+
+
+class Slurm:
+    largest = 1000  # jobs of an array: Slurm's own default (MaxArraySize)
+
+    def __init__(self, name, jobs, threads, options):
+        """At most `jobs` at a time, None: as many as there is room for; `options` of sbatch as the user gives them."""
+        self.name, self.jobs, self.threads, self.options = name, jobs, threads, options
+
+    def submit(self, table, count):
+        """The names of the jobs that run the lines of `table`."""
+        script = table.with_suffix(".sh")
+        words = shlex.join(program.python("study.one_run", table))
+        program.write_whole(script, f'#!/bin/sh\nexec {words} "$SLURM_ARRAY_TASK_ID"\n')
+        most = f"%{self.jobs}" if self.jobs else ""
+        done = ask(["sbatch", "--parsable", f"--job-name={self.name}", f"--array=0-{count - 1}{most}", "--ntasks=1",
+                    f"--cpus-per-task={self.threads}", f"--signal=B:TERM@{SIGNAL_BEFORE_LIMIT}",
+                    f"--output={table.with_suffix('')}_%a.txt", *self.options, str(script)])
+        if done.returncode != 0:
+            raise Ended(MACHINE, f"sbatch refused the runs: {done.stderr.strip()}")
+        array = done.stdout.strip().partition(";")[0]
+        return [f"{array}_{index}" for index in range(count)]
+
+    def alive(self, jobs):
+        """Those that wait or run; all of them while Slurm does not answer."""
+        arrays = sorted({job.partition("_")[0] for job in jobs})
+        done = ask(["squeue", "--noheader", "--array", "--format=%i", f"--jobs={','.join(arrays)}"])
+        if done.returncode != 0:
+            return set() if UNKNOWN in done.stderr else set(jobs)
+        return set(jobs) & set(done.stdout.split())
+
+    def drop(self, jobs):
+        """Takes back those that wait."""
+        ask(["scancel", "--state=PENDING", *jobs])
+
+    def kill(self, jobs):
+        ask(["scancel", *jobs])
+
+
+def ask(command):
+    try:
+        return subprocess.run(command, capture_output=True, encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL,
+                              timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        return subprocess.CompletedProcess(command, 1, "", f"{command[0]} has not answered for {PATIENCE} s")
