@@ -25,6 +25,13 @@ for (let i = 0; i < pixels.length; i += 4) {
 }
 return {opaque: opaque / (canvas.width * canvas.height), sum};
 """
+PEAK = 4  # the frame in which the made-up tip is farthest, of 11
+# Keeps what would be saved: the size and kind of each file, and its name.
+KEEP = """
+window.saved = [];
+URL.createObjectURL = (blob) => { window.saved.push({size: blob.size, type: blob.type}); return "data:,"; };
+HTMLAnchorElement.prototype.click = function () { window.saved.at(-1).name = this.download; };
+"""
 
 
 class ReportInBrowser(unittest.TestCase):
@@ -36,15 +43,17 @@ class ReportInBrowser(unittest.TestCase):
         cls.browser = start_browser(cls.folder)
         cls.addClassCleanup(cls.browser.quit)
 
-    def open(self, name, sides=("fluid", "solid"), exit_code=0, frame=0):
+    def open(self, name, sides=("fluid", "solid"), exit_code=0, frame=None, words=""):
+        """The page of a made-up run, once it shows the frame at which it opens: with a solid the 4th, where its tip is
+        farthest."""
         case, out = self.folder / name / "gate", self.folder / name / "out"
         if not out.exists():
             made_up_run.make_case(case, sides)
             made_up_run.make_results(out, sides, frames=11)
-            subprocess.run([sys.executable, "-m", "toryu.report", out, "--case", case, f"--exit-code={exit_code}"],
-                           check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([sys.executable, "-m", "toryu.report", out, "--case", case, f"--exit-code={exit_code}",
+                            f"--words={words}"], check=True, stdout=subprocess.DEVNULL)
         self.browser.get((out / "report.html").as_uri())
-        self.wait_for_frame(frame)
+        self.wait_for_frame(frame if frame is not None else PEAK if "solid" in sides else 0)
 
     def open_channel(self, elastic=False):
         name = "elastic" if elastic else "rigid"
@@ -86,8 +95,53 @@ class ReportInBrowser(unittest.TestCase):
         self.open("failed", exit_code=3, frame=10)
         self.assertEqual(self.browser.find_element(By.ID, "now").text, "0.4000 s")
 
+    def test_a_particle_that_failed_is_marked(self):
+        self.open("failed", exit_code=3, frame=10)
+        without = self.picture()
+        self.open("marked", exit_code=3, frame=10, words="error: physics failed: fluid particle 7 at t = 0.4 s: speed = 9, limit 8")
+        self.assertNotEqual(self.picture(), without)
+        self.go_to(9)
+        before = self.picture()
+        self.open("failed", exit_code=3, frame=10)
+        self.go_to(9)
+        self.assertEqual(self.picture(), before, "the mark is in the last frame alone")
+
+    def saved(self, count):
+        WebDriverWait(self.browser, 60).until(
+            lambda _: len(self.browser.execute_script("return window.saved.filter(({name}) => name)")) == count)
+        return self.browser.execute_script("return window.saved")
+
+    def test_a_picture_is_saved(self):
+        self.open("coupled")
+        self.browser.execute_script(KEEP)
+        self.browser.find_element(By.ID, "picture").click()
+        (file,) = self.saved(1)
+        self.assertEqual((file["type"], file["name"]), ("image/png", "A made-up gate _ its water 0.1600 s.png"))
+        self.assertGreater(file["size"], 5000)
+
+    def test_a_video_is_saved(self):
+        self.open("coupled")
+        self.browser.execute_script(KEEP)
+        Select(self.browser.find_element(By.ID, "speed")).select_by_value("2")
+        button = self.browser.find_element(By.ID, "video")
+        button.click()
+        self.assertEqual(button.text, "Stop")
+        (file,) = self.saved(1)
+        self.assertEqual((file["type"], file["name"]), ("video/webm", "A made-up gate _ its water.webm"))
+        self.assertGreater(file["size"], 5000)
+        self.assertEqual(button.text, "Save video")
+        self.wait_for_frame(10)
+
+    def test_audits_are_folded(self):
+        self.open("coupled")
+        audits = self.browser.find_element(By.CSS_SELECTOR, "#audits h3")
+        self.assertFalse(audits.is_displayed())
+        self.browser.find_element(By.CSS_SELECTOR, "#audits summary").click()
+        self.assertTrue(audits.is_displayed())
+
     def test_the_slider_moves_the_picture(self):
         self.open("coupled")
+        self.go_to(0)
         before = self.picture()
         slider = self.browser.find_element(By.ID, "time")
         for _ in range(5):
@@ -100,9 +154,7 @@ class ReportInBrowser(unittest.TestCase):
         self.assertEqual(self.picture(), before)
 
     def test_the_choice_of_colour_changes_the_picture(self):
-        self.open("coupled")
-        self.browser.find_element(By.ID, "time").send_keys(*[Keys.ARROW_RIGHT] * 4)  # the plate is bent
-        self.wait_for_frame(4)
+        self.open("coupled")  # where the plate is bent
         for body in ("fluid", "solid"):
             before = self.picture()
             select = Select(self.browser.find_element(By.CSS_SELECTOR, f"select[data-body={body}]"))

@@ -55,9 +55,38 @@ class Page(unittest.TestCase):
                       "2026-01-01 10:00:02.000 fluid_solver error: physics failed: density\n")
         for code, failed in ((0, False), (3, True), (4, True), (130, False)):
             page = self.page(f"--exit-code={code}", "--words=density -1")
-            self.assertEqual(self.content(page)["failed"], failed)
+            self.assertEqual(self.content(page)["telling"]["time"] is None, failed)
             shown = re.search('<div class="words stopped" id="warnings">(.*?)</div>', page)[1]
             self.assertEqual(shown, "<p>fluid_solver warning: &lt;fast&gt; water</p>")
+
+    def telling(self, *options):
+        return self.content(self.page(*options))["telling"]
+
+    def test_it_opens_where_what_has_a_reference_is_largest(self):
+        self.make(frames=11)
+        told = self.telling()
+        self.assertAlmostEqual(told["time"], 0.15, delta=0.01)  # tip: sin^2(pi t / 0.3)
+        self.assertIsNone(told["mark"])
+        case = self.out / "used_case.toml"
+        text = case.read_text()
+        case.write_text(text[:text.index("[[reference]]")])
+        self.assertEqual(self.telling()["time"], 0, "nothing is observed")
+        case.write_text(case.read_text().replace("[solid]\n", "[solid]\n[[solid.observer]]\nname = 'tip'\nquantity = 'displacement'\n"
+                                                 "at = [0.1, 0.0]\n"))
+        self.assertAlmostEqual(self.telling()["time"], 0.15, delta=0.01)
+
+    def test_it_marks_the_particle_that_failed(self):
+        self.make(frames=3)
+        with h5py.File(self.out / "frames/fluid_000002.hdf") as frame:
+            place = frame["VTKHDF/Points"][5]
+        told = self.telling("--exit-code=3", "--words=x: fluid particle 5 at t = 0.4 s: speed = 9, limit 8")
+        self.assertEqual(told["mark"], {"body": "fluid", "particle": 5, "time": 0.4, "x": place[0], "y": place[1]})
+        for words in ("fluid particle 1000000 at t = 0.4 s", "ghost particle 5 at t = 0.4 s", "fluid body at t = 0.4 s"):
+            self.assertIsNone(self.telling("--exit-code=3", f"--words={words}")["mark"], words)
+
+    def test_it_tells_what_was_found_and_expected(self):
+        self.make(frames=3)
+        self.assertEqual(re.findall(r"; (largest [^<]*)<", self.page()), ["largest 39.56 mm, expected 43.52"])
 
     def test_frames_decode_to_the_particles(self):
         self.make(frames=3)

@@ -13,11 +13,10 @@ import sys
 
 from toryu import PROGRAMS, program, results, surface
 from toryu.case import BadCase, resolve
-from toryu.processes import DONE, INTERRUPTED
-from toryu.report import along, data, frames, scene, tables
+from toryu.report import along, data, frames, scene, tables, telling
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCRIPTS = ("chart.js", "particles.js", "stage.js", "along.js", "page.js")  # in this order
+SCRIPTS = ("chart.js", "particles.js", "stage.js", "along.js", "save.js", "page.js")  # in this order
 
 
 def name_of(path, out, coupler):
@@ -51,7 +50,7 @@ def page(case_path, out, coupler, exit_code, words):
         "view": view, "near": scene.near_view(view, walls, bodies, contours), "walls": walls, "bodies": bodies,
         "motions": scene.motion_charts(walls, end), "end": end,
         "along": along.collect(file, contours, times, frames.start_of(found, "solid")) if file else {},
-        "compared": compared, "others": others, "failed": state["code"] not in (DONE, INTERRUPTED, None),
+        "compared": compared, "others": others, "telling": telling.moment(out, case, comparisons, found, state),
     }
     title = data.table(case, "case").get("title") or name
     return string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(

@@ -5,7 +5,7 @@ const byId = (id) => document.getElementById(id);
 class Player {
   // `followers`: what else follows the time by moveTo.
   constructor(stages, times, followers) {
-    Object.assign(this, {stages, times, followers, bars: [], playing: false, drawing: false, wanted: 0});
+    Object.assign(this, {stages, times, followers, bars: [], drawn: [], playing: false, drawing: false, wanted: 0});
     byId("time").max = times.length - 1;
     byId("time").addEventListener("input", () => this.show(+byId("time").value));
     byId("play").addEventListener("click", () => this.toggle());
@@ -19,7 +19,7 @@ class Player {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
     for (const stage of stages) this.listenTo(stage);
     this.listenToKeys();
-    this.show(content.failed ? times.length - 1 : 0);  // a failure is seen at its end
+    this.show(this.nearest(content.telling.time));
   }
 
   fit() {
@@ -28,6 +28,12 @@ class Player {
   }
 
   get time() { return this.times[this.wanted]; }
+
+  // The index of the frame nearest to a time; null, which stands for no end, is the last.
+  nearest(time) {
+    if (time === null) return this.times.length - 1;
+    return this.times.reduce((best, t, k) => Math.abs(t - time) < Math.abs(this.times[best] - time) ? k : best, 0);
+  }
 
   show(index) {
     this.wanted = Math.max(0, Math.min(this.times.length - 1, index));
@@ -45,7 +51,7 @@ class Player {
     while (this.stale) {
       this.stale = false;
       for (const stage of this.stages) await stage.draw(this.time);
-      for (const update of this.bars) update();
+      for (const update of [...this.bars, ...this.drawn]) update();
     }
     this.drawing = false;
     for (const {canvas} of this.stages) canvas.dataset.frame = this.wanted;
@@ -54,7 +60,7 @@ class Player {
   toggle() {
     this.playing = !this.playing;
     byId("play").textContent = this.playing ? "Pause" : "Play";
-    if (!this.playing) return;
+    if (!this.playing) return this.paused?.();
     if (this.wanted === this.times.length - 1) this.show(0);
     const from = this.wanted, start = performance.now();
     // The whole run takes 8 s at speed 1.
@@ -150,11 +156,14 @@ function makeCharts(times) {
   const add = (parent, list) => { for (const one of list) charts.push(new Chart(parent, one, times)); };
   byId("compared").hidden = !content.compared.length;
   add(byId("compared").querySelector(".charts"), content.compared);
-  byId("others").hidden = !Object.keys(content.others).length;
   for (const [name, list] of Object.entries(content.others)) {
-    html("h3", {}, byId("others"), name);
-    add(html("div", {class: "charts"}, byId("others")), list);
+    // What the coupler tells is of the exchange and of the machine: for who looks for it.
+    const folded = name === "coupler" && html("details", {}, byId("audits").querySelector("details"));
+    if (folded) html("summary", {}, folded, "Series of the coupler");
+    else html("h3", {}, byId("others"), name);
+    add(html("div", {class: "charts"}, folded || byId("others")), list);
   }
+  byId("others").hidden = !Object.keys(content.others).some((name) => name !== "coupler");
   return charts;
 }
 
@@ -217,7 +226,9 @@ const times = [...new Set(bodies.flatMap((body) => body.times))].sort((a, b) => 
 byId("motion").hidden = !times.length;
 if (times.length) {
   const stages = makeStages(bodies), near = stages[1];
+  if (content.telling.mark) for (const stage of stages) stage.over.push((_, time) => stage.mark(content.telling.mark, time));
   const player = new Player(stages, times, [...followers, ...charts]);
+  new Saver(player);
   for (const body of bodies)
     if (body.quantities.length) player.bars.push(colourChoice(byId("colours"), body, () => player.redraw()));
   const redraw = () => {

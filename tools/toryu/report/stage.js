@@ -127,6 +127,22 @@ class Stage {
     context.fillText(label, x, y - 6 * ratio);
   }
 
+  // A ring around the particle that failed, in the last frame before.
+  mark({body, particle, time, x, y}, now) {
+    const of = this.bodies.find(({name}) => name === body), {context, ratio} = this;
+    if (!of || of.times[of.indexAt(now)] < time) return;
+    const [px, py] = this.toPixel(x, y), radius = Math.max(3 * of.spacing * this.scale, 9 * ratio);
+    context.strokeStyle = context.fillStyle = cssColour("--bad");
+    context.lineWidth = 2.5 * ratio;
+    context.beginPath();
+    context.arc(px, py, radius, 0, 2 * Math.PI);
+    context.stroke();
+    context.font = `600 ${13 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
+    const label = `particle ${particle}`, wide = context.measureText(label).width;
+    context.fillText(label, px + radius + wide + 8 * ratio < this.canvas.width ? px + radius + 5 * ratio : px - radius - wide - 5 * ratio,
+                     py - radius > 14 * ratio ? py - radius : py + radius + 12 * ratio);
+  }
+
   // The outline of what another stage shows.
   outline(other) {
     const [x0, y0] = this.toPixel(...other.toScene(0, 0)), [x1, y1] = this.toPixel(...other.toScene(other.canvas.width, other.canvas.height));

@@ -101,8 +101,19 @@ def figures(out, summaries, comparisons, run):
     for comparison in comparisons:
         if math.isfinite(comparison.distance):
             tiles.append(tile(f"distance in {comparison.quantity}", f"{100 * comparison.distance:.1f} %",
-                              f"root mean square, of the peak of '{comparison.label}'"))
+                              f"root mean square, of the peak of '{comparison.label}'; {found_and_expected(out, comparison)}"))
     return "".join(tiles)
+
+
+def found_and_expected(out, comparison):
+    """The largest value of the run and of its reference, at the reference's times."""
+    series = results.read_series(out, comparison.series)
+    times = series["time[s]"]
+    expected = [point for point in comparison.reference if point[0] <= times[-1]]
+    found = [(t, results.interpolate(t, times, series[comparison.column])) for t, _ in expected]
+    values = [results.peak(*zip(*points))[1] for points in (found, expected)]
+    factor, unit = data.scaled(comparison.unit, max(map(abs, values)))
+    return f"largest {number(values[0] * factor)} {unit}, expected {number(values[1] * factor)}"
 
 
 def removed(series):
