@@ -18,6 +18,7 @@
 #include "fluid_solver/suction_watch.hpp"
 #include "fluid_solver/surface_record.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
+#include "fluid_solver/wall_frame.hpp"
 
 namespace toryu::fluid {
 
@@ -72,6 +73,8 @@ class FluidModel : public Solver {
   InterfaceLoad take_load();
 
   double time() const { return state_.time; }
+  std::optional<Frame> walls() const override { return frame_of_walls(state_.boundaries); }
+  bool walls_move() const override { return any_wall_moves(state_.boundaries); }
   double kinetic_energy() const;
   /// Of gravity and of a central force; where space repeats itself, as if it went on [J per metre].
   double potential_energy() const;

@@ -235,6 +235,7 @@ ExitCode solve(const Options& options) {
   file.throw_if_faulty();
   warn_of_start(file, scene, parameters, model);
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
+    write_start(options.start_frames, "fluid", model);
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
     for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
     if (options.outlook) tell_outlook(model, scene.end_time, twin, real_scene);

@@ -141,6 +141,7 @@ ExitCode solve(const Options& options) {
   if (!file.has("fluid"))  // whose program tells of them
     for (const auto& unknown : unknown_meetings(file, scene)) log::warn("{}", unknown);
   if (options.check) {
+    write_start(options.start_frames, "solid", *model);
     if (!file.has("fluid"))  // whose program tells them
       for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
     if (options.outlook) print(outlook("[solid]", *model, scene.end_time).text);

@@ -34,6 +34,7 @@ RunRecord::RunRecord(const std::string& participant, const Options& options, con
       series_due_(scene.series_interval),
       every_step_(scene.series_interval == 0),
       to_be_resumed_(options.restart) {
+  if (solver.walls()) walls_.emplace(options.out, "walls", provenance(omp_get_max_threads()));
   summary_.participant = participant;
   summary_.provenance = provenance(omp_get_max_threads());
   summary_.time_step_rule = solver.time_step_rule();
@@ -82,6 +83,7 @@ void RunRecord::write_row(double time) {
 void RunRecord::write_frame(double time) {
   const auto scope = timers_.measure("frames");
   frames_.write(time, solver_.frame());
+  if (walls_ && (walls_->count() == 0 || solver_.walls_move())) walls_->write(time, *solver_.walls());
   frame_written_ = time;
 }
 
@@ -93,6 +95,7 @@ void RunRecord::count_steps(long steps, double dt) {
 
 void RunRecord::complete() {
   frames_.complete();
+  if (walls_) walls_->complete();
   series_.complete();
   solver_.complete_records();
 }
@@ -138,6 +141,7 @@ void RunRecord::write_checkpoint(const std::filesystem::path& folder) {
   now.series_due = series_due_.state();
   now.series = series_.state();
   now.frames = frames_.state();
+  if (walls_) now.walls = walls_->state();
   write_part(folder, participant_, role(), [&](std::ostream& stream) {
     write_states(stream, now);
     solver_.write_state(stream);
@@ -153,8 +157,21 @@ void RunRecord::read_checkpoint(const std::filesystem::path& folder) {
   frames_due_.resume(state_.frames_due, state_.time);
   series_due_.resume(state_.series_due, state_.time);
   frames_.resume(state_.frames);
+  if (walls_) walls_->resume(state_.walls);
   series_.resume(state_.series);
   log::info("goes on at t = {:g} s from {}", state_.time, folder.string());
+}
+
+void write_start(const std::filesystem::path& folder, const std::string& participant, const Solver& solver) {
+  if (folder.empty()) return;
+  FrameWriter frames(folder, participant, provenance(1));
+  frames.write(0, solver.frame());
+  frames.complete();
+  const auto walls = solver.walls();
+  if (!walls) return;
+  FrameWriter beside(folder, "walls", provenance(1));
+  beside.write(0, *walls);
+  beside.complete();
 }
 
 }  // namespace toryu

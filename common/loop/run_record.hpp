@@ -75,14 +75,14 @@ class RunRecord {
     std::vector<Timers::Part> parts;                             ///< of that time
     Schedule::State frames_due, series_due;
     SeriesWriter::State series;
-    FrameWriter::State frames;
+    FrameWriter::State frames, walls;
   };
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
     auto& [time, steps, smallest, largest, wall, processor, waiting, parts, frames_due, series_due, series,
-           frames] = state;
+           frames, walls] = state;
     archive(time, steps, smallest, largest, wall, processor, waiting, parts, frames_due, series_due, series,
-            frames);
+            frames, walls);
   }
   double waiting_time() const { return state_.waiting_time + (waited_ ? waited_() : 0); }
   std::vector<Timers::Part> parts() const;
@@ -95,6 +95,7 @@ class RunRecord {
   const Timers& solver_timers_;
   std::filesystem::path out_;
   FrameWriter frames_;
+  std::optional<FrameWriter> walls_;  ///< of a solver that has some
   SeriesWriter series_;
   Schedule frames_due_, series_due_;
   bool every_step_;
@@ -107,5 +108,9 @@ class RunRecord {
   Timers timers_;
   Clock::time_point start_ = Clock::now();
 };
+
+/// Writes the particles of a solver at the start, and its walls, as frames into `folder`; nothing if that is
+/// empty. Throws MachineFailure if they cannot be written.
+void write_start(const std::filesystem::path& folder, const std::string& participant, const Solver& solver);
 
 }  // namespace toryu

@@ -31,6 +31,7 @@ class FrameWriter {
   /// Waits until all frames have their names. Throws MachineFailure if one could not be completed.
   void complete();
 
+  std::size_t count() const { return state_.written.size(); }
   /// All of its frames are on the disk. Throws as `complete` does.
   const State& state() {
     complete();

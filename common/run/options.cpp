@@ -16,7 +16,7 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 
 /// Values as typed. They are checked here and not by CLI11, which stops at the first fault.
 struct Typed {
-  std::string case_path, out, record, end_time, threads = "0", log_level = "info";
+  std::string case_path, out, record, start_frames, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
   bool check = false, outlook = false, describe = false, print_case = false, resolved = false,
        restart = false, overwrite = false;
@@ -48,6 +48,8 @@ void declare(CLI::App& app, const std::string& role, Typed& typed) {
     app.add_option("--record", typed.record, "Results of the run that is replayed")->type_name("DIR");
   app.add_flag("--check", typed.check, "Check the case, compute nothing");
   app.add_flag("--outlook", typed.outlook, "With --check: make some steps, and tell what a run would take");
+  app.add_option("--start-frames", typed.start_frames, "With --check: write the particles at the start there")
+      ->type_name("DIR");
   app.add_flag("--describe", typed.describe,
                "Print the parameters of a case with units, defaults and ranges");
   app.add_flag("--restart", typed.restart, "Go on from the newest checkpoint in the folder of the results");
@@ -113,6 +115,7 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
   options.log_level = typed.log_level;
   options.check = typed.check;
   options.outlook = typed.check && typed.outlook;
+  if (typed.check) options.start_frames = typed.start_frames;
   options.describe = typed.describe;
   options.restart = typed.restart;
   options.overwrite = typed.overwrite;

@@ -13,14 +13,15 @@ struct Options {
   std::vector<std::string> overrides;  ///< --set section.key=value, and --end-time as one of them
   int threads = 0;                     ///< at most; 0: all cores
   std::string log_level = "info";
-  bool check = false;                 ///< read and check the case, then end
-  bool outlook = false;               ///< with `check`: tell what a run would take
-  bool describe = false;              ///< print the parameters, then end
-  bool print_case = false;            ///< print the case as it is read, then end
-  bool resolved = false;              ///< print what the case comes to for other programs, then end
-  bool restart = false;               ///< go on from the newest checkpoint in `out`
-  bool overwrite = false;             ///< replace results that `out` holds
-  std::filesystem::path record = {};  ///< results of the run that a replayed_... answers with
+  bool check = false;                       ///< read and check the case, then end
+  bool outlook = false;                     ///< with `check`: tell what a run would take
+  std::filesystem::path start_frames = {};  ///< with `check`: where the particles at the start go, as frames
+  bool describe = false;                    ///< print the parameters, then end
+  bool print_case = false;                  ///< print the case as it is read, then end
+  bool resolved = false;                    ///< print what the case comes to for other programs, then end
+  bool restart = false;                     ///< go on from the newest checkpoint in `out`
+  bool overwrite = false;                   ///< replace results that `out` holds
+  std::filesystem::path record = {};        ///< results of the run that a replayed_... answers with
 };
 
 /// Parses a command line without the program's name; `--version`, `--help` and

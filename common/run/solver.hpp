@@ -3,6 +3,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -67,6 +68,10 @@ class Solver {
   virtual void check(double time) const = 0;
 
   virtual Frame frame() const = 0;
+  /// The rigid walls beside its particles; none if there are none. Where they stand still, one frame is
+  /// enough.
+  virtual std::optional<Frame> walls() const { return std::nullopt; }
+  virtual bool walls_move() const { return false; }
   /// Energies, momentum, observers; the same names in the same order at each call.
   virtual std::vector<Observation> observe() const = 0;
   /// Adds rows to files of the solver's own, as often as the series, and before it asks for observations.

@@ -29,8 +29,14 @@ class Case:
     content: dict  # what it says, with its base merged and overrides applied
     references: list[dict] = field(default_factory=list)  # what is said of each, and its "points" or its "fault"
     files: list[str] = field(default_factory=list)  # that it names, relative to its folder
-    outlines: dict = field(default_factory=dict)  # number of a wall -> its rings of corners [m]
+    shapes: list[dict] = field(default_factory=list)  # of all bodies: "list", "number", "name", "is_outline", "rings" [m]
+    motions: dict = field(default_factory=dict)  # number of a wall -> the point "about" and "poses": time, x, y, angle
     places: list = field(default_factory=list)  # (path of a key, line, column)
+
+    @property
+    def outlines(self):
+        """Number of a wall that is an outline -> its rings of corners [m]."""
+        return {shape["number"]: shape["rings"] for shape in self.shapes if shape["list"] == "wall" and shape["is_outline"]}
 
 
 @functools.cache
@@ -48,10 +54,10 @@ def resolve(path, program, overrides=()):
     try:
         told = json.loads(done.stdout)
         case, references, files = told["case"], told["references"], told["files"]
-        outlines = {outline["wall"]: outline["rings"] for outline in told["outlines"]}
+        shapes, motions = told["shapes"], {motion.pop("wall"): motion for motion in told["motions"]}
     except (ValueError, RecursionError, KeyError, TypeError) as error:
         raise BadCase(f"{program}: error: --resolved gave no case: {error!r}") from None
     # as it was given: JSON does not carry a name that is no text
     file = pathlib.Path(path) / "case.toml" if os.path.isdir(path) else pathlib.Path(path)
     inputs = [*map(pathlib.Path, case["inputs"]), *(file.parent / name for name in files)]
-    return Case(case["kind"], file, case["name"], inputs, case["content"], references, files, outlines, case["places"])
+    return Case(case["kind"], file, case["name"], inputs, case["content"], references, files, shapes, motions, case["places"])

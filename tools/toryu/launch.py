@@ -49,6 +49,8 @@ def parse(arguments):
     parser.add_argument("--threads", metavar="N")
     parser.add_argument("--log-level", metavar="LEVEL")
     parser.add_argument("--check", action="store_true", help="only check the case file")
+    parser.add_argument("--picture", metavar="FILE", nargs="?", const="", help="with --check: draw the scene as an SVG or, by "
+                        "the ending of FILE, a PNG; default out/<case name>_scene.svg")
     parser.add_argument("--compare", metavar=("OUT_A", "OUT_B"), nargs=2, help="lay the results of two runs over each other, "
                         "in place of a run")
     parser.add_argument("--describe", action="store_true", help="list the keys of the case's sections with units, "
@@ -117,12 +119,16 @@ def is_study(argument, coupler):
     return False
 
 
-def go_on_as(part, arguments):
-    """Becomes toryu.study or toryu.compare, which need a package more."""
+def install_for_charts():
     if importlib.util.find_spec("matplotlib") is None:
         installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "study"]).returncode
         if installed != DONE:
             raise SystemExit(installed)
+
+
+def go_on_as(part, arguments):
+    """Becomes toryu.study or toryu.compare, which need a package more."""
+    install_for_charts()
     os.execv(sys.executable, program.python(part, *arguments))
 
 
@@ -202,6 +208,26 @@ def warn_without_checkpoints(options, guests):
         if options.restart is not None:
             raise SystemExit(complain(f"--restart: error: {executable} cannot write checkpoints, so it cannot go on from one"))
         print(f"warning: {executable} cannot write checkpoints: this run goes on without them", file=sys.stderr)
+
+
+def draw_scene(options, case):
+    """The picture that --check was asked for."""
+    install_for_charts()
+    from toryu import picture  # takes its time, and a package more
+
+    path = pathlib.Path(options.picture or pathlib.Path("out") / f"{case.name}_scene.svg")
+    if fault := picture.fault_of(path):
+        return complain(fault)
+    try:
+        print(picture.draw(case, path, options.bin, options.passed_on))
+    except picture.NoPicture as error:
+        return complain(str(error))
+    except OSError as error:
+        if error.errno in program.SHORTAGES:
+            raise
+        return complain(f"--picture {path}: error: cannot be written: {error.strerror}")
+    print(f"picture {path}")
+    return DONE
 
 
 def describe(commands):
@@ -291,6 +317,8 @@ def main(arguments):
         go_on_as("study", arguments)
     options = parse(arguments)
     case = case_of(options)
+    if options.picture is not None and not options.check:
+        return complain("--picture: error: goes with --check")
     install_for_drawings(case)
     settle_replay(options, case)
     settle_folder(options, case)
@@ -309,7 +337,7 @@ def main(arguments):
     warn_without_checkpoints(options, [command[0] for name, command in commands.items() if name not in own])
     if options.check:
         print(f"{case.file}: no errors")
-        return DONE
+        return DONE if options.picture is None else draw_scene(options, case)
 
     # what the user has set, stays
     environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ

@@ -51,8 +51,8 @@ class Drawings(unittest.TestCase):
 
     def test_an_answer_is_kept_by_what_it_was_asked_for(self):
         told = self.told()
-        outline, = told["outlines"]
-        self.assertEqual(outline["wall"], 0)
+        outline, = [shape for shape in told["shapes"] if shape["is_outline"]]
+        self.assertEqual((outline["list"], outline["number"]), ("wall", 0))
         self.assertEqual([[round(x, 12) for x in corner] for corner in outline["rings"][0]],
                          [[0.01, 0.01], [0.03, 0.01], [0.03, 0.02]])
         self.assertEqual(told["files"], ["part.svg"])
@@ -60,7 +60,7 @@ class Drawings(unittest.TestCase):
         self.assertEqual(self.told(), told)
         self.assertEqual(self.kept(), [first])
         (self.case / "part.svg").write_text(DRAWING.replace("-10", "-5"))
-        self.assertEqual(round(self.told()["outlines"][0]["rings"][0][2][1], 12), 0.015)
+        self.assertEqual(round(self.told()["shapes"][0]["rings"][0][2][1], 12), 0.015)
         self.assertEqual(len(self.kept()), 2)
 
     def test_nothing_is_written_beside_the_case(self):
@@ -70,12 +70,12 @@ class Drawings(unittest.TestCase):
     def test_several_programs_at_once_read_the_same(self):
         answers = {process.communicate()[0] for process in [self.start("--resolved") for _ in range(4)]}
         self.assertEqual(len(answers), 1)
-        self.assertEqual(len(json.loads(answers.pop())["outlines"]), 1)
+        self.assertEqual(len(json.loads(answers.pop())["shapes"]), 1)
         self.assertEqual(len(self.kept()), 1)
 
     def test_a_cache_that_cannot_be_written_costs_time_alone(self):
         self.cache.write_text("no folder")
-        self.assertEqual(len(self.told()["outlines"]), 1)
+        self.assertEqual(len(self.told()["shapes"]), 1)
 
     def test_a_kept_answer_that_is_damaged_is_asked_for_again(self):
         told = self.told()
@@ -91,7 +91,7 @@ class Drawings(unittest.TestCase):
         (other / "python3").chmod(0o755)
         self.environment["PATH"] = f"{other}:{self.environment['PATH']}"
         self.environment["PYTHONPATH"] = str(other)
-        self.assertEqual(len(self.told()["outlines"]), 1)
+        self.assertEqual(len(self.told()["shapes"]), 1)
 
     def test_what_is_wrong_stands_at_the_key_that_mends_it(self):
         place = f"{self.case}/case.toml"

@@ -89,6 +89,7 @@ def listed(out, name, faults):
 
 def read_bodies(out, faults=None):
     names = [path.name.removesuffix(".hdf.series") for path in sorted(out.glob("*.hdf.series"))]
+    names = [name for name in names if name != "walls"]  # drawn as they are, not as particles
     bodies = [Body(out, name, faults) for name in names]
     return [body for body in bodies if body.files]
 

@@ -41,9 +41,10 @@ def near_view(view, walls, bodies, contours):
     return [*map(float, low), *map(float, high)]
 
 
-def wall_paths(case, end, outlines=None):
+def wall_paths(case, end, outlines=None, motions=None):
     """Boxes of the rigid walls, the rings of those that `outlines` has by their number, and how they move until `end` [s]:
-    rows of time, displacement, velocity (x, y of each); the displacement is the integral of the velocity."""
+    of a table of velocities rows of time, displacement, velocity (x, y of each), the displacement the integral of the
+    velocity; and of any motion that `motions` has by their number the poses that it passes."""
     walls = []
     for number, wall in enumerate(data.tables_of(case, "wall")):
         rings, path = (outlines or {}).get(number, []), []
@@ -59,7 +60,8 @@ def wall_paths(case, end, outlines=None):
             moved -= moved[np.searchsorted(times, 0)]
             path = np.column_stack([times, moved, velocity]).tolist()
         walls.append({"name": str(wall.get("name", "")), "box": box, "round": data.table(wall, "box").get("round") is True,
-                      "path": path, "work_piece": wall.get("work_piece") is True, "rings": rings or worn_rings(wall, box)})
+                      "path": path, "work_piece": wall.get("work_piece") is True, "rings": rings or worn_rings(wall, box),
+                      **(motions or {}).get(number, {"about": [0, 0], "poses": []})})
     return walls
 
 

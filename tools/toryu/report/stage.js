@@ -65,26 +65,15 @@ class Stage {
   }
 
   drawWalls(time) {
-    for (const {box, round, path, work_piece, rings} of this.walls) {
-      const [dx, dy] = displacement(path, time);
-      const [x0, y0] = this.toPixel(box[0] + dx, box[3] + dy), [x1, y1] = this.toPixel(box[2] + dx, box[1] + dy);
-      this.context.fillStyle = cssColour(path.length ? "--moving" : work_piece ? "--piece" : "--wall");
-      if (rings.length) {
-        this.context.beginPath();
-        for (const ring of rings) {
-          ring.forEach(([x, y], k) => this.context[k ? "lineTo" : "moveTo"](...this.toPixel(x + dx, y + dy)));
-          this.context.closePath();
-        }
-        this.context.fill("evenodd");
-        continue;
-      }
-      if (!round) {
-        this.context.fillRect(x0, y0, x1 - x0, y1 - y0);
-        continue;
-      }
+    for (const wall of this.walls) {
+      const place = placing(wall, time);
+      this.context.fillStyle = cssColour(wall.poses.length ? "--moving" : wall.work_piece ? "--piece" : "--wall");
       this.context.beginPath();
-      this.context.ellipse((x0 + x1) / 2, (y0 + y1) / 2, (x1 - x0) / 2, (y1 - y0) / 2, 0, 0, 2 * Math.PI);
-      this.context.fill();
+      for (const ring of wall.rings.length ? wall.rings : [cornersOf(wall)]) {
+        ring.forEach((corner, k) => this.context[k ? "lineTo" : "moveTo"](...this.toPixel(...place(corner))));
+        this.context.closePath();
+      }
+      this.context.fill("evenodd");
     }
   }
 
@@ -165,12 +154,23 @@ class Stage {
   }
 }
 
-// Of a wall: x, y at `time`, from the rows of its path.
-function displacement(path, time) {
+// Corners of a wall that is a box, or the ellipse in it.
+function cornersOf({box: [x0, y0, x1, y1], round}) {
+  if (!round) return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+  return Array.from({length: 96}, (_, k) => [Math.cos(k * Math.PI / 48), Math.sin(k * Math.PI / 48)]).map(([c, s]) =>
+    [(x0 + x1) / 2 + c * (x1 - x0) / 2, (y0 + y1) / 2 + s * (y1 - y0) / 2]);
+}
+
+// Where a point of a wall is at `time`.
+function placing({about, poses}, time) {
+  if (!poses.length) return (corner) => corner;
   let k = 0;
-  while (k + 1 < path.length && path[k + 1][0] <= time) ++k;
-  if (!path.length) return [0, 0];
-  if (k + 1 === path.length) return path[k].slice(1, 3);
-  const share = Math.max(0, (time - path[k][0]) / (path[k + 1][0] - path[k][0]));
-  return [1, 2].map((c) => path[k][c] + share * (path[k + 1][c] - path[k][c]));
+  while (k + 2 < poses.length && poses[k + 1][0] <= time) ++k;
+  const [from, to] = [poses[k], poses[Math.min(k + 1, poses.length - 1)]];
+  const share = to[0] > from[0] ? Math.min(1, Math.max(0, (time - from[0]) / (to[0] - from[0]))) : 0;
+  const [x, y, angle] = [1, 2, 3].map((c) => from[c] + share * (to[c] - from[c])), cos = Math.cos(angle), sin = Math.sin(angle);
+  return ([px, py]) => {
+    const [rx, ry] = [px - about[0], py - about[1]];
+    return [x + cos * rx - sin * ry, y + sin * rx + cos * ry];
+  };
 }

@@ -100,6 +100,15 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// Of the frames in a list [s].
+std::vector<double> times_in(const std::string& list) {
+  const std::string key = "\"time\":";
+  std::vector<double> times;
+  for (auto at = list.find(key); at != list.npos; at = list.find(key, at + 1))
+    times.push_back(std::stod(list.substr(at + key.size())));
+  return times;
+}
+
 struct Left {
   std::string series;
   std::vector<double> frames;  ///< their times [s]
@@ -129,14 +138,73 @@ Left left_by(Fails fails, double end_time, double interval = 0.4) {
     }
   }
   Left left{text_of(out / "body.csv") + text_of(out / "body.csv.part"), {}, failed};
-  const std::string list = text_of(out / "body.hdf.series"), key = "\"time\":";
-  for (auto at = list.find(key); at != list.npos; at = list.find(key, at + 1))
-    left.frames.push_back(std::stod(list.substr(at + key.size())));
+  left.frames = times_in(text_of(out / "body.hdf.series"));
   std::filesystem::remove_all(out);
   return left;
 }
 
+/// A solver between walls, which move or not.
+class WalledSolver : public CountingSolver {
+ public:
+  explicit WalledSolver(bool walls_move) : CountingSolver(Fails::never), walls_move_(walls_move) {}
+  std::optional<Frame> walls() const override {
+    return Frame{{0.1 * static_cast<double>(steps.size()), 0.0}, {}};
+  }
+  bool walls_move() const override { return walls_move_; }
+
+ private:
+  bool walls_move_;
+};
+
+/// The times of the frames of walls that a run to 0.8 s leaves, which goes on from its checkpoint at 0.4 s,
+/// with a solid beside it that does likewise.
+std::vector<double> frames_of_walls(bool walls_move, bool with_solid) {
+  const auto out = std::filesystem::path(testing::TempDir()) / ("walls_" + std::to_string(getpid()));
+  std::filesystem::create_directories(out / "checkpoint");
+  Options options;
+  options.out = out;
+  Scene scene;
+  scene.frame_interval = 0.4;
+  Timers timers;
+  WalledSolver solver(walls_move);
+  CountingSolver solid(Fails::never);
+  {
+    RunRecord record("fluid", options, scene, solver, {}, timers),
+        other("solid", options, scene, solid, {}, timers);
+    for (const double time : {0.0, 0.4}) {
+      record.check_and_write(time);
+      other.check_and_write(time);
+    }
+    record.write_checkpoint(out / "checkpoint");
+    other.write_checkpoint(out / "checkpoint");
+    record.check_and_write(0.8);
+  }
+  options.restart = true;
+  RunRecord record("fluid", options, scene, solver, {}, timers),
+      other("solid", options, scene, solid, {}, timers);
+  record.read_checkpoint(out / "checkpoint");
+  if (with_solid) other.read_checkpoint(out / "checkpoint");
+  record.check_and_write(0.8);
+  record.complete();
+  const auto times = times_in(text_of(out / "walls.hdf.series"));
+  const auto count = std::distance(std::filesystem::directory_iterator(out / "frames"), {});
+  EXPECT_EQ(static_cast<std::size_t>(count), times.size() + 3 + 2)
+      << "with those of the fluid and of the solid";
+  std::filesystem::remove_all(out);
+  return times;
+}
+
 using testing::ElementsAre;
+
+TEST(Walls, AreDrawnOnceWhereTheyStandStillAndEachTimeWhereTheyMove) {
+  EXPECT_THAT(frames_of_walls(false, false), ElementsAre(0));
+  EXPECT_THAT(frames_of_walls(true, false), ElementsAre(0, 0.4, 0.8));
+}
+
+TEST(Walls, OfAFluidAreLeftAloneByASolidThatGoesOn) {
+  EXPECT_THAT(frames_of_walls(false, true), ElementsAre(0));
+  EXPECT_THAT(frames_of_walls(true, true), ElementsAre(0, 0.4, 0.8));
+}
 
 TEST(LastState, IsInSeriesAndFramesAtTheEnd) {
   const Left left = left_by(Fails::never, 0.9);
