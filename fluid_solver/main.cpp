@@ -164,7 +164,9 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
 void warn_of_start(const CaseFile& file, const Scene& scene, const fluid::Parameters& parameters,
                    const FluidModel& model) {
   const auto& particles = model.particles();
-  const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
+  double speed = largest_norm(particles.v, particles.count);
+  for (const auto& inlet : parameters.inlets) speed = std::max(speed, inlet.largest_speed_ever());
+  const fluid::Start start{.speed = speed,
                            .blow = fluid::hardest_blow(scene, parameters),
                            .gravity = fluid::gravity_on_columns(scene)};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
@@ -196,6 +198,7 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   for (const auto& [key, message] : fluid::axis_faults(parameters, scene)) file.fault(key, message);
+  for (const auto& [key, message] : fluid::open_end_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
   fluid::leave_out(left_out_of_fluid(file, scene), parameters);
   for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);

@@ -1,0 +1,308 @@
+#include "fluid_solver/open_ends/open_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace toryu::fluid {
+
+namespace {
+
+/// The number that a particle in the layer of an end carries; 0 in the fluid.
+double mark_of(std::size_t end) {
+  return static_cast<double>(end + 1);
+}
+
+/// Share of a particle at the distance `r` in means that reach to `reach`.
+double weight(double r, double reach) {
+  const double q = std::max(0.0, 1 - std::abs(r) / reach);
+  return q * q;
+}
+
+/// Rows of particles that a mean across a row takes in on either side.
+constexpr double rows_in_mean = 2;
+/// K L/c.
+constexpr double share_of_sound = 0.5;
+
+/// Squares of distances that spread by less, over the spacing's, tell no slope.
+constexpr double least_spread = 0.01;
+
+/// Along s, of all of the fluid [m].
+double length_of_fluid(const Parameters& p, const Section& section) {
+  double nearest = 0, farthest = 0;
+  for (const Region& region : p.regions)
+    for (const Vec& corner : {region.box.min, region.box.max}) {
+      nearest = std::min(nearest, section.distance(corner));
+      farthest = std::max(farthest, section.distance(corner));
+    }
+  return farthest - nearest;
+}
+
+}  // namespace
+
+OpenEnds::OpenEnds(const Parameters& p, const Vec& gravity, const EquationOfState& equation_of_state)
+    : sections_(sections_of(p)),
+      inlets_(p.inlets),
+      outlets_(p.outlets),
+      equation_of_state_(equation_of_state),
+      gravity_(gravity),
+      support_(2 * p.h()),
+      skin_(p.neighbour_skin * 2 * p.h()),
+      spacing_(p.spacing),
+      state_(sections_.size()),
+      layer_(sections_.size()),
+      near_(sections_.size()),
+      velocities_(sections_.size()) {
+  for (const Inlet& inlet : inlets_) names_.push_back(inlet.name);
+  for (const Outlet& outlet : outlets_) names_.push_back(outlet.name);
+  for (std::size_t end = 0; end < size(); ++end) {
+    rates_.push_back(share_of_sound * p.sound_speed / length_of_fluid(p, sections_[end]));
+    velocities_[end].resize(
+        static_cast<std::size_t>(std::max(1.0, std::round(sections_[end].length / spacing_))));
+  }
+}
+
+void OpenEnds::mark(Particles& fluid) {
+  next_id_ = static_cast<std::uint32_t>(fluid.count);
+  fluid.open_end.assign(fluid.x[0].size(), 0.0);
+  cell_.assign(size(), 0.0);
+  std::vector<double> count(size());
+  for (std::size_t i = 0; i < fluid.count; ++i)
+    for (std::size_t end = 0; end < size(); ++end) {
+      const Vec x = at(fluid.x, i);
+      const double s = sections_[end].distance(x);
+      if (!sections_[end].spans(x) || s >= 0 || s < -sections_[end].depth) continue;
+      fluid.open_end[i] = mark_of(end);
+      ++count[end];
+    }
+  for (std::size_t end = 0; end < size(); ++end)
+    cell_[end] = sections_[end].length * sections_[end].depth / std::max(1.0, count[end]);
+  find(fluid);
+}
+
+void OpenEnds::find(const Particles& fluid) {
+  for (std::size_t end = 0; end < size(); ++end) {
+    const Section& section = sections_[end];
+    layer_[end].clear();
+    near_[end].clear();
+    for (std::uint32_t i = 0; i < fluid.count; ++i)
+      if (fluid.open_end[i] == mark_of(end)) {
+        layer_[end].push_back(i);
+      } else if (fluid.open_end[i] == 0) {
+        const Vec x = at(fluid.x, i);
+        // beyond the support by what they may move until the lists are built again: those that have not add 0
+        if (std::abs(section.distance(x)) < support_ + skin_ && section.spans(x)) near_[end].push_back(i);
+      }
+    state_[end].layer_mass = 0;
+    for (const std::uint32_t i : layer_[end]) state_[end].layer_mass += fluid.m[i];
+  }
+}
+
+void OpenEnds::cross(Particles& fluid) {
+  crossings_.clear();
+  order_.clear();
+  for (std::uint32_t i = 0; i < fluid.count; ++i) {
+    const Vec x = at(fluid.x, i);
+    bool stays = true;
+    for (std::size_t end = 0; end < size(); ++end) {
+      const Section& section = sections_[end];
+      const double s = section.distance(x);
+      if (fluid.open_end[i] == mark_of(end)) {
+        if (s >= 0) crossings_.push_back({i, end, 1});
+        stays = s >= -section.depth;
+      } else if (fluid.open_end[i] == 0 && s < 0 && s >= -section.depth && section.spans(x)) {
+        crossings_.push_back({i, end, -1});
+      }
+    }
+    if (stays) order_.push_back(i);
+  }
+}
+
+void OpenEnds::renew(Particles& fluid) {
+  if (crossings_.empty() && order_.size() == fluid.count) return;
+  for (const Crossing& crossing : crossings_)
+    fluid.open_end[crossing.particle] = crossing.sign > 0 ? 0 : mark_of(crossing.end);
+  std::size_t count = order_.size();
+  for (const Crossing& crossing : crossings_)
+    if (crossing.sign > 0) order_.push_back(crossing.particle);
+  resize_present_fields(fluid, padded(std::max(fluid.count, order_.size())));
+  reorder_fields(fluid, order_);
+  std::vector<std::uint32_t> id(order_.size());
+  for (std::size_t k = 0; k < id.size(); ++k) id[k] = fluid.id[order_[k]];
+  fluid.id.swap(id);
+  fluid.count = order_.size();
+  resize_present_fields(fluid, padded(fluid.count));
+  for (const Crossing& crossing : crossings_) {
+    if (crossing.sign < 0) continue;
+    const Section& section = sections_[crossing.end];
+    fluid.open_end[count] = mark_of(crossing.end);
+    set(fluid.x, count, at(fluid.x, count) - section.depth * section.inward);
+    fluid.m[count] = fluid.rho[count] * cell_[crossing.end];
+    fluid.V[count] = cell_[crossing.end];
+    fluid.id[count++] = next_id_++;
+  }
+}
+
+/// Of the fluid before each row of the line: lines across the row, and what they miss in the mean. Who is how
+/// near to the line changes from row to row, so that a mean of all would swing with it.
+void OpenEnds::find_velocities(const Particles& fluid, std::size_t end) {
+  const Section& section = sections_[end];
+  std::vector<double>& rows = velocities_[end];
+  const double height = section.length / static_cast<double>(rows.size()), reach = rows_in_mean * height;
+  sums_.assign(rows.size(), {});
+  for (const std::uint32_t i : near_[end]) {
+    const Vec x = at(fluid.x, i);
+    const double y = section.place(x), u = section.inward.dot(at(fluid.v, i));
+    const double w = fluid.m[i] / fluid.rho[i] * weight(section.distance(x), support_);
+    const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil((y - reach) / height - 0.5)));
+    for (std::size_t row = first; row < rows.size(); ++row) {
+      const double from_row = y - (static_cast<double>(row) + 0.5) * height;
+      if (from_row <= -reach) break;
+      sums_[row].add(w * weight(from_row, reach), from_row, u);
+    }
+  }
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    rows[row] = sums_[row].at(0, least_spread * height * height);
+  LineSums missed;
+  for (const std::uint32_t i : near_[end]) {
+    const Vec x = at(fluid.x, i);
+    const double w = fluid.m[i] / fluid.rho[i] * weight(section.distance(x), support_);
+    missed.add(w, 0, section.inward.dot(at(fluid.v, i)) - velocity_before(end, section.place(x)));
+  }
+  for (double& row : rows) row += missed.mean();
+}
+
+SectionMeans OpenEnds::means(const Particles& fluid, std::size_t end) const {
+  const Section& section = sections_[end];
+  LineSums pressure;
+  for (const std::uint32_t i : near_[end]) {
+    const Vec x = at(fluid.x, i);
+    const double s = section.distance(x);
+    const double p =
+        equation_of_state_.pressure(fluid.rho[i]) - equation_of_state_.p_b - weight_across(end, x);
+    pressure.add(fluid.m[i] / fluid.rho[i] * weight(s, support_), s, p);
+  }
+  const double gradient = pressure.slope(least_spread * spacing_ * spacing_);
+  const double held = state_[end].begun ? state_[end].gradient : gradient;
+  const std::vector<double>& rows = velocities_[end];
+  return {pressure.mean() - held * pressure.mean_x(), gradient,
+          std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(rows.size())};
+}
+
+double OpenEnds::weight_across(std::size_t end, const Vec& x) const {
+  const Section& section = sections_[end];
+  return equation_of_state_.rho_0 * gravity_.dot(section.along) * (section.place(x) - 0.5 * section.length);
+}
+
+double OpenEnds::velocity_before(std::size_t end, double place) const {
+  const std::vector<double>& rows = velocities_[end];
+  const auto last = static_cast<double>(rows.size() - 1);
+  const double row =
+      std::clamp(place / sections_[end].length * static_cast<double>(rows.size()) - 0.5, 0.0, last);
+  const auto below = static_cast<std::size_t>(row);
+  const double share = row - static_cast<double>(below);
+  return (1 - share) * rows[below] + share * rows[std::min(below + 1, rows.size() - 1)];
+}
+
+double OpenEnds::given_mean(std::size_t end, double time) const {
+  const std::size_t rows = velocities_[end].size();
+  double sum = 0;
+  for (std::size_t row = 0; row < rows; ++row)
+    sum += inlets_[end].speed_at(
+        (static_cast<double>(row) + 0.5) / static_cast<double>(rows) * sections_[end].length, time);
+  return sum / static_cast<double>(rows);
+}
+
+void OpenEnds::impose(Particles& fluid, double time) {
+  const double rho_c = equation_of_state_.rho_0 * equation_of_state_.c_0;
+  for (std::size_t end = 0; end < size(); ++end) {
+    const Section& section = sections_[end];
+    State& state = state_[end];
+    const bool inlet = is_inlet(end);
+    find_velocities(fluid, end);
+    state.means = means(fluid, end);
+    const double P = inlet ? 0 : outlets_[end - inlets_.size()].pressure_at(time);
+    const double U = inlet ? given_mean(end, time) : 0;
+    state.wave = 0.5 * ((state.means.pressure - P) / rho_c - (state.means.velocity - U));
+    if (!state.begun) {
+      state.begun = true;
+      state.slow_wave = state.wave;
+      state.gradient = state.means.gradient;
+    }
+    const double fast = state.wave - state.slow_wave;
+    const double p_0 = inlet ? state.means.pressure : P + rho_c * fast;
+    for (const std::uint32_t i : layer_[end]) {
+      const Vec x = at(fluid.x, i);
+      const double y = section.place(x);
+      const double u = inlet ? inlets_[end].speed_at(y, time) - fast : velocity_before(end, y);
+      set(fluid.v, i, u * section.inward);
+      fluid.rho[i] = equation_of_state_.density(equation_of_state_.p_b + p_0 +
+                                                (inlet ? state.gradient : 0) * section.distance(x) +
+                                                weight_across(end, x));
+    }
+  }
+}
+
+void OpenEnds::silence(Particles& fluid, const Vec& gravity, bool velocity, bool density) {
+  for (std::size_t end = 0; end < size(); ++end) {
+    State& state = state_[end];
+    if (velocity) state.force.setZero(), state.power = 0;
+    if (density) state.pressure_power = 0;
+    for (const std::uint32_t i : layer_[end]) {
+      if (velocity) {
+        const Vec force = fluid.m[i] * (at(fluid.a, i) - gravity);
+        state.force += force;
+        state.power += force.dot(at(fluid.v, i));
+        set(fluid.a, i, Vec::Zero());
+      }
+      if (density) {
+        state.pressure_power += fluid.m[i] * equation_of_state_.pressure(fluid.rho[i]) /
+                                (fluid.rho[i] * fluid.rho[i]) * fluid.drho[i];
+        fluid.drho[i] = 0;
+      }
+    }
+  }
+}
+
+void OpenEnds::leave_alone(Particles& fluid) const {
+  for (const auto& layer : layer_)
+    for (const std::uint32_t i : layer) fluid.off_surface[i] = 0;
+}
+
+void OpenEnds::count(double dt) {
+  for (std::size_t end = 0; end < size(); ++end) {
+    State& state = state_[end];
+    state.impulse -= dt * state.force;
+    state.work -= dt * (state.power + state.pressure_power);
+    const double share = 1 - std::exp(-rates_[end] * dt);
+    state.slow_wave += share * (state.wave - state.slow_wave);
+    state.gradient += share * (state.means.gradient - state.gradient);
+  }
+}
+
+double OpenEnds::layer_mass() const {
+  double sum = 0;
+  for (const State& state : state_) sum += state.layer_mass;
+  return sum;
+}
+
+std::vector<Observation> OpenEnds::observe(std::size_t end) const {
+  const State& now = state_[end];
+  const double sign = is_inlet(end) ? 1 : -1;  // along the flow
+  const std::string& name = names_[end];
+  return {{"mass_through_" + name, "kg/m", sign * now.mass},
+          {"flow_rate_through_" + name, "m2/s", sign * now.means.velocity * sections_[end].length},
+          {"pressure_at_" + name, "Pa", now.means.pressure},
+          {"impulse_from_" + name + "_x", "N.s/m", now.impulse[0]},
+          {"impulse_from_" + name + "_y", "N.s/m", now.impulse[1]},
+          {"work_from_" + name, "J/m", now.work}};
+}
+
+std::optional<Vec> OpenEnds::first_in_layer(const std::vector<Vec>& points) const {
+  for (const Vec& x : points)
+    for (const Section& section : sections_)
+      if (section.layer().contains(x)) return x;
+  return {};
+}
+
+}  // namespace toryu::fluid
