@@ -22,7 +22,7 @@ double weight(double r, double reach) {
 /// Rows of particles that a mean across a row takes in on either side.
 constexpr double rows_in_mean = 2;
 /// K L/c.
-constexpr double share_of_sound = 0.5;
+constexpr double share_of_sound = 0.125;
 
 /// Squares of distances that spread by less, over the spacing's, tell no slope.
 constexpr double least_spread = 0.01;
@@ -98,7 +98,7 @@ void OpenEnds::find(const Particles& fluid) {
   }
 }
 
-void OpenEnds::cross(Particles& fluid) {
+void OpenEnds::cross(const Particles& fluid) {
   crossings_.clear();
   order_.clear();
   for (std::uint32_t i = 0; i < fluid.count; ++i) {
@@ -118,13 +118,38 @@ void OpenEnds::cross(Particles& fluid) {
   }
 }
 
+/// Behind the last of each row of a layer that runs inward, a spacing apart, up to the end of the layer.
+void OpenEnds::fill_up(const Particles& fluid) {
+  new_.clear();
+  for (std::size_t end = 0; end < size(); ++end) {
+    const Section& section = sections_[end];
+    const auto rows = static_cast<double>(velocities_[end].size());
+    last_.assign(velocities_[end].size(), {});
+    for (const std::uint32_t i : order_) {
+      if (fluid.open_end[i] != mark_of(end)) continue;
+      const Vec x = at(fluid.x, i);
+      const double row = std::floor(section.place(x) / section.length * rows);
+      Last& last = last_[static_cast<std::size_t>(std::clamp(row, 0.0, rows - 1))];
+      const double s = section.distance(x);
+      if (!last.there || s < last.distance) last = {true, i, s};
+    }
+    for (std::size_t row = 0; row < last_.size(); ++row) {
+      const auto& [there, i, distance] = last_[row];
+      if (!there || !(section.inward.dot(at(fluid.v, i)) > 0)) continue;
+      const double place = (static_cast<double>(row) + 0.5) / rows * section.length;
+      for (double s = distance - spacing_; s >= -section.depth; s -= spacing_)
+        new_.push_back({i, end, section.point(place, s)});
+    }
+  }
+}
+
 void OpenEnds::renew(Particles& fluid) {
-  if (crossings_.empty() && order_.size() == fluid.count) return;
   for (const Crossing& crossing : crossings_)
     fluid.open_end[crossing.particle] = crossing.sign > 0 ? 0 : mark_of(crossing.end);
+  fill_up(fluid);
+  if (new_.empty() && order_.size() == fluid.count) return;
   std::size_t count = order_.size();
-  for (const Crossing& crossing : crossings_)
-    if (crossing.sign > 0) order_.push_back(crossing.particle);
+  for (const New& one : new_) order_.push_back(one.like);
   resize_present_fields(fluid, padded(std::max(fluid.count, order_.size())));
   reorder_fields(fluid, order_);
   std::vector<std::uint32_t> id(order_.size());
@@ -132,13 +157,10 @@ void OpenEnds::renew(Particles& fluid) {
   fluid.id.swap(id);
   fluid.count = order_.size();
   resize_present_fields(fluid, padded(fluid.count));
-  for (const Crossing& crossing : crossings_) {
-    if (crossing.sign < 0) continue;
-    const Section& section = sections_[crossing.end];
-    fluid.open_end[count] = mark_of(crossing.end);
-    set(fluid.x, count, at(fluid.x, count) - section.depth * section.inward);
-    fluid.m[count] = fluid.rho[count] * cell_[crossing.end];
-    fluid.V[count] = cell_[crossing.end];
+  for (const New& one : new_) {
+    set(fluid.x, count, one.place);
+    fluid.V[count] = cell_[one.end];
+    fluid.m[count] = fluid.rho[count] * cell_[one.end];
     fluid.id[count++] = next_id_++;
   }
 }
@@ -185,7 +207,7 @@ SectionMeans OpenEnds::means(const Particles& fluid, std::size_t end) const {
   const double gradient = pressure.slope(least_spread * spacing_ * spacing_);
   const double held = state_[end].begun ? state_[end].gradient : gradient;
   const std::vector<double>& rows = velocities_[end];
-  return {pressure.mean() - held * pressure.mean_x(), gradient,
+  return {pressure.mean() - held * pressure.mean_x(), gradient, pressure.mean_x(),
           std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(rows.size())};
 }
 
@@ -205,12 +227,21 @@ double OpenEnds::velocity_before(std::size_t end, double place) const {
 }
 
 double OpenEnds::given_mean(std::size_t end, double time) const {
-  const std::size_t rows = velocities_[end].size();
-  double sum = 0;
-  for (std::size_t row = 0; row < rows; ++row)
-    sum += inlets_[end].speed_at(
-        (static_cast<double>(row) + 0.5) / static_cast<double>(rows) * sections_[end].length, time);
-  return sum / static_cast<double>(rows);
+  double discharge = 0, width = 0;
+  for (std::size_t other = 0; other < size(); ++other)
+    if (is_inlet(other))
+      discharge += inlets_[other].mean_at(time) * sections_[other].length;
+    else
+      width += sections_[other].length;
+  return is_inlet(end) ? inlets_[end].mean_at(time) : -discharge / width;
+}
+
+void OpenEnds::note_passing(std::size_t end, double time, double wave) {
+  Rows& passing = state_[end].passing;
+  if (!passing.empty() && passing.back()[0] >= time) passing.pop_back();
+  passing.push_back({time, wave});
+  const double oldest = time - 2 * sections_[end].depth / equation_of_state_.c_0;
+  while (passing.size() > 2 && passing[1][0] < oldest) passing.erase(passing.begin());
 }
 
 void OpenEnds::impose(Particles& fluid, double time) {
@@ -222,7 +253,7 @@ void OpenEnds::impose(Particles& fluid, double time) {
     find_velocities(fluid, end);
     state.means = means(fluid, end);
     const double P = inlet ? 0 : outlets_[end - inlets_.size()].pressure_at(time);
-    const double U = inlet ? given_mean(end, time) : 0;
+    const double U = given_mean(end, time);
     state.wave = 0.5 * ((state.means.pressure - P) / rho_c - (state.means.velocity - U));
     if (!state.begun) {
       state.begun = true;
@@ -230,15 +261,17 @@ void OpenEnds::impose(Particles& fluid, double time) {
       state.gradient = state.means.gradient;
     }
     const double fast = state.wave - state.slow_wave;
-    const double p_0 = inlet ? state.means.pressure : P + rho_c * fast;
+    note_passing(end, time, fast);
+    const double p_0 = inlet ? state.means.pressure - rho_c * fast : P;
     for (const std::uint32_t i : layer_[end]) {
       const Vec x = at(fluid.x, i);
-      const double y = section.place(x);
-      const double u = inlet ? inlets_[end].speed_at(y, time) - fast : velocity_before(end, y);
+      const double y = section.place(x), s = section.distance(x);
+      const double there = value_in(state.passing, time - (state.means.place - s) / equation_of_state_.c_0);
+      const double u =
+          inlet ? inlets_[end].speed_at(y, time) - there : velocity_before(end, y) + fast - there;
       set(fluid.v, i, u * section.inward);
-      fluid.rho[i] = equation_of_state_.density(equation_of_state_.p_b + p_0 +
-                                                (inlet ? state.gradient : 0) * section.distance(x) +
-                                                weight_across(end, x));
+      fluid.rho[i] = equation_of_state_.density(equation_of_state_.p_b + p_0 + rho_c * there +
+                                                (inlet ? state.gradient : 0) * s + weight_across(end, x));
     }
   }
 }

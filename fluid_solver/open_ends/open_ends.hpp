@@ -18,9 +18,9 @@
 /// width is what tells sound from flow: of a flow it is the discharge, which eddies that leave do not change.
 /// g, too, is held over 1/K.
 ///
-/// Whoever crosses the line changes sides when the lists of neighbours are built, and no earlier. For one
-/// that comes in a new particle follows at the far end of the layer, as deep as that is; one that passes the
-/// far end is taken away.
+/// Whoever crosses the line changes sides when the lists of neighbours are built, and no earlier. Rows of a
+/// layer that run inward are filled up then: a new particle comes a spacing behind the last one, as soon as
+/// there is room before the far end of the layer. Who passes the far end is taken away.
 ///
 /// What an end does to the fluid is counted so that sums close: with m_j a_j the forces of all pairs on the
 /// layer's particles, the fluid gets -sum_j m_j a_j of them, and what crosses brings its momentum. Walls
@@ -41,6 +41,7 @@ namespace toryu::fluid {
 /// Means over the line, of the fluid before it.
 struct SectionMeans {
   double pressure = 0, gradient = 0;  ///< p_0 above the background [Pa], its slope g [Pa/m]
+  double place = 0;                   ///< of who is in the mean [m]
   double velocity = 0;                ///< u_0, into the fluid [m/s]
 };
 
@@ -65,12 +66,13 @@ class OpenEnds {
  public:
   /// What is known of one end at a time.
   struct State {
-    bool begun = false;                    ///< whether A and g are there
-    double slow_wave = 0;                  ///< A [m/s]
-    double gradient = 0;                   ///< g [Pa/m]
-    SectionMeans means = {};               ///< of the last evaluation
-    double wave = 0;                       ///< a of it [m/s]
-    Vec force = Vec::Zero();               ///< sum_j m_j a_j of it without gravity [N per metre]
+    bool begun = false;       ///< whether A and g are there
+    double slow_wave = 0;     ///< A [m/s]
+    double gradient = 0;      ///< g [Pa/m]
+    SectionMeans means = {};  ///< of the last evaluation
+    double wave = 0;          ///< a of it [m/s]
+    Rows passing = {};        ///< a' over time, for as long as sound crosses the layer [s], [m/s]
+    Vec force = Vec::Zero();  ///< sum_j m_j a_j of it without gravity [N per metre]
     double power = 0, pressure_power = 0;  ///< which that is, and what compression takes [W per metre]
     double layer_mass = 0;                 ///< [kg per metre]
     // since the start, into the fluid
@@ -129,9 +131,21 @@ class OpenEnds {
     std::size_t end;
     double sign;  ///< 1 into the fluid
   };
-  void cross(Particles& fluid);
+  struct New {
+    std::uint32_t like;  ///< whose state it has
+    std::size_t end;
+    Vec place;  ///< [m]
+  };
+  struct Last {
+    bool there = false;
+    std::uint32_t particle = 0;
+    double distance = 0;  ///< [m]
+  };
+  void cross(const Particles& fluid);
+  void fill_up(const Particles& fluid);
   void renew(Particles& fluid);
   SectionMeans means(const Particles& fluid, std::size_t end) const;
+  void note_passing(std::size_t end, double time, double wave);
   void find_velocities(const Particles& fluid, std::size_t end);
   double velocity_before(std::size_t end, double place) const;
   /// The pressure that gravity adds across the channel, from its middle to `x` [Pa].
@@ -155,16 +169,18 @@ class OpenEnds {
   // kept for their memory
   std::vector<LineSums> sums_;
   std::vector<Crossing> crossings_;
+  std::vector<New> new_;
+  std::vector<Last> last_;  ///< of the rows of an end
   std::vector<std::uint32_t> order_;
   std::vector<double> cell_;  ///< area of a new particle [m2]
 };
 
 template <class Archive>
 void serialize(Archive& archive, OpenEnds::State& state) {
-  auto& [begun, slow_wave, gradient, means, wave, force, power, pressure_power, layer_mass, mass, work,
-         impulse] = state;
-  archive(begun, slow_wave, gradient, means.pressure, means.gradient, means.velocity, wave, force, power,
-          pressure_power, layer_mass, mass, work, impulse);
+  auto& [begun, slow_wave, gradient, means, wave, passing, force, power, pressure_power, layer_mass, mass,
+         work, impulse] = state;
+  archive(begun, slow_wave, gradient, means.pressure, means.gradient, means.place, means.velocity, wave,
+          passing, force, power, pressure_power, layer_mass, mass, work, impulse);
 }
 
 }  // namespace toryu::fluid

@@ -76,6 +76,20 @@ double Inlet::speed_at(double distance, double time) const {
   return share * largest * 4 * place * (1 - place);
 }
 
+double Inlet::mean_at(double time) const {
+  const double length = (to - from).norm();
+  if (speeds.empty())  // a parabola has two thirds of its largest
+    return profile == InflowProfile::parabolic ? 2 * speed_at(0.5 * length, time) / 3 : speed_at(0, time);
+  std::vector<double> knots{0, length};
+  for (const auto& row : speeds)
+    if (row[0] > 0 && row[0] < length) knots.push_back(row[0]);
+  std::sort(knots.begin(), knots.end());
+  double sum = 0;  // exact of lines between knots
+  for (std::size_t k = 1; k < knots.size(); ++k)
+    sum += 0.5 * (knots[k] - knots[k - 1]) * (speed_at(knots[k - 1], time) + speed_at(knots[k], time));
+  return sum / length;
+}
+
 double Inlet::largest_speed_ever() const {
   const double of_profile = !speeds.empty()                       ? largest_of_column(speeds)
                             : largest_speed > 0                   ? largest_speed

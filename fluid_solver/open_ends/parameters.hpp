@@ -26,6 +26,7 @@ struct Inlet : OpenEnd {
   double speed_at(double distance, double time) const;
   /// (1 - cos(pi t/T))/2 up to the end T of a ramp, 1 from there on; or that of the table.
   double share_at(double time) const;
+  double mean_at(double time) const;  ///< over the line, at `time` [s] [m/s]
   double largest_speed_ever() const;  ///< [m/s]
 };
 void describe(ParameterTable& table, Inlet& inlet);
