@@ -22,7 +22,7 @@ double weight(double r, double reach) {
 /// Rows of particles that a mean across a row takes in on either side.
 constexpr double rows_in_mean = 2;
 /// K L/c.
-constexpr double share_of_sound = 0.125;
+constexpr double share_of_sound = 0.25;
 
 /// Squares of distances that spread by less, over the spacing's, tell no slope.
 constexpr double least_spread = 0.01;
@@ -271,7 +271,7 @@ void OpenEnds::impose(Particles& fluid, double time) {
           inlet ? inlets_[end].speed_at(y, time) - there : velocity_before(end, y) + fast - there;
       set(fluid.v, i, u * section.inward);
       fluid.rho[i] = equation_of_state_.density(equation_of_state_.p_b + p_0 + rho_c * there +
-                                                (inlet ? state.gradient : 0) * s + weight_across(end, x));
+                                                state.gradient * s + weight_across(end, x));
     }
   }
 }

@@ -7,16 +7,19 @@
 /// give p(s) = p_0 + g s by a fit, and u_0. Of an inlet with the given velocity U(y, t), and of an outlet
 /// with the given pressure P(t),
 ///
-///     a = (p_0 - P)/(2 rho c) - (u_0 - U)/2,     a' = a - A,     dA/dt = K a',     K = c/(2 L)
-///     inlet:   u(y) = U(y) - a',                 p = p_0 + g s       (here P = 0)
-///     outlet:  p = P + rho c a' + g s,           u(y) = u(y) of the fluid before the line   (here U = 0)
+///     a = (p_0 - P)/(2 rho c) - (u_0 - U)/2,     a' = a - A,     dA/dt = K a',     K = c/(4 L)
+///     inlet:   u = U(y) - a'(s),                      p = p_0 + g s + rho c [a'(s) - a']
+///     outlet:  u = u_0(y) + a' - a'(s),               p = P + g s + rho c a'(s)
 ///
-/// a is the wave of sound that runs out through the line. What is fast in it, a', leaves: the end answers as
-/// if the channel went on. What is slow is held: the velocity of the inlet and the pressure of the outlet are
-/// those that are given, within some 1/K (as Rudy & Strikwerda 1980 and Poinsot & Lele 1992 have it). A pulse
-/// of length l comes back with some l/(2 L) of its height, L the length of the fluid along s. A mean over the
-/// width is what tells sound from flow: of a flow it is the discharge, which eddies that leave do not change.
-/// g, too, is held over 1/K.
+/// P = 0 of an inlet and -U of an outlet the discharge of all inlets over the width of all outlets; u_0(y) is
+/// found row by row. a is the wave of sound that runs out through the line, and a'(s) what it was when it
+/// passed the place of the means, a time -s/c and more ago: the layer carries it on. What is fast in it, a',
+/// leaves: the end answers as if the channel went on. What is slow is held: the velocity of the inlet and the
+/// pressure of the outlet are those that are given, within some 1/K (Rudy & Strikwerda 1980; Poinsot & Lele
+/// 1992). Of a pulse of length l some l/(4 L) comes back, L the length of the fluid along s, and what the
+/// means miss of one of few spacings: in all 4 % of one of 8 spacings and a tenth of L
+/// (tests/validation/open_channel_test.cpp). A mean over the width is what tells sound from flow: of a flow
+/// it is the discharge, which eddies that leave do not change. g is held over 1/K, too.
 ///
 /// Whoever crosses the line changes sides when the lists of neighbours are built, and no earlier. Rows of a
 /// layer that run inward are filled up then: a new particle comes a spacing behind the last one, as soon as

@@ -16,6 +16,15 @@ template <class Term>
 constexpr bool stays_inside =
     is_one_of<Term, EnclosedMedium, Viscoelasticity, CentralForce, ConsistentGradients>;
 
+constexpr const char* no_side =
+    "the line has fluid on neither side or on both: a [[fluid.region]] must end at it, and nothing of the "
+    "fluid lie beyond";
+
+bool lies_along_an_axis(const OpenEnd& end) {
+  const Vec length = end.to - end.from;
+  return (length[0] == 0) != (length[1] == 0);
+}
+
 bool is_fluid(const Parameters& p, const Vec& x) {
   const auto contains = [&](const auto& body) { return static_cast<const Box&>(body).contains(x); };
   return std::any_of(p.regions.begin(), p.regions.end(),
@@ -28,6 +37,14 @@ bool is_wall(const Scene& scene, const Vec& x) {
                      [&](const Wall& wall) { return wall.box.contains(x); });
 }
 
+bool is_solid(const std::vector<Part>& solid, const Vec& x) {
+  const auto contains = [&](const Box& box) { return box.contains(x); };
+  return std::any_of(solid.begin(), solid.end(), [&](const Part& part) {
+    return std::all_of(part.within.begin(), part.within.end(), contains) &&
+           std::none_of(part.without.begin(), part.without.end(), contains);
+  });
+}
+
 /// Calls visit(place) in the middle of each spacing of `length`.
 template <class Visit>
 void over_rows(double length, double spacing, Visit&& visit) {
@@ -35,50 +52,53 @@ void over_rows(double length, double spacing, Visit&& visit) {
   for (double k = 0.5; k < rows; ++k) visit(k * length / rows);
 }
 
-/// What is wrong with the places of a line and its layer, if anything.
-std::optional<std::string> misplaced(const OpenEnd& end, const Parameters& p, const Scene& scene) {
-  const auto section = section_of(end, p);
-  if (!section)
-    return "the line has fluid on neither side or on both: a [[fluid.region]] ends at it, and nothing of the "
-           "fluid lies beyond";
-  const double d = p.spacing;
-  std::optional<std::string> found;
-  const auto require = [&](bool holds, const char* what, const Vec& x) {
-    if (!holds && !found) found = fmt::format("{} near ({:.6g}, {:.6g}) m", what, x[0], x[1]);
-  };
-  over_rows(section->length, d, [&](double place) {
-    const Vec before = section->point(place, 0.5 * d);
-    require(!is_wall(scene, before), "the line runs into a wall", before);
-    require(is_fluid(p, before), "there is no fluid before the line", before);
-    over_rows(section->depth, d, [&](double beyond) {
-      const Vec x = section->point(place, -beyond);
-      require(!is_wall(scene, x), "a wall stands beyond the line, where the fluid goes on,", x);
-      require(!is_fluid(p, x), "the fluid's own region goes on beyond the line", x);
+/// What is wrong with the places about a line, if anything.
+class Places {
+ public:
+  Places(const Section& section, const Parameters& p, const Scene& scene, const std::vector<Part>& solid)
+      : section_(section), p_(p), scene_(scene), solid_(solid) {}
+
+  std::optional<std::string> fault() {
+    over_rows(section_.length, p_.spacing, [&](double place) { look_across(place); });
+    over_rows(section_.depth, p_.spacing, [&](double beyond) {
+      for (const double place : {-0.5 * p_.spacing, section_.length + 0.5 * p_.spacing})
+        require(is_wall(scene_, section_.point(place, -beyond)),
+                "the line must go from wall to wall, and the walls on beyond it: there is none",
+                section_.point(place, -beyond));
     });
-  });
-  over_rows(section->depth, d, [&](double beyond) {
-    for (const double place : {-0.5 * d, section->length + 0.5 * d}) {
-      const Vec x = section->point(place, -beyond);
-      require(is_wall(scene, x),
-              "the line must go from wall to wall, and the walls on beyond it: there is none", x);
-    }
-  });
-  if (found)
-    *found += fmt::format(" (the layer beyond the line of an open end is {:.6g} m deep, here to {} = {:.6g})",
-                          section->depth, section->inward[0] != 0 ? 'x' : 'y',
-                          section->point(0, -section->depth)[section->inward[0] != 0 ? 0 : 1]);
-  const double room = section->depth;
-  if (!found)
-    over_rows(room, d, [&](double distance) {
-      const Vec x = section->point(0.5 * section->length, distance);
-      if (!is_fluid(p, x) && !is_wall(scene, x) && !found)
-        found = fmt::format(
-            "the fluid ends {:.6g} m before the line, which is less than the layer beyond it is "
-            "deep, {:.6g} m: take a longer channel or a finer spacing",
-            distance, room);
+    over_rows(section_.depth, p_.spacing, [&](double before) {
+      const Vec x = section_.point(0.5 * section_.length, before);
+      require(is_fluid(p_, x) || is_wall(scene_, x),
+              "the channel must be longer than the layer beyond the line is deep: it ends", x);
     });
-  return found;
-}
+    if (found_)
+      *found_ += fmt::format("; the layer beyond the line is {:.6g} m deep, to {} = {:.6g} m", section_.depth,
+                             "xy"[axis()], section_.point(0, -section_.depth)[axis()]);
+    return found_;
+  }
+
+ private:
+  int axis() const { return section_.inward[0] != 0 ? 0 : 1; }
+  void require(bool holds, const char* what, const Vec& x) {
+    if (!holds && !found_) found_ = fmt::format("{} near ({:.6g}, {:.6g}) m", what, x[0], x[1]);
+  }
+  void look_across(double place) {
+    const Vec before = section_.point(place, 0.5 * p_.spacing);
+    require(!is_wall(scene_, before), "the line runs into a wall", before);
+    require(is_fluid(p_, before), "there is no fluid before the line", before);
+    over_rows(section_.depth, p_.spacing, [&](double beyond) {
+      const Vec x = section_.point(place, -beyond);
+      require(!is_wall(scene_, x), "a wall stands beyond the line, where the fluid goes on,", x);
+      require(!is_solid(solid_, x), "the solid lies beyond the line, where the fluid goes on,", x);
+    });
+  }
+
+  const Section& section_;
+  const Parameters& p_;
+  const Scene& scene_;
+  const std::vector<Part>& solid_;
+  std::optional<std::string> found_ = {};
+};
 
 template <class Visit>
 void for_each_end(const Parameters& p, Visit&& visit) {
@@ -99,6 +119,7 @@ double layer_depth(const Parameters& p) {
 }
 
 std::optional<Section> section_of(const OpenEnd& end, const Parameters& p) {
+  if (!lies_along_an_axis(end)) return {};
   Section section{.origin = end.from, .length = (end.to - end.from).norm(), .depth = layer_depth(p)};
   section.along = (end.to - end.from) / section.length;
   section.inward = {-section.along[1], section.along[0]};
@@ -130,7 +151,8 @@ Parameters with_layers(Parameters p) {
   return p;
 }
 
-std::vector<StartFault> open_end_faults(const Parameters& p, const Scene& scene) {
+std::vector<StartFault> open_end_faults(const Parameters& p, const Scene& scene,
+                                        const std::vector<Part>& solid) {
   std::vector<StartFault> faults;
   if (!p.has_open_ends()) return faults;
   const std::string key = p.inlets.empty() ? "fluid.outlet" : "fluid.inlet";
@@ -145,9 +167,11 @@ std::vector<StartFault> open_end_faults(const Parameters& p, const Scene& scene)
     refuse(stays_inside<Term> && term, fmt::format("[fluid.{}]", Term::section));
   });
   if (!faults.empty()) return faults;
-  for_each_end(p, [&](const std::string& of_end, const OpenEnd& end) {
-    if (const auto fault = misplaced(end, p, scene))
-      faults.push_back({of_end, fmt::format("open end '{}': {}", end.name, *fault)});
+  for_each_end(p, [&](const std::string& key_of_end, const OpenEnd& end) {
+    if (!lies_along_an_axis(end)) return;  // which has been told
+    const auto section = section_of(end, p);
+    const auto fault = section ? Places(*section, p, scene, solid).fault() : std::string(no_side);
+    if (fault) faults.push_back({key_of_end, fmt::format("open end '{}': {}", end.name, *fault)});
   });
   return faults;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/scene/meeting.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/start_checks.hpp"
 
@@ -35,7 +36,8 @@ std::vector<Section> sections_of(const Parameters& parameters);
 /// Fills the layers too: as regions behind those of the case.
 Parameters with_layers(Parameters parameters);
 
-/// What does not go with open ends, and lines that are misplaced.
-std::vector<StartFault> open_end_faults(const Parameters& parameters, const Scene& scene);
+/// What does not go with open ends, and lines that are misplaced; `solid` are the bodies of a coupled case.
+std::vector<StartFault> open_end_faults(const Parameters& parameters, const Scene& scene,
+                                        const std::vector<Part>& solid = {});
 
 }  // namespace toryu::fluid
