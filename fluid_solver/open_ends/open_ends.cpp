@@ -56,7 +56,7 @@ OpenEnds::OpenEnds(const Parameters& p, const Vec& gravity, const EquationOfStat
   for (const Inlet& inlet : inlets_) names_.push_back(inlet.name);
   for (const Outlet& outlet : outlets_) names_.push_back(outlet.name);
   for (std::size_t end = 0; end < size(); ++end) {
-    rates_.push_back(share_of_sound * p.sound_speed / length_of_fluid(p, sections_[end]));
+    transits_.push_back(length_of_fluid(p, sections_[end]) / p.sound_speed);
     velocities_[end].resize(
         static_cast<std::size_t>(std::max(1.0, std::round(sections_[end].length / spacing_))));
   }
@@ -236,6 +236,13 @@ double OpenEnds::given_mean(std::size_t end, double time) const {
   return is_inlet(end) ? inlets_[end].mean_at(time) : -discharge / width;
 }
 
+double OpenEnds::expected_pressure(std::size_t end, double time) const {
+  if (!is_inlet(end)) return outlets_[end - inlets_.size()].pressure_at(time);
+  const Inlet& inlet = inlets_[end];
+  return equation_of_state_.rho_0 * equation_of_state_.c_0 *
+         (inlet.mean_at(time) - inlet.mean_at(time - transits_[end]));
+}
+
 void OpenEnds::note_passing(std::size_t end, double time, double wave) {
   Rows& passing = state_[end].passing;
   if (!passing.empty() && passing.back()[0] >= time) passing.pop_back();
@@ -252,7 +259,7 @@ void OpenEnds::impose(Particles& fluid, double time) {
     const bool inlet = is_inlet(end);
     find_velocities(fluid, end);
     state.means = means(fluid, end);
-    const double P = inlet ? 0 : outlets_[end - inlets_.size()].pressure_at(time);
+    const double P = expected_pressure(end, time);
     const double U = given_mean(end, time);
     state.wave = 0.5 * ((state.means.pressure - P) / rho_c - (state.means.velocity - U));
     if (!state.begun) {
@@ -307,7 +314,7 @@ void OpenEnds::count(double dt) {
     State& state = state_[end];
     state.impulse -= dt * state.force;
     state.work -= dt * (state.power + state.pressure_power);
-    const double share = 1 - std::exp(-rates_[end] * dt);
+    const double share = 1 - std::exp(-share_of_sound * dt / transits_[end]);
     state.slow_wave += share * (state.wave - state.slow_wave);
     state.gradient += share * (state.means.gradient - state.gradient);
   }

@@ -11,7 +11,8 @@
 ///     inlet:   u = U(y) - a'(s),                      p = p_0 + g s + rho c [a'(s) - a']
 ///     outlet:  u = u_0(y) + a' - a'(s),               p = P + g s + rho c a'(s)
 ///
-/// P = 0 of an inlet and -U of an outlet the discharge of all inlets over the width of all outlets; u_0(y) is
+/// P of an inlet is rho c [U(t) - U(t - L/c)], the pressure that accelerates a channel of the length L, and
+/// -U of an outlet the discharge of all inlets over the width of all outlets: so a ramp is no wave. u_0(y) is
 /// found row by row. a is the wave of sound that runs out through the line, and a'(s) what it was when it
 /// passed the place of the means, a time -s/c and more ago: the layer carries it on. What is fast in it, a',
 /// leaves: the end answers as if the channel went on. What is slow is held: the velocity of the inlet and the
@@ -153,13 +154,14 @@ class OpenEnds {
   double velocity_before(std::size_t end, double place) const;
   /// The pressure that gravity adds across the channel, from its middle to `x` [Pa].
   double weight_across(std::size_t end, const Vec& x) const;
+  double expected_pressure(std::size_t end, double time) const;
   double given_mean(std::size_t end, double time) const;
 
   std::vector<Section> sections_;
   std::vector<std::string> names_;
   std::vector<Inlet> inlets_;
   std::vector<Outlet> outlets_;
-  std::vector<double> rates_;  ///< K of each [1/s]
+  std::vector<double> transits_;  ///< L/c of each [s]
   EquationOfState equation_of_state_;
   Vec gravity_;
   double support_, skin_, spacing_;
