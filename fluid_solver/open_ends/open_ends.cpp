@@ -27,6 +27,16 @@ constexpr double share_of_sound = 0.25;
 /// Squares of distances that spread by less, over the spacing's, tell no slope.
 constexpr double least_spread = 0.01;
 
+/// Linear in between, constant beyond.
+double wave_at(const std::vector<PassingWave>& passing, double time) {
+  const auto later = std::partition_point(passing.begin(), passing.end(),
+                                          [&](const PassingWave& seen) { return seen.time <= time; });
+  if (later == passing.begin()) return passing.front().wave;
+  const PassingWave& before = *(later - 1);
+  if (later == passing.end()) return before.wave;
+  return before.wave + (later->wave - before.wave) * (time - before.time) / (later->time - before.time);
+}
+
 /// Along s, of all of the fluid [m].
 double length_of_fluid(const Parameters& p, const Section& section) {
   double nearest = 0, farthest = 0;
@@ -100,7 +110,7 @@ void OpenEnds::find(const Particles& fluid) {
 
 void OpenEnds::cross(const Particles& fluid) {
   crossings_.clear();
-  order_.clear();
+  kept_.clear();
   for (std::uint32_t i = 0; i < fluid.count; ++i) {
     const Vec x = at(fluid.x, i);
     bool stays = true;
@@ -114,7 +124,7 @@ void OpenEnds::cross(const Particles& fluid) {
         crossings_.push_back({i, end, -1});
       }
     }
-    if (stays) order_.push_back(i);
+    if (stays) kept_.push_back(i);
   }
 }
 
@@ -125,20 +135,20 @@ void OpenEnds::fill_up(const Particles& fluid) {
     const Section& section = sections_[end];
     const auto rows = static_cast<double>(velocities_[end].size());
     last_.assign(velocities_[end].size(), {});
-    for (const std::uint32_t i : order_) {
-      if (fluid.open_end[i] != mark_of(end)) continue;
-      const Vec x = at(fluid.x, i);
+    for (std::uint32_t k = 0; k < kept_.size(); ++k) {
+      if (fluid.open_end[kept_[k]] != mark_of(end)) continue;
+      const Vec x = at(fluid.x, kept_[k]);
       const double row = std::floor(section.place(x) / section.length * rows);
       Last& last = last_[static_cast<std::size_t>(std::clamp(row, 0.0, rows - 1))];
       const double s = section.distance(x);
-      if (!last.there || s < last.distance) last = {true, i, s};
+      if (!last.there || s < last.distance) last = {true, k, s};
     }
     for (std::size_t row = 0; row < last_.size(); ++row) {
-      const auto& [there, i, distance] = last_[row];
-      if (!there || !(section.inward.dot(at(fluid.v, i)) > 0)) continue;
+      const auto& [there, k, distance] = last_[row];
+      if (!there || !(section.inward.dot(at(fluid.v, kept_[k])) > 0)) continue;
       const double place = (static_cast<double>(row) + 0.5) / rows * section.length;
       for (double s = distance - spacing_; s >= -section.depth; s -= spacing_)
-        new_.push_back({i, end, section.point(place, s)});
+        new_.push_back({k, end, section.point(place, s)});
     }
   }
 }
@@ -147,21 +157,29 @@ void OpenEnds::renew(Particles& fluid) {
   for (const Crossing& crossing : crossings_)
     fluid.open_end[crossing.particle] = crossing.sign > 0 ? 0 : mark_of(crossing.end);
   fill_up(fluid);
-  if (new_.empty() && order_.size() == fluid.count) return;
-  std::size_t count = order_.size();
-  for (const New& one : new_) order_.push_back(one.like);
-  resize_present_fields(fluid, padded(std::max(fluid.count, order_.size())));
-  reorder_fields(fluid, order_);
-  std::vector<std::uint32_t> id(order_.size());
-  for (std::size_t k = 0; k < id.size(); ++k) id[k] = fluid.id[order_[k]];
-  fluid.id.swap(id);
-  fluid.count = order_.size();
-  resize_present_fields(fluid, padded(fluid.count));
-  for (const New& one : new_) {
-    set(fluid.x, count, one.place);
-    fluid.V[count] = cell_[one.end];
-    fluid.m[count] = fluid.rho[count] * cell_[one.end];
-    fluid.id[count++] = next_id_++;
+  const std::size_t kept = kept_.size(), count = kept + new_.size();
+  if (new_.empty() && kept == fluid.count) return;
+  resize_present_fields(fluid, padded(std::max(fluid.count, count)));
+  fluid.id.resize(std::max(fluid.count, count));
+  const auto move = [&](auto& values) {  // in place: who is kept moves to the front, if at all
+    for (std::size_t k = 0; k < kept; ++k) values[k] = values[kept_[k]];
+    for (std::size_t n = 0; n < new_.size(); ++n) values[kept + n] = values[new_[n].like];
+  };
+  for_each_field(fluid, [&](auto& field) {
+    for_each_component(field, [&](Field& component) {
+      if (!component.empty()) move(component);
+    });
+  });
+  move(fluid.id);
+  fluid.count = count;
+  fluid.id.resize(count);
+  resize_present_fields(fluid, padded(count));
+  for (std::size_t n = 0; n < new_.size(); ++n) {
+    const double cell = cell_[new_[n].end];
+    set(fluid.x, kept + n, new_[n].place);
+    fluid.V[kept + n] = cell;
+    fluid.m[kept + n] = fluid.rho[kept + n] * cell;
+    fluid.id[kept + n] = next_id_++;
   }
 }
 
@@ -244,11 +262,13 @@ double OpenEnds::expected_pressure(std::size_t end, double time) const {
 }
 
 void OpenEnds::note_passing(std::size_t end, double time, double wave) {
-  Rows& passing = state_[end].passing;
-  if (!passing.empty() && passing.back()[0] >= time) passing.pop_back();
+  std::vector<PassingWave>& passing = state_[end].passing;
+  if (!passing.empty() && passing.back().time >= time) passing.pop_back();
   passing.push_back({time, wave});
   const double oldest = time - 2 * sections_[end].depth / equation_of_state_.c_0;
-  while (passing.size() > 2 && passing[1][0] < oldest) passing.erase(passing.begin());
+  const auto past = [&](const PassingWave& seen) { return seen.time < oldest; };
+  const auto first = std::find_if_not(passing.begin(), passing.end() - 1, past);
+  if (first != passing.begin()) passing.erase(passing.begin(), first - 1);
 }
 
 void OpenEnds::impose(Particles& fluid, double time) {
@@ -273,7 +293,7 @@ void OpenEnds::impose(Particles& fluid, double time) {
     for (const std::uint32_t i : layer_[end]) {
       const Vec x = at(fluid.x, i);
       const double y = section.place(x), s = section.distance(x);
-      const double there = value_in(state.passing, time - (state.means.place - s) / equation_of_state_.c_0);
+      const double there = wave_at(state.passing, time - (state.means.place - s) / equation_of_state_.c_0);
       const double u =
           inlet ? inlets_[end].speed_at(y, time) - there : velocity_before(end, y) + fast - there;
       set(fluid.v, i, u * section.inward);

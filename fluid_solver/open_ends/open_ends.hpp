@@ -66,19 +66,29 @@ struct LineSums {
   double at(double x_0, double least_spread) const { return mean() + slope(least_spread) * (x_0 - mean_x()); }
 };
 
+/// a' at a time.
+struct PassingWave {
+  double time = 0, wave = 0;  ///< [s], [m/s]
+};
+template <class Archive>
+void serialize(Archive& archive, PassingWave& passing) {
+  auto& [time, wave] = passing;
+  archive(time, wave);
+}
+
 class OpenEnds {
  public:
   /// What is known of one end at a time.
   struct State {
-    bool begun = false;       ///< whether A and g are there
-    double slow_wave = 0;     ///< A [m/s]
-    double gradient = 0;      ///< g [Pa/m]
-    SectionMeans means = {};  ///< of the last evaluation
-    double wave = 0;          ///< a of it [m/s]
-    Rows passing = {};        ///< a' over time, for as long as sound crosses the layer [s], [m/s]
-    Vec force = Vec::Zero();  ///< sum_j m_j a_j of it without gravity [N per metre]
-    double power = 0, pressure_power = 0;  ///< which that is, and what compression takes [W per metre]
-    double layer_mass = 0;                 ///< [kg per metre]
+    bool begun = false;                     ///< whether A and g are there
+    double slow_wave = 0;                   ///< A [m/s]
+    double gradient = 0;                    ///< g [Pa/m]
+    SectionMeans means = {};                ///< of the last evaluation
+    double wave = 0;                        ///< a of it [m/s]
+    std::vector<PassingWave> passing = {};  ///< for as long as it crosses the layer
+    Vec force = Vec::Zero();                ///< sum_j m_j a_j of it without gravity [N per metre]
+    double power = 0, pressure_power = 0;   ///< which that is, and what compression takes [W per metre]
+    double layer_mass = 0;                  ///< [kg per metre]
     // since the start, into the fluid
     double mass = 0, work = 0;  ///< [kg per metre], [J per metre]
     Vec impulse = Vec::Zero();  ///< [N.s per metre]
@@ -136,13 +146,13 @@ class OpenEnds {
     double sign;  ///< 1 into the fluid
   };
   struct New {
-    std::uint32_t like;  ///< whose state it has
+    std::uint32_t like;  ///< among those that are kept, whose state it has
     std::size_t end;
     Vec place;  ///< [m]
   };
   struct Last {
     bool there = false;
-    std::uint32_t particle = 0;
+    std::uint32_t kept = 0;
     double distance = 0;  ///< [m]
   };
   void cross(const Particles& fluid);
@@ -176,7 +186,7 @@ class OpenEnds {
   std::vector<Crossing> crossings_;
   std::vector<New> new_;
   std::vector<Last> last_;  ///< of the rows of an end
-  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> kept_;
   std::vector<double> cell_;  ///< area of a new particle [m2]
 };
 

@@ -63,7 +63,7 @@ void describe(ParameterTable& table, Inlet& inlet) {
 
 double Inlet::share_at(double time) const {
   if (!over_time.empty()) return value_in(over_time, time);
-  if (time >= ramp_time) return 1;
+  if (ramp_time == 0 || time >= ramp_time) return 1;
   return 0.5 * (1 - std::cos(std::numbers::pi * std::max(time, 0.0) / ramp_time));
 }
 

@@ -4,10 +4,42 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <new>
 
 #include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+
+void* counted(void* memory) {
+  ++allocations;
+  return memory ? memory : throw std::bad_alloc();
+}
+}  // namespace
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  return counted(std::malloc(size));
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto step = static_cast<std::size_t>(alignment);
+  return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
 
 namespace toryu::fluid {
 namespace {
@@ -23,6 +55,7 @@ TEST(AnInlet, HasAUniformSpeed) {
   Inlet inlet = inlet_across(2);
   inlet.mean_speed = 3;
   EXPECT_EQ(inlet.speed_at(0.1, 0), 3);
+  EXPECT_EQ(inlet.speed_at(0.1, -1), 3) << "without a ramp it was there before";
   EXPECT_EQ(inlet.mean_at(0), 3);
 }
 
@@ -186,6 +219,26 @@ TEST(Layers, TakeBackWhatRunsOutOfAnInlet) {
   EXPECT_NEAR(channel.ends.state(0).mass, -25, 1e-9);
   EXPECT_NEAR(channel.ends.state(1).mass, 25, 1e-9);
   EXPECT_TRUE(channel.near(Vec(-0.325, 0.225)).empty());
+}
+
+TEST(Layers, TakeNoMemoryAsParticlesComeAndGo) {
+  Filled channel;
+  for (auto& u : channel.fluid.v[0]) u = 1;
+  channel.ends.impose(channel.fluid, 0);
+  const auto pass = [&](double begin) {
+    for (int step = 0; step < 40; ++step) {
+      channel.ends.impose(channel.fluid, begin + 0.001 * step);
+      channel.ends.silence(channel.fluid, Vec::Zero(), true, true);
+      channel.ends.count(0.001);
+      channel.move(0.01);
+      channel.exchange();
+    }
+  };
+  pass(0);  // a channel's layers and more
+  const long before = allocations, through = std::lround(channel.ends.state(0).mass);
+  pass(0.04);
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(std::lround(channel.ends.state(0).mass), through);
 }
 
 /// Gives the fluid the profile of a mean of 1 m/s, and the pressure `p` + `gradient` x above the background.
