@@ -22,7 +22,7 @@ Kernel kernel_of(const Parameters& parameters) {
 }  // namespace
 
 FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
-    : parameters_(parameters),
+    : parameters_(parameters.has_open_ends() ? with_layers(parameters) : parameters),
       scene_(scene),
       kernel_(kernel_of(parameters)),
       equation_of_state_{parameters.density, parameters.sound_speed, parameters.stiffness_exponent,
@@ -35,6 +35,8 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
   state_.run_watch.emplace(parameters.limits, parameters.sound_speed);
   if (!parameters.particle_shifting) state_.suction_watch.emplace(parameters.spacing, equation_of_state_);
   fill_regions();
+  if (parameters.has_open_ends())
+    state_.open_ends.emplace(parameters, scene.gravity_at(0), equation_of_state_).mark(state_.fluid);
   fill_walls();
   check_overlaps();
   start_momentum_ = momentum();
@@ -56,6 +58,10 @@ void FluidModel::write_state(std::ostream& stream) const {
 
 void FluidModel::read_state(std::istream& stream) {
   read_states(stream, state_);
+  if (state_.open_ends) {
+    resize_present_fields(state_.fluid, padded(state_.fluid.count));
+    state_.open_ends->find(state_.fluid);
+  }
   state_.neighbours.rebuild(state_.fluid, state_.boundaries);
 }
 
@@ -66,6 +72,7 @@ void FluidModel::attach(const Interface& interface) {
     positions.push_back(vector_of(interface.position, k));
     faces.push_back(faces_of(vector_of(interface.area_vector, k)));
   }
+  refuse_in_layers(positions);
   Boundary boundary;
   boundary.name = "interface";
   boundary.motion = MovingInterface(interface, reach() / parameters_.sound_speed);
@@ -125,10 +132,32 @@ void FluidModel::update_neighbours(double dt) {
   const auto timer = timers_.measure("neighbours");
   if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt)) return;
   move_back_into_domain();
-  if (scene_.geometry == Geometry::plane) return state_.neighbours.build(state_.fluid, state_.boundaries, dt);
+  if (state_.open_ends) let_through_open_ends();
+  if (scene_.geometry == Geometry::plane) {
+    state_.neighbours.build(state_.fluid, state_.boundaries, dt);
+    if (state_.open_ends) state_.open_ends->find(state_.fluid);
+    return;
+  }
   keep_off_axis(state_.fluid);
   state_.neighbours.build(state_.fluid, state_.boundaries, dt);
   mirror_bodies(state_.fluid, state_.boundaries);
+}
+
+void FluidModel::let_through_open_ends() {
+  const Particles& fluid = state_.fluid;
+  state_.open_ends->exchange(state_.fluid, [&](std::size_t i) {
+    return 0.5 * at(fluid.v, i).squaredNorm() + potential(at(fluid.x, i)) +
+           equation_of_state_.elastic_energy(fluid.rho[i]) / equation_of_state_.rho_0;
+  });
+}
+
+void FluidModel::refuse_in_layers(const std::vector<Vec>& points) const {
+  if (!state_.open_ends) return;
+  if (const auto x = state_.open_ends->first_in_layer(points))
+    throw BadInput({{"[solid]", 0, 0,
+                     fmt::format("the solid lies beyond an open end of the fluid near ({:.6g}, {:.6g}) m: "
+                                 "put the [[fluid.inlet]] or [[fluid.outlet]] farther out",
+                                 (*x)[0], (*x)[1])}});
 }
 
 void FluidModel::record_surface(const std::filesystem::path& out) {
@@ -206,21 +235,22 @@ void FluidModel::count_forces(double dt) {
     if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion))
       pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
+  if (state_.open_ends) state_.open_ends->count(dt);
   const Field& m = state_.fluid.m;
   const Vec gravity = scene_.gravity_at(state_.time + 0.5 * dt);
   state_.gravity_impulse +=
       dt * std::reduce(m.begin(), m.begin() + static_cast<std::ptrdiff_t>(padded(state_.fluid.count))) *
       gravity;
+  if (state_.open_ends) state_.gravity_impulse -= dt * state_.open_ends->layer_mass() * gravity;
   if (scene_.gravity_change) state_.work_of_gravity_change += dt * power_of(gravity - scene_.gravity, dt);
 }
 
 double FluidModel::power_of(const Vec& change, double dt) const {
   const bool kicks = parameters_.integrator == Integrator::symplectic;  // by the mean of before and after
-  double sum = 0;
-  for (std::size_t i = 0; i < state_.fluid.count; ++i)
-    sum += state_.fluid.m[i] *
+  return sum_inside([&](std::size_t i) {
+    return state_.fluid.m[i] *
            change.dot(at(state_.fluid.v, i) + (kicks ? 0.5 * dt : 0.0) * at(state_.fluid.a, i));
-  return sum;
+  });
 }
 
 }  // namespace toryu::fluid

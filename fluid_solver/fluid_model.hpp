@@ -12,6 +12,7 @@
 #include "fluid_solver/energy_balance.hpp"
 #include "fluid_solver/free_surface.hpp"
 #include "fluid_solver/neighbours.hpp"
+#include "fluid_solver/open_ends/open_ends.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/period.hpp"
 #include "fluid_solver/run_watch.hpp"
@@ -79,6 +80,7 @@ class FluidModel : public Solver {
   /// Of gravity and of a central force; where space repeats itself, as if it went on [J per metre].
   double potential_energy() const;
   double elastic_energy() const;  ///< of compression [J per metre]
+  double mass() const;            ///< [kg per metre]
   Vec momentum() const;
   /// What the press adds to the pressure of an enclosed medium [Pa].
   double pressure_offset() const;
@@ -87,6 +89,7 @@ class FluidModel : public Solver {
   /// What each term of the case takes from these energies.
   virtual std::vector<Power> powers() const = 0;
   const Particles& particles() const { return state_.fluid; }
+  const std::optional<OpenEnds>& open_ends() const { return state_.open_ends; }
   const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
   /// Where rows of the fluid do not fit between faces.
   const std::vector<Misfit>& misfits() const { return misfits_; }
@@ -119,16 +122,18 @@ class FluidModel : public Solver {
     std::optional<SurfaceRecord> surface_record = {};
     std::optional<SuctionWatch> suction_watch = {};
     std::optional<RunWatch> run_watch = {};
+    std::optional<OpenEnds> open_ends = {};
   };
   template <class Archive>
   friend void serialize(Archive& archive, State& state) {
     auto& [time, fluid, boundaries, neighbours, gravity_impulse, work_of_gravity_change, potential_of_moves,
            balance, penetration, steps_since_look, largest, density_rate_known, contact_changed,
-           impedance_wanted, beyond_measured, surface_record, suction_watch, run_watch] = state;
+           impedance_wanted, beyond_measured, surface_record, suction_watch, run_watch, open_ends] = state;
     archive(time, fluid, boundaries, neighbours, gravity_impulse, work_of_gravity_change, potential_of_moves,
             balance, penetration, steps_since_look, largest, density_rate_known, contact_changed,
             impedance_wanted, beyond_measured, *run_watch);
     if (surface_record) archive(*surface_record);
+    if (open_ends) archive(*open_ends);
     bool watched = suction_watch.has_value();  // until it has warned
     archive(watched);
     if (!watched) suction_watch.reset();
@@ -159,10 +164,24 @@ class FluidModel : public Solver {
   void check_overlaps() const;
   void leave_out_walls_in(const Boundary& solid, double spacing);
   void move_back_into_domain();
+  void refuse_in_layers(const std::vector<Vec>& points) const;
   void watch_suction(double time);
   void watch_stops(double time);
   void watch_shear(double time);
   MovingInterface& interface();
+  void let_through_open_ends();
+  /// Of all particles that are not in the layers of open ends.
+  template <class Of, class Value = double>
+  Value sum_inside(Of&& of_particle, Value sum = 0) const {
+    for (std::size_t i = 0; i < state_.fluid.count; ++i)
+      if (state_.fluid.is_inside(i)) sum += of_particle(i);
+    return sum;
+  }
+  template <class Visit>
+  void for_each_open_end(Visit&& visit) const {
+    for (std::size_t end = 0; state_.open_ends && end < state_.open_ends->size(); ++end)
+      visit(*state_.open_ends, end);
+  }
   /// Energy over mass at `x` [m2/s2].
   double potential(const Vec& x) const;
   /// Of an acceleration of all the fluid, over a step of `dt` [s] that is about to be made [W per metre].

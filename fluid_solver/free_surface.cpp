@@ -60,9 +60,9 @@ void FreeSurface::find_off_surface(Particles& fluid, const ClusterList& neighbou
 }
 
 bool is_closed(const Particles& fluid) {
-  return std::all_of(fluid.off_surface.begin(),
-                     fluid.off_surface.begin() + static_cast<std::ptrdiff_t>(fluid.count),
-                     [](double inside) { return inside > 0; });
+  for (std::size_t i = 0; i < fluid.count; ++i)
+    if (!(fluid.off_surface[i] > 0) && fluid.is_inside(i)) return false;
+  return true;
 }
 
 void find_off_surface_and_walls(Particles& fluid, const std::vector<Boundary>& boundaries,

@@ -16,12 +16,14 @@
 #include "common/run/run_lock.hpp"
 #include "common/run/standard_streams.hpp"
 #include "common/scene/bodies.hpp"
+#include "common/scene/case_bodies.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/axisymmetry.hpp"
 #include "fluid_solver/flow_numbers.hpp"
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/implicit/implicit_faults.hpp"
 #include "fluid_solver/implicit/implicit_twin.hpp"
+#include "fluid_solver/open_ends/section.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/wall_rows.hpp"
@@ -164,7 +166,9 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
 void warn_of_start(const CaseFile& file, const Scene& scene, const fluid::Parameters& parameters,
                    const FluidModel& model) {
   const auto& particles = model.particles();
-  const fluid::Start start{.speed = largest_norm(particles.v, particles.count),
+  double speed = largest_norm(particles.v, particles.count);
+  for (const auto& inlet : parameters.inlets) speed = std::max(speed, inlet.largest_speed_ever());
+  const fluid::Start start{.speed = speed,
                            .blow = fluid::hardest_blow(scene, parameters),
                            .gravity = fluid::gravity_on_columns(scene)};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
@@ -183,6 +187,12 @@ void warn_of_start(const CaseFile& file, const Scene& scene, const fluid::Parame
     log::warn("{}", *jet);
 }
 
+std::vector<Part> solid_parts(const CaseFile& file, const Scene& scene) {
+  std::vector<Part> parts;
+  for (const Body& body : CaseBodies(file, scene).solid) parts.push_back(body.part);
+  return parts;
+}
+
 ExitCode solve(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
   Scene scene = read_scene(file);
@@ -196,6 +206,9 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   for (const auto& [key, message] : fluid::axis_faults(parameters, scene)) file.fault(key, message);
+  if (parameters.has_open_ends())
+    for (const auto& [key, message] : fluid::open_end_faults(parameters, scene, solid_parts(file, scene)))
+      file.fault(key, message);
   file.throw_if_faulty();
   fluid::leave_out(left_out_of_fluid(file, scene), parameters);
   for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);

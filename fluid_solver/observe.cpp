@@ -87,6 +87,12 @@ Frame FluidModel::frame() const {
                             1,
                             {state_.fluid.gdot.begin(), state_.fluid.gdot.begin() + n}});
   }
+  if (const auto& end = state_.fluid.open_end; !end.empty())
+    frame.fields.push_back({"open_end",
+                            "1",
+                            "0 in the fluid, else the open end in whose layer it is",
+                            1,
+                            {end.begin(), end.begin() + static_cast<std::ptrdiff_t>(n)}});
   if (const auto& stress = state_.fluid.polymer_stress; !stress.xx.empty()) {
     FrameField field{"polymer_stress", "Pa", "of the last evaluation", dim * dim, {}};
     for (std::size_t i = 0; i < n; ++i)
@@ -97,17 +103,13 @@ Frame FluidModel::frame() const {
 }
 
 double FluidModel::kinetic_energy() const {
-  double sum = 0;
-  for (std::size_t i = 0; i < state_.fluid.count; ++i)
-    sum += 0.5 * state_.fluid.m[i] * at(state_.fluid.v, i).squaredNorm();
-  return sum;
+  return sum_inside(
+      [&](std::size_t i) { return 0.5 * state_.fluid.m[i] * at(state_.fluid.v, i).squaredNorm(); });
 }
 
 double FluidModel::potential_energy() const {
-  double sum = state_.potential_of_moves;
-  for (std::size_t i = 0; i < state_.fluid.count; ++i)
-    sum += state_.fluid.m[i] * potential(at(state_.fluid.x, i));
-  return sum;
+  return sum_inside([&](std::size_t i) { return state_.fluid.m[i] * potential(at(state_.fluid.x, i)); },
+                    state_.potential_of_moves);
 }
 
 double FluidModel::potential(const Vec& x) const {
@@ -118,31 +120,24 @@ double FluidModel::potential(const Vec& x) const {
 }
 
 double FluidModel::mean_density() const {
-  double mass = 0, volume = 0;
-  for (std::size_t i = 0; i < state_.fluid.count; ++i) {
-    mass += state_.fluid.m[i];
-    volume += state_.fluid.m[i] / state_.fluid.rho[i];
-  }
-  return mass / volume;
+  return mass() / sum_inside([&](std::size_t i) { return state_.fluid.m[i] / state_.fluid.rho[i]; });
 }
 
 double FluidModel::energy_gained() const {
   double gained = energy() - start_energy_ - state_.work_of_gravity_change;
   for (const Boundary& boundary : state_.boundaries) gained -= boundary.work;
+  for_each_open_end([&](const OpenEnds& ends, std::size_t end) { gained -= ends.state(end).work; });
   return gained;
 }
 
 double FluidModel::elastic_energy() const {
-  // integral of p/rho^2 over the density, from rho_0
   const auto& s = equation_of_state_;
-  const double n = s.gamma - 1.0;
-  double sum = 0;
-  for (std::size_t i = 0; i < state_.fluid.count; ++i) {
-    const double ratio = state_.fluid.rho[i] / s.rho_0;
-    const double growth = n > 0 ? (std::pow(ratio, n) - 1) / n : std::log(ratio);
-    sum += state_.fluid.m[i] / s.rho_0 * (s.p_0() * (growth + 1 / ratio - 1) + s.p_b * (1 - 1 / ratio));
-  }
-  return sum;
+  return sum_inside(
+      [&](std::size_t i) { return state_.fluid.m[i] / s.rho_0 * s.elastic_energy(state_.fluid.rho[i]); });
+}
+
+double FluidModel::mass() const {
+  return sum_inside([&](std::size_t i) { return state_.fluid.m[i]; });
 }
 
 RunFigures FluidModel::run_figures(double time) const {
@@ -157,6 +152,7 @@ RunFigures FluidModel::run_figures(double time) const {
     held += 0.5 * fluid.m[i] * p_rho * p_rho / (c_0 * c_0);
   }
   for (const Boundary& boundary : state_.boundaries) moved += std::abs(boundary.work);
+  for_each_open_end([&](const OpenEnds& ends, std::size_t end) { moved += std::abs(ends.state(end).work); });
   moved += std::abs(state_.work_of_gravity_change);
   const std::size_t faster = std::min(std::max(fluid.count / 100, least_fast), fluid.count - 1);
   const auto fast = speed.end() - 1 - static_cast<std::ptrdiff_t>(faster);
@@ -173,9 +169,8 @@ RunFigures FluidModel::run_figures(double time) const {
 }
 
 Vec FluidModel::momentum() const {
-  Vec sum = Vec::Zero();
-  for (std::size_t i = 0; i < state_.fluid.count; ++i) sum += state_.fluid.m[i] * at(state_.fluid.v, i);
-  return sum;
+  return sum_inside([&](std::size_t i) { return Vec(state_.fluid.m[i] * at(state_.fluid.v, i)); },
+                    Vec(Vec::Zero()));
 }
 
 double FluidModel::pressure_offset() const {
@@ -186,6 +181,7 @@ double FluidModel::pressure_offset() const {
 Vec FluidModel::numerical_impulse() const {
   Vec impulse = momentum() - start_momentum_ - state_.gravity_impulse;
   for (const Boundary& boundary : state_.boundaries) impulse -= boundary.impulse.total;
+  for_each_open_end([&](const OpenEnds& ends, std::size_t end) { impulse -= ends.state(end).impulse; });
   return impulse;
 }
 
@@ -224,6 +220,10 @@ std::vector<Observation> FluidModel::observe() const {
          boundary.counted ? given.friction() : Vec(Vec::Zero()));
     push("friction_impulse_from_" + boundary.name, unit_of("N.s"), boundary.impulse.friction);
   }
+  if (state_.open_ends) row.push_back({"mass", unit_of("kg"), mass()});
+  for_each_open_end([&](const OpenEnds& ends, std::size_t end) {
+    for (const auto& observation : ends.observe(end)) row.push_back(observation);
+  });
   if (scene_.gravity.norm() > 0 || scene_.gravity_change)
     push("impulse_of_gravity", unit_of("N.s"), state_.gravity_impulse);
   if (scene_.gravity_change) {

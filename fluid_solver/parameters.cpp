@@ -210,6 +210,8 @@ void describe_start(ParameterTable& table, Parameters& p) {
   table.list("hole", p.holes, "cut out of the regions");
   table.optional("hydrostatic_start", p.hydrostatic_start, "start at rest under gravity");
   table.optional("initial_flow", p.initial_flow, "a flow to start with");
+  table.list("inlet", p.inlets, "open ends of channels where fluid comes in");
+  table.list("outlet", p.outlets, "open ends of channels where fluid leaves");
 }
 
 void describe_model(ParameterTable& table, Parameters& p) {

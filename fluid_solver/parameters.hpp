@@ -9,6 +9,7 @@
 #include "common/scene/scene.hpp"
 #include "fluid_solver/implicit/solver_parameters.hpp"
 #include "fluid_solver/named_medium.hpp"
+#include "fluid_solver/open_ends/parameters.hpp"
 #include "fluid_solver/similarity.hpp"
 #include "fluid_solver/temperature.hpp"
 #include "fluid_solver/terms.hpp"
@@ -109,11 +110,14 @@ struct Parameters : OptionalTerms {
   std::vector<Hole> holes;
   std::optional<HydrostaticStart> hydrostatic_start;
   std::optional<InitialFlow> initial_flow;
+  std::vector<Inlet> inlets = {};
+  std::vector<Outlet> outlets = {};
   WallModel wall_model;
   Limits limits;
   std::vector<Observer> observers;
 
   double h() const { return smoothing_ratio * spacing; }
+  bool has_open_ends() const { return !inlets.empty() || !outlets.empty(); }
   /// Whether a term asks who has a free surface in reach.
   bool seeks_free_surface() const { return particle_shifting || keeps_off_walls(); }
   /// Whether one of them acts away from walls alone.

@@ -16,7 +16,8 @@ using ModeFields = std::array<Symmetric<Field>, most_polymer_modes>;
 
 struct Particles {
   std::size_t count = 0;
-  std::vector<std::uint32_t> id;  ///< number at the start, which sorting keeps
+  /// Number at the start; who comes in later gets the next one. Sorting keeps it.
+  std::vector<std::uint32_t> id;
 
   Declared<VecField> x{"position", "m", FieldKind::state}, v{"velocity", "m/s", FieldKind::state};
   Declared<Field> rho{"density", "kg/m3", FieldKind::state}, m{"mass", "kg/m", FieldKind::state};
@@ -47,16 +48,21 @@ struct Particles {
   Declared<VecField> a_before{"acceleration_of_last_step", "m/s2", FieldKind::state, Presence::on_demand};
   /// The symplectic step begins with that of the end of the last one.
   Declared<Field> drho{"density_rate", "kg/(m3.s)", FieldKind::state};
+  /// Of a channel with open ends: 0 in the fluid, else 1 and up, the end in whose layer the particle is.
+  Declared<Field> open_end{"open_end", "1", FieldKind::state, Presence::on_demand};
 
   std::size_t clusters() const { return padded(count) / lane_count; }
+  /// Whether a particle is in no layer of an open end.
+  bool is_inside(std::size_t i) const { return open_end.empty() || open_end[i] == 0; }
 };
 
 template <class Archive>
 void serialize(Archive& archive, Particles& particles) {
   auto& [count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
-         eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, a_before, drho] = particles;
+         eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, a_before, drho, open_end] =
+      particles;
   archive(count, id, x, v, rho, m, V, p, p_rho2, grad_rho, off_surface, off_surface_and_walls, gdot, eta,
-          eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, a_before, drho);
+          eta_grad_v, log_conformation, log_conformation_rate, polymer_stress, a, a_before, drho, open_end);
 }
 
 /// What a pair loop reads of its sources, fluid or boundary alike.

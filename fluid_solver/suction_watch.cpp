@@ -30,6 +30,7 @@ std::optional<std::string> SuctionWatch::look(const Particles& fluid, double tim
   double lowest = 0;
   const double rho_without_pressure = equation_of_state_.density(0);
   for (std::size_t i = 0; i < fluid.count; ++i) {
+    if (fluid.id[i] >= state_.path.size()) state_.path.resize(fluid.id[i] + 1);  // it came in at an open end
     double& path = state_.path[fluid.id[i]];
     if (path == 0 && fluid.rho[i] >= rho_without_pressure) continue;  // nearly all of a medium that is well
     const double p = !fluid.off_surface_and_walls.empty() && fluid.off_surface_and_walls[i] > 0

@@ -84,6 +84,7 @@ TORYU_INLINE Lanes dot(const VecLanes& a, const VecLanes& b) {
 /// so that idle lanes hold finite values.
 template <class T, class Allocator, class Order>
 void reorder(std::vector<T, Allocator>& values, const Order& order, std::vector<T, Allocator>& scratch) {
+  scratch.reserve(values.capacity());
   scratch.resize(values.size());
   for (std::size_t k = 0; k < order.size(); ++k) scratch[k] = values[order[k]];
   if (!order.empty())

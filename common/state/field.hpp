@@ -90,6 +90,16 @@ void resize_fields(State& state, std::size_t size) {
   });
 }
 
+/// Gives the fields that are there `size` values each; new ones are 0.
+template <class State>
+void resize_present_fields(State& state, std::size_t size) {
+  for_each_field(state, [&](auto& field) {
+    for_each_component(field, [&](Field& component) {
+      if (!component.empty()) resize_field(component, size);
+    });
+  });
+}
+
 /// Sorts the `state` fields that are there: element k becomes what stood at order[k], as by `reorder`.
 template <class State, class Order>
 void reorder_fields(State& state, const Order& order) {

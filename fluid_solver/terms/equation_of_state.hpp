@@ -47,6 +47,13 @@ struct EquationOfState {
   }
   /// Density at pressure p [Pa].
   double density(double p) const { return rho_0 * std::pow((p - p_b) / p_0() + 1.0, 1.0 / gamma); }
+  /// Energy of compression over the volume at rest: rho_0 times the integral of p/rho^2 over the density,
+  /// from rho_0 [J/m3].
+  double elastic_energy(double rho) const {
+    const double n = gamma - 1.0, ratio = rho / rho_0;
+    const double growth = n > 0 ? (std::pow(ratio, n) - 1) / n : std::log(ratio);
+    return p_0() * (growth + 1 / ratio - 1) + p_b * (1 - 1 / ratio);
+  }
 };
 
 inline ActiveTerm text(const BackgroundPressure& background, const Medium&) {

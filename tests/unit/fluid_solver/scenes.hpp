@@ -42,6 +42,20 @@ inline Setting collapsing_column() {
   return s;
 }
 
+/// Makes it a channel along x with open ends, of `height` [m], through which water runs.
+inline void open_channel(Setting& s, double begin, double end, double height) {
+  const double outer = 0.5, thickness = 0.2;  // beyond the layers, and the kernel
+  s.scene.gravity = Vec::Zero();
+  s.scene.walls = {{"floor", {Vec(begin - outer, -thickness), Vec(end + outer, 0)}, {}},
+                   {"ceiling", {Vec(begin - outer, height), Vec(end + outer, height + thickness)}, {}}};
+  s.parameters.regions = {{"water", {Vec(begin, 0), Vec(end, height)}, Vec::Zero()}};
+  s.parameters.hydrostatic_start.reset();
+  s.parameters.background_pressure = BackgroundPressure{3e3};
+  s.parameters.inlets = {
+      {{"inlet", Vec(begin, 0), Vec(begin, height)}, InflowProfile::parabolic, 1.0, 0, {}, 0, {}}};
+  s.parameters.outlets = {{{"outlet", Vec(end, 0), Vec(end, height)}, 0, {}}};
+}
+
 /// What a row of the record holds, by the name of the column.
 inline std::map<std::string, double> columns(const FluidModel& solver) {
   std::map<std::string, double> found;

@@ -217,6 +217,20 @@ const Variant variants[] = {
        s.parameters.particle_shifting = ParticleShifting{};
      },
      false, false, true},
+    {"OpenEnds",
+     [](Setting& s) {
+       open_channel(s, 0, 1, 0.5);
+       s.parameters.regions[0].velocity = Vec(1, 0);
+       s.parameters.particle_shifting = ParticleShifting{};
+       s.parameters.carreau = Carreau{5, 0.1, 0.1, 0.5};
+     }},
+    {"PlateBetweenOpenEnds",
+     [](Setting& s) {
+       open_channel(s, -0.75, 1.4, 0.8);
+       s.parameters.regions[0].velocity = Vec(1, 0);
+       s.parameters.holes = {{Box{Vec(0.5, 0), Vec(0.65, 0.6)}, "plate", {}}};
+     },
+     true},
     {"Plate", [](Setting&) {}, true},
     {"PlateWithImpulse", [](Setting&) {}, true, true},
     {"ConsistentPlateWithImpulse",
