@@ -141,6 +141,21 @@ TEST(ALineOfAnOpenEnd, IsNoneInTheMidstOfTheFluidOrOutside) {
   EXPECT_FALSE(section_of(s.parameters.inlets[0], s.parameters));
 }
 
+TEST(AnInlet, IsWarnedOfThatBeginsAtOnce) {
+  Setting s = channel();
+  EXPECT_THAT(
+      abrupt_inlets(s.parameters),
+      ElementsAre(
+          "the inlet 'inlet' begins at once with a mean of 1 m/s, and the fluid before it starts with "
+          "0 m/s: a blow of rho c times the difference, 2e+04 Pa, runs through the channel; give it a "
+          "'ramp_time' of some passages of sound"));
+  s.parameters.regions[0].velocity = Vec(1, 0);
+  EXPECT_TRUE(abrupt_inlets(s.parameters).empty());
+  s.parameters.regions[0].velocity = Vec::Zero();
+  s.parameters.inlets[0].ramp_time = 1;
+  EXPECT_TRUE(abrupt_inlets(s.parameters).empty());
+}
+
 /// Particles of a channel and its layers, and their ends.
 struct Filled {
   Filled() : Filled(channel()) {}
