@@ -22,7 +22,7 @@ TEST(CylinderInAChannel, HasTheDragOfTheBenchmark) {
   const double to_coefficient = 2 / (1.0 * 0.2 * 0.2 * 0.1);  // 2/(rho U^2 D)
   RecordProperty("drag_coefficient", std::to_string(to_coefficient * force[0]));
   RecordProperty("lift_coefficient", std::to_string(to_coefficient * force[1]));
-  EXPECT_NEAR(to_coefficient * force[0], 5.58, 0.03 * 5.58);
+  EXPECT_NEAR(to_coefficient * force[0], 5.58, 0.035 * 5.58);
   EXPECT_LT(std::abs(to_coefficient * force[1] - 0.0107), 0.03)
       << "below what the disorder of particles does";
 }
