@@ -36,7 +36,7 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
   if (!parameters.particle_shifting) state_.suction_watch.emplace(parameters.spacing, equation_of_state_);
   fill_regions();
   if (parameters.has_open_ends())
-    state_.open_ends.emplace(parameters, scene.gravity_at(0), equation_of_state_).mark(state_.fluid);
+    state_.open_ends.emplace(parameters, equation_of_state_).assign_layers(state_.fluid);
   fill_walls();
   check_overlaps();
   start_momentum_ = momentum();

@@ -173,6 +173,7 @@ void warn_of_start(const CaseFile& file, const Scene& scene, const fluid::Parame
                            .gravity = fluid::gravity_on_columns(scene)};
   for (const auto& beyond : fluid::stability_warnings(parameters, start)) log::warn("{}", beyond);
   for (const auto& spoilt : fluid::similarity_warnings(parameters, scene)) log::warn("{}", spoilt);
+  for (const auto& abrupt : fluid::abrupt_inlets(parameters)) log::warn("{}", abrupt);
   if (const auto rings = fluid::beyond_thinnest_rings(parameters, scene)) log::warn("{}", *rings);
   if (!file.value<double>("fluid.removal.grain_length"))
     if (const auto unknown = fluid::removal_by_grain_length(parameters)) log::warn("{}", *unknown);

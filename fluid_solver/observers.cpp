@@ -83,7 +83,8 @@ double farthest_from_any(std::vector<Vec> particles, const Box& box, double step
 
 double front_x(const Particles& fluid, double spacing) {
   double front = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < fluid.count; ++i) front = std::max(front, fluid.x[0][i]);
+  for (std::size_t i = 0; i < fluid.count; ++i)
+    if (fluid.is_inside(i)) front = std::max(front, fluid.x[0][i]);
   return front + 0.5 * spacing;
 }
 

@@ -21,8 +21,8 @@ double weight(double r, double reach) {
 
 /// Rows of particles that a mean across a row takes in on either side.
 constexpr double rows_in_mean = 2;
-/// K L/c.
-constexpr double share_of_sound = 0.25;
+/// K L/c: velocity and pressure are held the sooner, and the more sound comes back, the larger it is.
+constexpr double relaxation_by_transit = 0.25;
 
 /// Squares of distances that spread by less, over the spacing's, tell no slope.
 constexpr double least_spread = 0.01;
@@ -50,12 +50,11 @@ double length_of_fluid(const Parameters& p, const Section& section) {
 
 }  // namespace
 
-OpenEnds::OpenEnds(const Parameters& p, const Vec& gravity, const EquationOfState& equation_of_state)
+OpenEnds::OpenEnds(const Parameters& p, const EquationOfState& equation_of_state)
     : sections_(sections_of(p)),
       inlets_(p.inlets),
       outlets_(p.outlets),
       equation_of_state_(equation_of_state),
-      gravity_(gravity),
       support_(2 * p.h()),
       skin_(p.neighbour_skin * 2 * p.h()),
       spacing_(p.spacing),
@@ -72,7 +71,7 @@ OpenEnds::OpenEnds(const Parameters& p, const Vec& gravity, const EquationOfStat
   }
 }
 
-void OpenEnds::mark(Particles& fluid) {
+void OpenEnds::assign_layers(Particles& fluid) {
   next_id_ = static_cast<std::uint32_t>(fluid.count);
   fluid.open_end.assign(fluid.x[0].size(), 0.0);
   cell_.assign(size(), 0.0);
@@ -108,7 +107,7 @@ void OpenEnds::find(const Particles& fluid) {
   }
 }
 
-void OpenEnds::cross(const Particles& fluid) {
+void OpenEnds::find_crossings(const Particles& fluid) {
   crossings_.clear();
   kept_.clear();
   for (std::uint32_t i = 0; i < fluid.count; ++i) {
@@ -129,7 +128,7 @@ void OpenEnds::cross(const Particles& fluid) {
 }
 
 /// Behind the last of each row of a layer that runs inward, a spacing apart, up to the end of the layer.
-void OpenEnds::fill_up(const Particles& fluid) {
+void OpenEnds::find_new(const Particles& fluid) {
   new_.clear();
   for (std::size_t end = 0; end < size(); ++end) {
     const Section& section = sections_[end];
@@ -153,10 +152,10 @@ void OpenEnds::fill_up(const Particles& fluid) {
   }
 }
 
-void OpenEnds::renew(Particles& fluid) {
+void OpenEnds::rearrange(Particles& fluid) {
   for (const Crossing& crossing : crossings_)
     fluid.open_end[crossing.particle] = crossing.sign > 0 ? 0 : mark_of(crossing.end);
-  fill_up(fluid);
+  find_new(fluid);
   const std::size_t kept = kept_.size(), count = kept + new_.size();
   if (new_.empty() && kept == fluid.count) return;
   resize_present_fields(fluid, padded(std::max(fluid.count, count)));
@@ -271,7 +270,8 @@ void OpenEnds::note_passing(std::size_t end, double time, double wave) {
   if (first != passing.begin()) passing.erase(passing.begin(), first - 1);
 }
 
-void OpenEnds::impose(Particles& fluid, double time) {
+void OpenEnds::impose(Particles& fluid, double time, const Vec& gravity) {
+  gravity_ = gravity;
   const double rho_c = equation_of_state_.rho_0 * equation_of_state_.c_0;
   for (std::size_t end = 0; end < size(); ++end) {
     const Section& section = sections_[end];
@@ -303,14 +303,14 @@ void OpenEnds::impose(Particles& fluid, double time) {
   }
 }
 
-void OpenEnds::silence(Particles& fluid, const Vec& gravity, bool velocity, bool density) {
+void OpenEnds::take_rates(Particles& fluid, bool velocity, bool density) {
   for (std::size_t end = 0; end < size(); ++end) {
     State& state = state_[end];
     if (velocity) state.force.setZero(), state.power = 0;
     if (density) state.pressure_power = 0;
     for (const std::uint32_t i : layer_[end]) {
       if (velocity) {
-        const Vec force = fluid.m[i] * (at(fluid.a, i) - gravity);
+        const Vec force = fluid.m[i] * (at(fluid.a, i) - gravity_);
         state.force += force;
         state.power += force.dot(at(fluid.v, i));
         set(fluid.a, i, Vec::Zero());
@@ -324,7 +324,7 @@ void OpenEnds::silence(Particles& fluid, const Vec& gravity, bool velocity, bool
   }
 }
 
-void OpenEnds::leave_alone(Particles& fluid) const {
+void OpenEnds::exclude_from_corrections(Particles& fluid) const {
   for (const auto& layer : layer_)
     for (const std::uint32_t i : layer) fluid.off_surface[i] = 0;
 }
@@ -334,7 +334,7 @@ void OpenEnds::count(double dt) {
     State& state = state_[end];
     state.impulse -= dt * state.force;
     state.work -= dt * (state.power + state.pressure_power);
-    const double share = 1 - std::exp(-share_of_sound * dt / transits_[end]);
+    const double share = 1 - std::exp(-relaxation_by_transit * dt / transits_[end]);
     state.slow_wave += share * (state.wave - state.slow_wave);
     state.gradient += share * (state.means.gradient - state.gradient);
   }

@@ -94,15 +94,15 @@ class OpenEnds {
     Vec impulse = Vec::Zero();  ///< [N.s per metre]
   };
   /// Parameters without the layers.
-  OpenEnds(const Parameters& parameters, const Vec& gravity, const EquationOfState& equation_of_state);
+  OpenEnds(const Parameters& parameters, const EquationOfState& equation_of_state);
 
   /// Says of each particle of a fluid that has been filled whether it is in a layer.
-  void mark(Particles& fluid);
+  void assign_layers(Particles& fluid);
   /// Lets those change sides who have crossed, new ones in and old ones out. `energy(k)` is that of particle
   /// k over its mass [m2/s2]. To be called before lists are built, and `find` after that.
   template <class EnergyOf>
   void exchange(Particles& fluid, EnergyOf&& energy) {
-    cross(fluid);
+    find_crossings(fluid);
     for (const Crossing& crossing : crossings_) {
       State& state = state_[crossing.end];
       const double mass = crossing.sign * fluid.m[crossing.particle];
@@ -110,16 +110,16 @@ class OpenEnds {
       state.impulse += mass * at(fluid.v, crossing.particle);
       state.work += mass * energy(crossing.particle);
     }
-    renew(fluid);
+    rearrange(fluid);
   }
   /// Finds who is in each layer and near each line.
   void find(const Particles& fluid);
-  /// Gives the layers their velocity and density at `time` [s].
-  void impose(Particles& fluid, double time);
+  /// Gives the layers their velocity and density at `time` [s], with the gravity of then [m/s2].
+  void impose(Particles& fluid, double time, const Vec& gravity);
   /// Notes what pairs did to the layers in the evaluation that is just done, and takes it from them.
-  void silence(Particles& fluid, const Vec& gravity, bool velocity, bool density);
+  void take_rates(Particles& fluid, bool velocity, bool density);
   /// Has `off_surface` 0 in the layers, so that what moves or corrects particles leaves them as they are.
-  void leave_alone(Particles& fluid) const;
+  void exclude_from_corrections(Particles& fluid) const;
   /// Counts it for a step of `dt` [s].
   void count(double dt);
 
@@ -155,9 +155,9 @@ class OpenEnds {
     std::uint32_t kept = 0;
     double distance = 0;  ///< [m]
   };
-  void cross(const Particles& fluid);
-  void fill_up(const Particles& fluid);
-  void renew(Particles& fluid);
+  void find_crossings(const Particles& fluid);
+  void find_new(const Particles& fluid);
+  void rearrange(Particles& fluid);
   SectionMeans means(const Particles& fluid, std::size_t end) const;
   void note_passing(std::size_t end, double time, double wave);
   void find_velocities(const Particles& fluid, std::size_t end);
@@ -173,7 +173,7 @@ class OpenEnds {
   std::vector<Outlet> outlets_;
   std::vector<double> transits_;  ///< L/c of each [s]
   EquationOfState equation_of_state_;
-  Vec gravity_;
+  Vec gravity_ = Vec::Zero();  ///< as the layers were imposed last
   double support_, skin_, spacing_;
 
   std::vector<State> state_;

@@ -20,6 +20,9 @@ constexpr const char* no_side =
     "the line has fluid on neither side or on both: a [[fluid.region]] must end at it, and nothing of the "
     "fluid lie beyond";
 
+/// Over the sound speed: of a larger change at once the density changes by more than 1 %.
+constexpr double largest_start = 0.01;
+
 bool lies_along_an_axis(const OpenEnd& end) {
   const Vec length = end.to - end.from;
   return (length[0] == 0) != (length[1] == 0);
@@ -149,6 +152,26 @@ Parameters with_layers(Parameters p) {
     layers.push_back({.name = "beyond an open end", .box = section.layer()});
   p.regions.insert(p.regions.end(), layers.begin(), layers.end());
   return p;
+}
+
+std::vector<std::string> abrupt_inlets(const Parameters& p) {
+  std::vector<std::string> said;
+  for (const Inlet& inlet : p.inlets) {
+    const auto section = section_of(inlet, p);
+    if (!section) continue;
+    const Vec before = section->point(0.5 * section->length, 0.5 * p.spacing);
+    double speed = 0;
+    for (const Region& region : p.regions)
+      if (region.box.contains(before)) speed = section->inward.dot(region.velocity);
+    const double blow = inlet.mean_at(0) - speed;
+    if (std::abs(blow) <= largest_start * p.sound_speed) continue;
+    said.push_back(fmt::format(
+        "the inlet '{}' begins at once with a mean of {:.3g} m/s, and the fluid before it starts with {:.3g} "
+        "m/s: a blow of rho c times the difference, {:.3g} Pa, runs through the channel; give it a "
+        "'ramp_time' of some passages of sound",
+        inlet.name, inlet.mean_at(0), speed, p.density * p.sound_speed * std::abs(blow)));
+  }
+  return said;
 }
 
 std::vector<StartFault> open_end_faults(const Parameters& p, const Scene& scene,

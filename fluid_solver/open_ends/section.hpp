@@ -40,4 +40,8 @@ Parameters with_layers(Parameters parameters);
 std::vector<StartFault> open_end_faults(const Parameters& parameters, const Scene& scene,
                                         const std::vector<Part>& solid = {});
 
+/// A sentence for each inlet whose mean speed at the start is another than that of the fluid before it by
+/// more than a hundredth of the sound speed.
+std::vector<std::string> abrupt_inlets(const Parameters& parameters);
+
 }  // namespace toryu::fluid

@@ -151,7 +151,7 @@ void WeaklyCompressible::advance(double dt) {
   if (parameters_.seeks_free_surface()) {
     const auto timer = timers_.measure("free surface");
     free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
-    if (state_.open_ends) state_.open_ends->leave_alone(state_.fluid);
+    if (state_.open_ends) state_.open_ends->exclude_from_corrections(state_.fluid);
     if (parameters_.keeps_off_walls()) find_off_surface_and_walls(state_.fluid, state_.boundaries, kernel_);
   }
   if (parameters_.integrator == Integrator::symplectic)
@@ -164,11 +164,10 @@ void WeaklyCompressible::advance(double dt) {
 
 void WeaklyCompressible::evaluate(RatesOf wanted, double time) {
   if (scene_.gravity_change) dynamics_.set_gravity(scene_.gravity_at(time));
-  if (state_.open_ends) state_.open_ends->impose(state_.fluid, time);
+  if (state_.open_ends) state_.open_ends->impose(state_.fluid, time, scene_.gravity_at(time));
   dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_);
   if (state_.open_ends)
-    state_.open_ends->silence(state_.fluid, scene_.gravity_at(time), wanted != RatesOf::density,
-                              wanted != RatesOf::velocity);
+    state_.open_ends->take_rates(state_.fluid, wanted != RatesOf::density, wanted != RatesOf::velocity);
 }
 
 void WeaklyCompressible::step_midpoint(double dt) {

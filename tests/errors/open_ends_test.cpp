@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
             "is none near (-0.225, 1.025) m; the layer beyond the line is 0.35 m deep, to x = -0.35 m"},
         OpenEndFault{
             "ShortChannel",
-            "fluid.region.water.box.max=[0.2,1.0] fluid.outlet.outlet.from=[0.2,0.0] "
+            "fluid.region.channel.box.max=[0.2,1.0] fluid.outlet.outlet.from=[0.2,0.0] "
             "fluid.outlet.outlet.to=[0.2,1.0]",
             "open end 'outlet': the channel must be longer than the layer beyond the line is deep: it "
             "ends near (-0.025, 0.5) m; the layer beyond the line is 0.35 m deep, to x = 0.55 m"},

@@ -19,7 +19,7 @@ double column(const FluidModel& solver, const std::string& name) {
 TEST(OpenChannel, HasTheDevelopedFlowAndKeepsItsMassOverTenPassages) {
   // half as long as the case's
   WeaklyCompressible solver =
-      FluidCase("open_channel", {"fluid.region.water.box.max=[1,1]", "fluid.outlet.outlet.from=[1,0]",
+      FluidCase("open_channel", {"fluid.region.channel.box.max=[1,1]", "fluid.outlet.outlet.from=[1,0]",
                                  "fluid.outlet.outlet.to=[1,1]"})
           .solver();
   run_until(solver, 11);
@@ -43,7 +43,7 @@ FluidCase channel_with_a_pulse(double width) {
                     {"fluid.spacing=0.05", "fluid.sound_speed=10", "fluid.laminar_viscosity=false",
                      "fluid.background_pressure=false", "fluid.wall_model={slip=\"free_slip\"}",
                      "wall.lower.box.max=[4.4,0]", "wall.upper.box={min=[-0.4,0.5],max=[4.4,0.75]}",
-                     "case.domain.max=[4.5,1.6]", "fluid.region.water.box.max=[4,0.5]",
+                     "case.domain.max=[4.5,1.6]", "fluid.region.channel.box.max=[4,0.5]",
                      "fluid.inlet.inlet.to=[0,0.5]", "fluid.inlet.inlet.ramp_time=1e6",
                      "fluid.outlet.outlet.from=[4,0]", "fluid.outlet.outlet.to=[4,0.5]"});
   auto& regions = channel.parameters.regions;

@@ -141,12 +141,26 @@ TEST(ALineOfAnOpenEnd, IsNoneInTheMidstOfTheFluidOrOutside) {
   EXPECT_FALSE(section_of(s.parameters.inlets[0], s.parameters));
 }
 
+TEST(AnInlet, IsWarnedOfThatBeginsAtOnce) {
+  Setting s = channel();
+  EXPECT_THAT(
+      abrupt_inlets(s.parameters),
+      ElementsAre(
+          "the inlet 'inlet' begins at once with a mean of 1 m/s, and the fluid before it starts with "
+          "0 m/s: a blow of rho c times the difference, 2e+04 Pa, runs through the channel; give it a "
+          "'ramp_time' of some passages of sound"));
+  s.parameters.regions[0].velocity = Vec(1, 0);
+  EXPECT_TRUE(abrupt_inlets(s.parameters).empty());
+  s.parameters.regions[0].velocity = Vec::Zero();
+  s.parameters.inlets[0].ramp_time = 1;
+  EXPECT_TRUE(abrupt_inlets(s.parameters).empty());
+}
+
 /// Particles of a channel and its layers, and their ends.
 struct Filled {
   Filled() : Filled(channel()) {}
-  explicit Filled(const Setting& s)
-      : fluid(s.solver().particles()), ends(s.parameters, s.scene.gravity, {1000, 20, 7, 3e3}) {
-    ends.mark(fluid);
+  explicit Filled(const Setting& s) : fluid(s.solver().particles()), ends(s.parameters, {1000, 20, 7, 3e3}) {
+    ends.assign_layers(fluid);
   }
   /// All whose centre is nearer than half a spacing to `place` [m].
   std::vector<std::uint32_t> near(const Vec& place) const {
@@ -224,11 +238,11 @@ TEST(Layers, TakeBackWhatRunsOutOfAnInlet) {
 TEST(Layers, TakeNoMemoryAsParticlesComeAndGo) {
   Filled channel;
   for (auto& u : channel.fluid.v[0]) u = 1;
-  channel.ends.impose(channel.fluid, 0);
+  channel.ends.impose(channel.fluid, 0, Vec::Zero());
   const auto pass = [&](double begin) {
     for (int step = 0; step < 40; ++step) {
-      channel.ends.impose(channel.fluid, begin + 0.001 * step);
-      channel.ends.silence(channel.fluid, Vec::Zero(), true, true);
+      channel.ends.impose(channel.fluid, begin + 0.001 * step, Vec::Zero());
+      channel.ends.take_rates(channel.fluid, true, true);
       channel.ends.count(0.001);
       channel.move(0.01);
       channel.exchange();
@@ -256,7 +270,7 @@ TEST(TheLayerOfAnInlet, HasTheProfileAndTheFluidsPressureOnALine) {
   Filled channel;
   const EquationOfState state{1000, 20, 7, 3e3};
   give(channel, 500, -200);
-  channel.ends.impose(channel.fluid, 0);
+  channel.ends.impose(channel.fluid, 0, Vec::Zero());
   for (std::size_t i = 0; i < channel.fluid.count; ++i) {
     if (channel.fluid.open_end[i] != 1) continue;
     const Vec x = at(channel.fluid.x, i);
@@ -274,7 +288,7 @@ TEST(TheLayerOfAnOutlet, HasItsPressureOnTheFluidsLineAndTheFluidsProfile) {
   Filled channel(s);
   const EquationOfState state{1000, 20, 7, 3e3};
   give(channel, 500, -200);
-  channel.ends.impose(channel.fluid, 0);
+  channel.ends.impose(channel.fluid, 0, Vec::Zero());
   for (std::size_t i = 0; i < channel.fluid.count; ++i) {
     if (channel.fluid.open_end[i] != 2) continue;
     const double y = channel.fluid.x[1][i];
@@ -287,7 +301,7 @@ TEST(Layers, LetSoundOut) {
   Filled channel;
   const EquationOfState state{1000, 20, 7, 3e3};
   give(channel, 0, 0);
-  channel.ends.impose(channel.fluid, 0);
+  channel.ends.impose(channel.fluid, 0, Vec::Zero());
   // Of 0.001 m/s away from the fluid at both ends: u' and p' = rho c 0.001.
   const double rho_c = 1000 * 20, w = 1e-3;
   for (std::size_t i = 0; i < channel.fluid.count; ++i)
@@ -295,12 +309,12 @@ TEST(Layers, LetSoundOut) {
       channel.fluid.v[0][i] += channel.fluid.x[0][i] < 1 ? -w : w;
       channel.fluid.rho[i] = state.density(3e3 + rho_c * w);
     }
-  channel.ends.impose(channel.fluid, 1);  // sound has been through the layers since
+  channel.ends.impose(channel.fluid, 1, Vec::Zero());  // sound has been through the layers since
   for (int end : {0, 1}) {
     const auto& now = channel.ends.state(static_cast<std::size_t>(end));
     EXPECT_NEAR(now.wave - now.slow_wave, w, 1e-6);
   }
-  channel.ends.impose(channel.fluid, 2);
+  channel.ends.impose(channel.fluid, 2, Vec::Zero());
   for (std::size_t i = 0; i < channel.fluid.count; ++i) {
     if (channel.fluid.is_inside(i)) continue;
     const double y = channel.fluid.x[1][i], sign = channel.fluid.open_end[i] == 1 ? -1 : 1;
@@ -312,9 +326,9 @@ TEST(Layers, LetSoundOut) {
 TEST(Layers, HoldTheSlowPartOfAWave) {
   Filled channel;
   give(channel, 0, 0);
-  channel.ends.impose(channel.fluid, 0);
+  channel.ends.impose(channel.fluid, 0, Vec::Zero());
   give(channel, 100, 0);
-  channel.ends.impose(channel.fluid, 1);
+  channel.ends.impose(channel.fluid, 1, Vec::Zero());
   const double wave = channel.ends.state(0).wave, before = channel.ends.state(0).slow_wave;
   EXPECT_NEAR(wave - before, 100 / (2 * 1000 * 20.0), 1e-9);
   channel.ends.count(0.1);  // K = c/(4 L) = 20/8
