@@ -12,6 +12,7 @@ import tomllib
 import unittest
 
 import path_difference
+import turek_hron_fsi
 
 PATHS = {}
 
@@ -68,6 +69,18 @@ class SlantedGate(unittest.TestCase):
             found = path_difference.difference(*outs)
         self.assertLess(abs(found.peak), 0.01)
         self.assertLess(found.path, 0.01)
+
+
+class TurekHron(unittest.TestCase):
+    def test_a_stream_pulls_and_lifts_the_beam_behind_the_cylinder(self):
+        with tempfile.TemporaryDirectory() as out:
+            done = launch("turek_hron_fsi", out, "--set=case.frame_interval=0")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            forces = turek_hron_fsi.of_run(pathlib.Path(out), since=6.0)
+        self.assertLess(abs(forces.drag / 14.295 - 1), 0.06)  # +4 % at this spacing
+        self.assertLess(abs(forces.lift / 0.7638 - 1), 0.2)
+        self.assertLess(abs(forces.u_x / 2.27e-5 - 1), 0.15)
+        self.assertLess(abs(forces.u_y / 8.21e-4 - 1), 0.4)
 
 
 class SubmergedBeam(unittest.TestCase):
