@@ -29,7 +29,7 @@ GHOSTS = 5  # positions of what moves
 ARROW = 26  # [pt] of gravity
 INK, SOFT = PALETTE["ink"], PALETTE["soft"]
 COLOURS = {"wall": PALETTE["wall"], "moving": "#9db4c9", "work_piece": PALETTE["piece"], "walls": SOFT, "fluid": "#2c728e",
-           "solid": PALETTE["c1"], "clamp": INK, "load": PALETTE["bad"], "observer": PALETTE["c3"]}
+           "solid": PALETTE["c1"], "clamp": INK, "load": PALETTE["bad"], "observer": PALETTE["c3"], "inlet": PALETTE["good"], "outlet": PALETTE["c4"]}
 
 
 class NoPicture(Exception):
@@ -180,6 +180,15 @@ class Drawing:
                 self.axes.annotate(str(observer.get("name", "")).replace("_", " "), place, xytext=(5, 5),
                                    textcoords="offset points", fontsize=8, color=COLOURS["observer"], zorder=9)
 
+    def open_ends(self):
+        for kind, colour in (("inlet", COLOURS["inlet"]), ("outlet", COLOURS["outlet"])):
+            for end in data.tables_of(data.table(self.case.content, "fluid"), kind):
+                line = [end.get("from"), end.get("to")]
+                if not all(data.numbers(point, 2) for point in line):
+                    continue
+                self.legend[kind] = self.axes.plot(*np.array(line).T, color=colour, linewidth=2.4, zorder=6)[0]
+                self.write_name([line], str(end.get("name", "")), colour)
+
     def frame(self):
         content = data.table(self.case.content, "case")
         if domain := data.box_of(data.table(content, "domain")):
@@ -209,6 +218,7 @@ def draw(case, path, bin_folder, settings):
     drawing.walls()
     drawing.dots()
     drawing.bodies()
+    drawing.open_ends()
     drawing.frame()
     drawing.save(pathlib.Path(path))
     return "\n".join(summary(body) for body in particles)

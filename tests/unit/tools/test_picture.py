@@ -46,6 +46,12 @@ class Picture(unittest.TestCase):
         self.assertEqual(self.check("turek_hron_csm", "--picture").returncode, 0)
         self.assertTrue((self.folder / "out/turek_hron_csm_scene.svg").is_file())
 
+    def test_it_shows_open_ends(self):
+        done = self.check("open_channel", "--picture", "scene.svg", "--set", "fluid.spacing=0.1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "scene.svg").read_text()
+        self.assertEqual([text.count(f">{name}<") for name in ("inlet", "outlet")], [2, 2], "name and legend of each")
+
     def test_what_is_wrong_is_told(self):
         (self.folder / "folder.svg").mkdir()
         (self.folder / "file").touch()
