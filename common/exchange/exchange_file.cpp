@@ -1,6 +1,11 @@
 #include "common/exchange/exchange_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+
+#include "common/error/counted.hpp"
 
 namespace toryu {
 
@@ -9,6 +14,23 @@ namespace {
 constexpr const char* file_name = "exchange.h5";
 /// Windows that a replay goes back and forth between.
 constexpr std::size_t most_kept = 4;
+
+/// Of the time: by how much a window may begin beside the end of the one before.
+constexpr double rounding = 1e-9;
+
+/// Each series with the numbers of its rows, of an interface of `count` particles.
+std::vector<std::pair<std::string, std::size_t>> sizes(std::size_t count) {
+  const std::size_t wide = dim * count;
+  return {{"presence", 3},        {"pressure", count},
+          {"force", wide},        {"friction_force", wide},
+          {"impedance", wide},    {"impulse_on_fluid", dim},
+          {"time_step_limit", 1}, {"work_of_impulse_on_fluid", 1},
+          {"fluid_energies", 2},  {"fluid_momentum", dim},
+          {"position", wide},     {"velocity", wide},
+          {"impulse", wide},      {"work_of_impulse_on_solid", 1},
+          {"impulse_taken", dim}, {"solid_energies", 2},
+          {"solid_momentum", dim}};
+}
 
 /// Which of the vectors that may be absent are there, in this order: friction force, impedance, impulse.
 using Presence = std::array<double, 3>;
@@ -92,7 +114,24 @@ ExchangeReader::ExchangeReader(const std::filesystem::path& out) : path_(out / f
   lengths_ = file_.all("window_length");
   for (std::size_t n = 0; n < std::min(starts_.size(), lengths_.size()); ++n)
     ends_.push_back(starts_[n] + lengths_[n]);
-  if (ends_.empty()) throw BadInput({{.place = path_.string(), .message = "it holds no window"}});
+  check_windows();
+}
+
+void ExchangeReader::refuse(const std::string& why) const {
+  throw BadInput({{.place = path_.string(), .message = why}});
+}
+
+void ExchangeReader::check_windows() {
+  if (ends_.empty()) refuse("it holds no window");
+  for (std::size_t n = 0; n < ends_.size(); ++n) {
+    const double before = n == 0 ? 0.0 : ends_[n - 1];
+    if (!(lengths_[n] > 0) || !(std::abs(starts_[n] - before) <= rounding * ends_[n]))
+      refuse(fmt::format("its window {} does not begin where the one before ends, or has no length", n));
+  }
+  for (const auto& [name, size] : sizes(start_.interface.size()))
+    if (const auto found = file_.row(name, 0).size(); found != size || file_.rows(name) < ends_.size())
+      refuse(fmt::format("its '{}' has {} of {}, not {} of {}", name, counted(file_.rows(name), "row"), found,
+                         ends_.size(), size));
 }
 
 std::size_t ExchangeReader::at(double time) const {
@@ -109,28 +148,34 @@ const RecordedWindow& ExchangeReader::window(std::size_t number) {
 }
 
 RecordedWindow ExchangeReader::read(std::size_t n) {
-  const auto vector = [&](const char* name) -> Vec { return vector_of(file_.row(name, n), 0); };
-  const auto number = [&](const char* name) { return file_.row(name, n)[0]; };
-  const auto presence = file_.row("presence", n);
+  const auto row = [&](const char* name) {
+    auto values = file_.row(name, n);
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+      refuse(fmt::format("'{}' of its window {} holds what is no number", name, n));
+    return values;
+  };
+  const auto vector = [&](const char* name) -> Vec { return vector_of(row(name), 0); };
+  const auto number = [&](const char* name) { return row(name)[0]; };
+  const auto presence = row("presence");
   const auto if_there = [&](std::size_t k, const char* name) {
-    return presence.at(k) != 0 ? file_.row(name, n) : std::vector<double>{};
+    return presence[k] != 0 ? row(name) : std::vector<double>{};
   };
   const auto health = [&](const char* energies, const char* momentum) {
-    const auto of = file_.row(energies, n);
-    return Health{.kinetic_energy = of.at(0), .potential_energy = of.at(1), .momentum = vector(momentum)};
+    const auto of = row(energies);
+    return Health{.kinetic_energy = of[0], .potential_energy = of[1], .momentum = vector(momentum)};
   };
   RecordedWindow found;
   found.window = {.number = n + 1, .iteration = 0, .time = starts_[n], .dt = lengths_[n]};
-  found.fluid.load = {.pressure = file_.row("pressure", n),
-                      .force = file_.row("force", n),
+  found.fluid.load = {.pressure = row("pressure"),
+                      .force = row("force"),
                       .friction_force = if_there(0, "friction_force"),
                       .impulse_on_fluid = vector("impulse_on_fluid"),
                       .work_of_impulse = number("work_of_impulse_on_fluid"),
                       .impedance = if_there(1, "impedance")};
   found.fluid.time_step_limit = number("time_step_limit");
   found.fluid.health = health("fluid_energies", "fluid_momentum");
-  found.solid.motion = {.position = file_.row("position", n),
-                        .velocity = file_.row("velocity", n),
+  found.solid.motion = {.position = row("position"),
+                        .velocity = row("velocity"),
                         .impulse = if_there(2, "impulse"),
                         .work_of_impulse = number("work_of_impulse_on_solid")};
   found.solid.impulse_taken = vector("impulse_taken");

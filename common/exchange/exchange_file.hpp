@@ -51,6 +51,8 @@ class ExchangeReader {
   const RecordedWindow& window(std::size_t number);
 
  private:
+  [[noreturn]] void refuse(const std::string& why) const;
+  void check_windows();
   RecordedWindow read(std::size_t number);
 
   std::filesystem::path path_;

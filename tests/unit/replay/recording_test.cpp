@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "tests/unit/coupler/scratch_folder.hpp"
@@ -182,6 +183,46 @@ TEST(Recording, IsRefusedToAFluidThatReachesDeeper) {
   EXPECT_NO_THROW(recording.check_reach(0.3));
   EXPECT_NO_THROW(recording.check_reach(0.1));
   EXPECT_THAT(fault_of([&] { recording.check_reach(0.31); }), HasSubstr("this fluid reaches 0.31 m"));
+}
+
+/// Changes one number of a dataset in place.
+void change(const std::filesystem::path& path, const char* name, std::vector<hsize_t> place, double value) {
+  const HdfHandle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "open it");
+  const HdfHandle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, name);
+  const HdfHandle space(H5Dget_space(dataset), H5Sclose, name), one(H5Screate(H5S_SCALAR), H5Sclose, name);
+  H5Sselect_elements(space, H5S_SELECT_SET, 1, place.data());
+  ASSERT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, one, space, H5P_DEFAULT, &value), 0);
+}
+
+TEST(Recording, OfNoNumbersOrOfWindowsThatDoNotFollowIsRefused) {
+  const Window second{.number = 2, .iteration = 0, .time = 1, .dt = 2};
+  {
+    const Recorded recorded;
+    change(recorded.folder.path / "exchange.h5", "force", {1, 1, 0}, std::nan(""));
+    auto recording = recorded.recording();
+    EXPECT_THAT(fault_of([&] { recording.fluid_over(second, {}); }),
+                HasSubstr("'force' of its window 1 holds what is no number"));
+  }
+  for (const auto& [name, value] : {std::pair{"window_length", -2.0}, std::pair{"window_start", 1.5}}) {
+    const Recorded recorded;
+    change(recorded.folder.path / "exchange.h5", name, {1}, value);
+    EXPECT_THAT(fault_of([&] { recorded.recording(); }),
+                HasSubstr("its window 1 does not begin where the one before ends, or has no length"));
+  }
+}
+
+TEST(Recording, OfFewerParticlesThanItsInterfaceHasIsRefused) {
+  const Recorded recorded;
+  const HdfHandle file(H5Fopen((recorded.folder.path / "exchange.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+                       H5Fclose, "open it");
+  H5Ldelete(file, "pressure", H5P_DEFAULT);
+  const hsize_t shape[] = {2, 3};
+  const HdfHandle space(H5Screate_simple(2, shape, nullptr), H5Sclose, "space");
+  HdfHandle(H5Dcreate2(file, "pressure", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose, "pressure");
+  H5Fflush(file, H5F_SCOPE_LOCAL);
+  EXPECT_THAT(fault_of([&] { recorded.recording(); }),
+              HasSubstr("its 'pressure' has 2 rows of 3, not 3 of 2"));
 }
 
 TEST(Recording, ThatIsDamagedIsRefused) {
