@@ -37,11 +37,11 @@ if name == "sbatch":
         if (HERE / "lose").exists():
             (HERE / "lose").unlink()
             continue
-        with open(option("--output").replace("%a", str(index)), "w") as output:
+        with open(option("--output").replace("%a", str(index)).replace("%%", "%"), "w") as output:
             started = subprocess.Popen(["/bin/sh", arguments[-1]], env=os.environ | {"SLURM_ARRAY_TASK_ID": str(index)},
                                        stdout=output, stderr=output, stdin=subprocess.DEVNULL, start_new_session=True)
         (JOBS / job).write_text(str(started.pid))
-    print(array)
+    print("Welcome to the cluster; you have 12 hours left", f"{array};main", sep="\n")
 elif name == "squeue":
     wanted = option("--jobs").split(",")
     print(*(path.name for path in JOBS.iterdir() if path.name.partition("_")[0] in wanted and alive(path.name)), sep="\n")

@@ -27,9 +27,11 @@ HEAD_SLOW = study_case.HEAD + '[[axis]]\nname = "wait"\nvalues = [2.0]\nkeys = [
 
 class Elsewhere(Study):
     where = "slurm"
+    results = "out, of 100 %"
 
     def setUp(self):
         super().setUp()
+        self.out = self.folder / self.results
         self.environment = dict(os.environ)
         if REAL:
             self.environment = dict(slurm.environment)

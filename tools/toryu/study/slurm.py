@@ -1,5 +1,6 @@
 """Slurm as the queue of a study: an array of jobs a submission."""
 
+import re
 import shlex
 import subprocess
 
@@ -28,10 +29,11 @@ class Slurm:
         most = f"%{self.jobs}" if self.jobs else ""
         done = ask(["sbatch", "--parsable", f"--job-name={self.name}", f"--array=0-{count - 1}{most}", "--ntasks=1",
                     f"--cpus-per-task={self.threads}", f"--signal=B:TERM@{SIGNAL_BEFORE_LIMIT}",
-                    f"--output={table.with_suffix('')}_%a.txt", *self.options, str(script)])
-        if done.returncode != 0:
-            raise Ended(MACHINE, f"sbatch refused the runs: {done.stderr.strip()}")
-        array = done.stdout.strip().partition(";")[0]
+                    f"--output={str(table.with_suffix('')).replace('%', '%%')}_%a.txt", *self.options, str(script)])
+        answer = re.search(r"^(\d+)(;.*)?$", done.stdout, re.MULTILINE)  # sites print words of their own before it
+        if done.returncode != 0 or not answer:
+            raise Ended(MACHINE, f"sbatch refused the runs: {(done.stderr + done.stdout).strip()}")
+        array = answer[1]
         return [f"{array}_{index}" for index in range(count)]
 
     def alive(self, jobs):
