@@ -26,6 +26,7 @@ struct Settings {
   double frame_interval = 0, series_interval = 0;  ///< [s]
   Parameters coupling = {};
   std::filesystem::path out = {};  ///< the results folder
+  Network network = {};
 };
 
 class CoupledRecord {

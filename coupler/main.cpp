@@ -65,6 +65,7 @@ void run_and_sum_up(const CaseFile& file, const Settings& settings, const Checkp
   CouplerLink link({.role = "coupler",
                     .version = summary.provenance.version,
                     .out = settings.out,
+                    .network = settings.network,
                     .case_hash = file.hash(),
                     .time_limit = settings.coupling.time_limit,
                     .used_case = file.used()});
@@ -124,7 +125,8 @@ ExitCode couple(const Options& options) {
                   .frame_interval = scene.frame_interval,
                   .series_interval = scene.series_interval,
                   .coupling = coupling,
-                  .out = options.out},
+                  .out = options.out,
+                  .network = options.network},
                  checkpoints);
   return ExitCode::done;
 }

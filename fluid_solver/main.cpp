@@ -80,6 +80,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
   FluidLink link({.role = "fluid_solver",
                   .version = provenance(1).version,
                   .out = options.out,
+                  .network = options.network,
                   .case_hash = file.hash(),
                   .can_repeat = true,
                   .can_checkpoint = true,

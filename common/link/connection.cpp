@@ -8,6 +8,7 @@
 #include "common/error/failure.hpp"
 #include "common/error/printable.hpp"
 #include "common/link/process.hpp"
+#include "common/link/run_secret.hpp"
 #include "common/run/interruption.hpp"
 #include "common/run/log.hpp"
 
@@ -20,13 +21,29 @@ constexpr auto longest_sleep = 100ms;  // between looks at interruptions and the
 constexpr auto status_interval = 200ms;
 using Seconds = std::chrono::duration<double>;
 
+bool is_over_hosts(const LinkSettings& settings) {
+  return !settings.network.peers.empty();
+}
+
+/// Over hosts a secret that a participant made for itself would leave it alone.
+dds::Rendezvous place_of(const LinkSettings& settings) {
+  if (is_over_hosts(settings) && !has_run_secret(settings.out))
+    throw BadInput(
+        {{.place = "--peers",
+          .message = fmt::format("the secret of the run is not in {}: the coupler makes it in its "
+                                 "results folder when it starts; copy that file here for its owner "
+                                 "alone ('scp -p')",
+                                 (settings.out / "run.secret").string())}});
+  return dds::rendezvous(settings.out, settings.network);
+}
+
 }  // namespace
 
 Connection::Connection(const LinkSettings& settings, toryu_Role role)
     : settings_(settings),
       role_(role),
       process_(own_process()),
-      node_(dds::rendezvous(settings.out)),
+      node_(place_of(settings)),
       hello_(node_, wire::hello),
       status_(node_, wire::status),
       sessions_(node_, wire::session, coupler_),
@@ -38,6 +55,7 @@ Connection::Connection(const LinkSettings& settings, toryu_Role role)
 Connection::~Connection() {
   // A participant that goes without a word would look dead only after its lease has lapsed.
   if (!over_ && !left_) leave(ExitCode::bug, "ended before the run was over");
+  if (is_over_hosts(settings_)) forget_run_secret(settings_.out);  // this copy; the coupler forgets its own
 }
 
 void Connection::write_hello() {
@@ -140,12 +158,13 @@ void Connection::check_coupler() {
   else if (!lapsed_)
     lapsed_ = now;
   const ProcessState state = state_of(coupler_process_);
-  const bool lapsed = lapsed_ && now - *lapsed_ > dds::grace && state != ProcessState::runs;
+  const bool lapsed =
+      lapsed_ && now - *lapsed_ > dds::grace(settings_.network.lost_after) && state != ProcessState::runs;
   if (lapsed || state == ProcessState::gone) {
     receive();  // its last words say more, and may have come since they were looked for
     if (over_) return;
-    throw PeerLost(
-        fmt::format("coupler was killed or stopped: no sign of life in window {}", window_.number));
+    throw PeerLost(fmt::format("coupler {}: no sign of life in window {}", words_of_loss(coupler_process_),
+                               window_.number));
   }
   if (now - coupler_moved_ > Seconds(time_limit_))
     throw PeerLost(

@@ -57,7 +57,7 @@ struct Turns {
 struct CouplerLink::Connection {
   explicit Connection(const LinkSettings& link_settings)
       : settings(link_settings),
-        node(dds::rendezvous(settings.out)),
+        node(dds::rendezvous(settings.out, settings.network)),
         session(node, settings.time_limit),
         roster(node, session, settings),
         turns(node, roster) {}
@@ -236,7 +236,8 @@ void CouplerLink::stop(ExitCode code, const std::string& reason) noexcept {
     c.session.announce(content);
     // Who is late to a run that was refused shall still hear why.
     const auto gone = [&](const Participant& participant) {
-      return participant.joined() ? participant.left || participant.dead() : code != ExitCode::bad_input;
+      return participant.joined() ? participant.left || participant.dead(c.settings.network.lost_after)
+                                  : code != ExitCode::bad_input;
     };
     const Participant &fluid = c.roster.fluid(), &solid = c.roster.solid();
     const auto start = Clock::now();

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <map>
@@ -15,6 +16,7 @@
 
 #include "common/error/failure.hpp"
 #include "common/error/machine.hpp"
+#include "common/link/address.hpp"
 #include "common/link/run_secret.hpp"
 #include "common/run/log.hpp"
 
@@ -22,13 +24,14 @@ namespace toryu::dds {
 
 namespace {
 
-/// The fastest of the measured configurations for three processes on one machine: loopback only, unicast, one
+/// The fastest of the measured configurations for three processes on one machine: one interface, unicast, one
 /// fragment for messages below 64 kB. A lost announcement is repeated after a second. Writers do not linger
 /// for readers that died: what must arrive before an end is flushed by us. The ports of a domain are 250, two
-/// a process: 40 runs find room in one, for the price of 120 small datagrams a second and process.
+/// a process: 40 runs find room in one, for the price of 120 small datagrams a second, process and host. What
+/// is known of a process that falls silent outlives the limit after which it is lost.
 constexpr const char* configuration = R"(<CycloneDDS><Domain>
   <General>
-    <Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>
+    <Interfaces><NetworkInterface {}="{}"/></Interfaces>
     <AllowMulticast>false</AllowMulticast>
     <MaxMessageSize>65000B</MaxMessageSize>
     <FragmentSize>64000B</FragmentSize>
@@ -37,11 +40,29 @@ constexpr const char* configuration = R"(<CycloneDDS><Domain>
     <Tag>{}</Tag>
     <SPDPInterval>1s</SPDPInterval>
     <ParticipantIndex>auto</ParticipantIndex>
-    <MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>
-    <Peers><Peer Address="127.0.0.1"/></Peers>
+    <MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>
+    <LeaseDuration>{:.0f}ms</LeaseDuration>
+    <Peers>{}</Peers>
   </Discovery>
   <Internal><WriterLingerDuration>0s</WriterLingerDuration></Internal>
 </Domain></CycloneDDS>)";
+
+constexpr double spare_lease = 7;  // [s] beyond the limit
+
+/// Announcements go to each place that a process may have on a host, whether there is one or not. Where a
+/// host cannot be reached they fill the buffer of the socket, and with those of 120 places a process blocked
+/// in its end for longer than 20 s.
+int last_place(const Network& network) {
+  return network.peers.empty() ? 119 : 9;
+}
+
+std::string configuration_of(const Rendezvous& place, const Addresses& addresses) {
+  std::string peers;
+  for (const std::string& peer : addresses.peers) peers += fmt::format(R"(<Peer Address="{}"/>)", peer);
+  const bool is_address = std::isdigit(static_cast<unsigned char>(addresses.interface.front())) != 0;
+  return fmt::format(configuration, is_address ? "address" : "name", addresses.interface, place.tag,
+                     last_place(place.network), 1e3 * (place.network.lost_after + spare_lease), peers);
+}
 
 std::string last_words;  ///< Cyclone's last error, which says more than its return code
 
@@ -75,12 +96,13 @@ void require_loopback() {
 /// Throws for what cannot be set up in the domain `place`.
 void require_set_up(dds_return_t code, const Rendezvous& place) {
   if (code >= 0) return;
+  const int first_port = 7400 + 250 * static_cast<int>(place.domain);
   throw MachineFailure(fmt::format(
       "the programs of a coupled run cannot meet: {}; they need a pair of UDP ports each, of {} to {} on "
-      "127.0.0.1: "
-      "end what holds those ('ss -uanp' shows it), or start again, which takes others",
-      last_words.empty() ? dds_strretcode(code) : last_words, 7400 + 250 * place.domain,
-      7400 + 250 * place.domain + 249));
+      "{}: end what holds those ('ss -uanp' shows it), or {}",
+      last_words.empty() ? dds_strretcode(code) : last_words, first_port,
+      first_port + 11 + 2 * last_place(place.network), addresses(place.network).interface,
+      place.network.domain ? "give another --domain" : "start again, which takes others"));
 }
 
 /// A domain can be made once in a process; the nodes in it share it.
@@ -89,9 +111,10 @@ std::shared_ptr<const dds_entity_t> join_domain(const Rendezvous& place) {
   static std::map<std::uint32_t, std::weak_ptr<const dds_entity_t>> domains;
   const std::lock_guard lock(mutex);
   if (auto domain = domains[place.domain].lock()) return domain;
-  require_loopback();
+  if (place.network.peers.empty()) require_loopback();
   dds_set_log_sink(log_sink, nullptr);
-  const dds_entity_t entity = dds_create_domain(place.domain, fmt::format(configuration, place.tag).c_str());
+  const std::string text = configuration_of(place, addresses(place.network));
+  const dds_entity_t entity = dds_create_domain(place.domain, text.c_str());
   require_set_up(entity, place);
   std::shared_ptr<const dds_entity_t> domain(new dds_entity_t(entity), [](const dds_entity_t* made) {
     dds_delete(*made);
@@ -131,11 +154,12 @@ void throw_damaged(const std::string& topic) {
   throw PeerLost(fmt::format("a message of '{}' was damaged on its way: its check sum is wrong", topic));
 }
 
-Rendezvous rendezvous(const std::filesystem::path& out) {
+Rendezvous rendezvous(const std::filesystem::path& out, const Network& network) {
   const RunSecret secret = run_secret(out);
-  // The ports of domain d start at 7400 + 250 d; from 101 on they would reach into the ephemeral ones.
-  return {static_cast<std::uint32_t>(1 + secret.name % 100), fmt::format("toryu-{:016x}", secret.name),
-          secret.key};
+  const std::uint64_t by_chance = 1 + secret.name % last_domain;
+  return {
+      static_cast<std::uint32_t>(network.domain ? static_cast<std::uint64_t>(*network.domain) : by_chance),
+      fmt::format("toryu-{:016x}", secret.name), secret.key, network};
 }
 
 std::uint64_t random_id() {

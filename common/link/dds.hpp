@@ -14,26 +14,31 @@
 
 #include "common/link/seal.hpp"
 #include "common/link/spin.hpp"
+#include "common/run/network.hpp"
 
 namespace toryu::dds {
 
 /// Signs of life of a process end this long after its death [ms].
 inline constexpr int lease_ms = 500;
-/// How long a lease may lapse before its owner is looked up, and counts as dead if its process does not run:
-/// a busy machine is late at times [ms].
-inline constexpr std::chrono::milliseconds grace{2500};
+/// How long a lease may lapse before its owner counts as dead if its process is not seen to run, where it may
+/// be silent for `lost_after` [s]: a busy machine is late at times.
+constexpr std::chrono::duration<double> grace(double lost_after) {
+  return std::chrono::duration<double>(lost_after - 1e-3 * lease_ms);
+}
 
-/// Processes meet if they agree on all: the domain sets the ports, the tag keeps runs apart that share them,
-/// the key seals their messages.
+/// Processes meet if they agree on domain, tag and key: the domain sets the ports, the tag keeps runs apart
+/// that share them, the key seals their messages.
 struct Rendezvous {
   std::uint32_t domain;
   std::string tag;
   std::uint64_t key;
+  Network network;
 };
 
 /// Follows from the secret in the results folder, so that programs started by hand find each other and nobody
 /// else does: neither who has a folder of the same path elsewhere, nor who kept messages of an earlier run.
-Rendezvous rendezvous(const std::filesystem::path& out);
+/// Over hosts, each has a copy of the secret.
+Rendezvous rendezvous(const std::filesystem::path& out, const Network& network = {});
 
 /// Random and never 0: names a process or a run.
 std::uint64_t random_id();

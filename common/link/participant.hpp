@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "common/error/failure.hpp"
+#include "common/run/network.hpp"
 #include "common/vector.hpp"
 
 namespace toryu {
@@ -107,7 +108,8 @@ struct Health {
 struct LinkSettings {
   std::string role;           ///< name of the program, as others shall see it: "fluid_solver"
   std::string version;        ///< of the program
-  std::filesystem::path out;  ///< the results folder names the run: its domain and tag follow from it
+  std::filesystem::path out;  ///< the results folder: its run.secret names the run
+  Network network = {};       ///< how the other processes are reached
   std::uint64_t case_hash = 0;
   double time_limit = 30;       ///< longest wait for the coupler to come [s]; from then on the case's counts
   bool can_repeat = false;      ///< whether this participant can go back to the start of a window

@@ -50,6 +50,10 @@ std::string own_process() {
   return stat ? machine() + " " + std::to_string(getpid()) + " " + stat->start : "";
 }
 
+std::string words_of_loss(const std::string& process) {
+  return process.starts_with(machine()) ? "was killed or stopped" : "is gone, or its host or network is";
+}
+
 ProcessState state_of(const std::string& process) {
   std::istringstream parts(process);
   std::string where, start;

@@ -11,10 +11,10 @@
 
 namespace toryu {
 
-bool Participant::dead() const {
+bool Participant::dead(double lost_after) const {
   const ProcessState state = state_of(process);
   if (state == ProcessState::gone) return true;
-  return lapsed && Clock::now() - *lapsed > dds::grace && state != ProcessState::runs;
+  return lapsed && Clock::now() - *lapsed > dds::grace(lost_after) && state != ProcessState::runs;
 }
 
 std::string Participant::name() const {
@@ -126,10 +126,10 @@ void Roster::check_leases(std::uint32_t fluid_writers, std::uint32_t solid_write
   check(solid_, solid_writers);
   if (session_.over()) return;
   for (const Participant* participant : {&fluid_, &solid_}) {
-    if (!participant->joined() || !participant->dead()) continue;
+    if (!participant->joined() || !participant->dead(own_.network.lost_after)) continue;
     receive();  // its last words say more, and may have come since they were looked for
-    throw PeerLost(fmt::format("{} was killed or stopped: no sign of life in window {}", participant->name(),
-                               participant->window));
+    throw PeerLost(fmt::format("{} {}: no sign of life in window {}", participant->name(),
+                               words_of_loss(participant->process), participant->window));
   }
 }
 

@@ -22,8 +22,8 @@ struct Participant {
   bool interrupted = false, left = false;
 
   bool joined() const { return id != 0; }
-  /// Whether its process is gone; or its lease has lapsed, and stays so, and its process is not seen to run.
-  bool dead() const;
+  /// Whether its process is gone; or it is not seen to run, and gave no sign of life for so long [s].
+  bool dead(double lost_after) const;
   /// Its program's name, or its part while nobody plays it.
   std::string name() const;
 };

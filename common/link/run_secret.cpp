@@ -70,6 +70,10 @@ RunSecret run_secret(const std::filesystem::path& out) {
   }
 }
 
+bool has_run_secret(const std::filesystem::path& out) {
+  return read_secret(secret_file(out)).has_value();
+}
+
 void forget_run_secret(const std::filesystem::path& out) noexcept {
   unlink(secret_file(out).c_str());
 }

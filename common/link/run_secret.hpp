@@ -16,6 +16,9 @@ struct RunSecret {
 /// Who asks first makes it, and the folder. Throws MachineFailure if that fails.
 RunSecret run_secret(const std::filesystem::path& out);
 
+/// Whether the folder has a secret already.
+bool has_run_secret(const std::filesystem::path& out);
+
 /// Ends a run: the next one in `out` gets another secret.
 void forget_run_secret(const std::filesystem::path& out) noexcept;
 

@@ -18,6 +18,7 @@ const std::vector<std::string> log_levels = {"trace", "debug", "info", "warn", "
 struct Typed {
   std::string case_path, out, record, start_frames, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
+  TypedNetwork network;
   bool check = false, outlook = false, describe = false, print_case = false, resolved = false,
        restart = false, overwrite = false;
   bool can_checkpoint = false, version = false, help = false;
@@ -44,6 +45,19 @@ void declare(CLI::App& app, const std::string& role, Typed& typed) {
       ->type_name("N");
   app.add_option("--log-level", typed.log_level, "trace, debug, info (default), warn, error or off")
       ->type_name("LEVEL");
+  app.add_option("--peers", typed.network.peers,
+                 "All hosts of a coupled run, this one among them, for programs that are on several")
+      ->type_name("A,B,C");
+  app.add_option("--interface", typed.network.interface,
+                 "Network interface to use, its name or address (default: the one that leads to the peers)")
+      ->type_name("NAME");
+  app.add_option("--domain", typed.network.domain,
+                 "Ports of a coupled run, for a firewall: between hosts 7410 + 250 N to 7429 + 250 N of UDP "
+                 "(default: by chance)")
+      ->type_name("N");
+  app.add_option("--lost-after", typed.network.lost_after,
+                 "Silence after which a program that is not seen to run counts as lost (default 3)")
+      ->type_name("SECONDS");
   if (replays(role))
     app.add_option("--record", typed.record, "Results of the run that is replayed")->type_name("DIR");
   app.add_flag("--check", typed.check, "Check the case, compute nothing");
@@ -129,6 +143,7 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
   if (replays(role) && typed.record.empty() && !typed.describe)
     faults.push_back({.place = role, .message = "no --record given; see --help"});
   options.record = typed.record;
+  options.network = read_network(typed.network, faults);
   if (options.restart && options.overwrite)
     faults.push_back(
         {.place = "--restart", .message = "goes on with results that --overwrite would replace"});

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/run/network.hpp"
+
 namespace toryu {
 
 struct Options {
@@ -13,6 +15,7 @@ struct Options {
   std::vector<std::string> overrides;  ///< --set section.key=value, and --end-time as one of them
   int threads = 0;                     ///< at most; 0: all cores
   std::string log_level = "info";
+  Network network = {};                     ///< of a coupled run
   bool check = false;                       ///< read and check the case, then end
   bool outlook = false;                     ///< with `check`: tell what a run would take
   std::filesystem::path start_frames = {};  ///< with `check`: where the particles at the start go, as frames

@@ -123,6 +123,23 @@ TEST_F(ExampleProgram, RefusesAnOptionWithoutValue) {
   EXPECT_EQ(ending.error, "example_program: error: --out: 1 required DIR missing\n");
 }
 
+TEST_F(ExampleProgram, RefusesHostsThatCannotBe) {
+  EXPECT_EQ(run("room --peers a,,b --interface eth0/1 --domain 101 --lost-after 0.5").error,
+            "--peers a,,b: error: must be names or IPv4 addresses of hosts, with commas between them\n"
+            "--interface eth0/1: error: must be the name or the IPv4 address of a network interface\n"
+            "--domain 101: error: must be an integer of 1 to 100\n"
+            "--lost-after 0.5: error: must be a number of 1 to 3600 [s]\n");
+  EXPECT_EQ(run("room --peers a,").error,
+            "--peers a,: error: must be names or IPv4 addresses of hosts, with commas between them\n");
+  EXPECT_EQ(run("room --peers 'a<b' --domain 7x --lost-after nan").error,
+            "--peers a<b: error: must be names or IPv4 addresses of hosts, with commas between them\n"
+            "--domain 7x: error: must be an integer of 1 to 100\n"
+            "--lost-after nan: error: must be a number of 1 to 3600 [s]\n");
+  EXPECT_EQ(run("room --interface eth0").error,
+            "--interface eth0: error: without --peers a run is on this machine alone, and takes no other "
+            "than lo\n");
+}
+
 TEST_F(ExampleProgram, RefusesLessThanNoThread) {
   EXPECT_EQ(run("room --threads -1").error, "--threads -1: error: must be an integer of at least 0\n");
   EXPECT_EQ(run("room --threads 1x").error, "--threads 1x: error: must be an integer of at least 0\n");

@@ -47,6 +47,7 @@ ExitCode run(const Options& options) {
   FluidLink link({.role = role,
                   .version = provenance(1).version,
                   .out = options.out,
+                  .network = options.network,
                   .case_hash = file.hash(),
                   .can_repeat = true,
                   .can_checkpoint = true});

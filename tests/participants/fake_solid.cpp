@@ -67,6 +67,7 @@ ExitCode run(const Options& options) {
   SolidLink link({.role = role,
                   .version = provenance(1).version,
                   .out = options.out,
+                  .network = options.network,
                   .case_hash = file.hash(),
                   .can_repeat = true,
                   .can_checkpoint = true});

@@ -54,6 +54,7 @@ ExitCode run(const Options& options) {
   FluidLink link({.role = role,
                   .version = provenance(1).version,
                   .out = options.out,
+                  .network = options.network,
                   .case_hash = file.hash(),
                   .can_checkpoint = fault.ends_with("checkpoint")});
   if (fault == "before joining") _exit(0);

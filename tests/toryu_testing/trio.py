@@ -36,9 +36,12 @@ class Trio:
                 process.wait()
         shutil.rmtree(self.out, ignore_errors=True)
 
+    def command(self, role):
+        return [self.programs[role], self.case, "--out", self.out, "--end-time", self.end_time]
+
     def start(self, role, name=None, extra=(), environment={}):
         """Starts the program of a role; `name` tells two of one role apart."""
-        command = [self.programs[role], self.case, "--out", self.out, "--end-time", self.end_time]
+        command = self.command(role)
         for setting in self.settings:
             command += ["--set", setting]
         errors = open(self.out / f"{name or role}.err", "w")

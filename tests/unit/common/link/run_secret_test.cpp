@@ -70,6 +70,13 @@ TEST_F(RunSecretTest, SetsPortsAndTag) {
   }
 }
 
+TEST_F(RunSecretTest, LeavesTheDomainToWhoGivesOne) {
+  const auto by_chance = dds::rendezvous(out_), given = dds::rendezvous(out_, {.domain = 7});
+  EXPECT_EQ(given.domain, 7u);
+  EXPECT_EQ(given.tag, by_chance.tag);
+  EXPECT_EQ(given.key, by_chance.key);
+}
+
 TEST(Rendezvous, FollowsFromWhereTheFolderLiesNotFromItsPath) {
   const auto folder = std::filesystem::temp_directory_path() / ("toryu_place_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
