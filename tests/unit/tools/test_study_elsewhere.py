@@ -12,7 +12,9 @@ import signal
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
+from toryu.study import slurm as slurm_queue
 from toryu_testing import study_case
 from toryu_testing.one_node_slurm import CannotStart, OneNodeSlurm
 from toryu_testing.study_case import TWO_AXES, Study
@@ -91,6 +93,10 @@ class Runs(Elsewhere):
         self.assertIn("interrupted; 1 of 2 runs are done and kept: the same command goes on from there", err)
         ended = [json.loads(path.read_text()) for path in self.out.glob("runs/*/ended.json")]
         self.assertEqual(sorted(one["exit_code"] for one in ended), [0, 130])
+        process = self.start()
+        self.wait_for(lambda: len(self.starts()) == 3)  # the one that was ended
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
 
     def test_killed_it_finds_its_runs_again(self):
         self.write(ONE_AXIS, HEAD_SLOW)
@@ -119,7 +125,7 @@ class Asked(Elsewhere):
         self.done("--partition=short", "--account=ours", "--time=1:00:00", "--sbatch=--mem=2G", "--jobs=2", "--threads=3")
         (line,) = self.asked("sbatch")
         for word in ("--array=0-2%2", "--cpus-per-task=3", "--partition=short", "--account=ours", "--time=1:00:00", "--mem=2G",
-                     "--signal=B:TERM@60"):
+                     "--signal=B:TERM@60", "--no-requeue"):
             self.assertIn(f" {word}", line)
 
     def test_a_run_that_the_queue_ends_goes_on_in_a_new_job_if_it_came_further(self):
@@ -137,13 +143,40 @@ class Asked(Elsewhere):
         self.assertEqual(len(self.asked("sbatch")), 2)
 
     def test_a_run_that_the_queue_ends_too_soon_ends_the_study(self):
-        self.write('[[axis]]\nname = "wait"\nvalues = [60]\nkeys = ["fluid.seconds"]\n')
+        self.write('[[axis]]\nname = "hangs"\nvalues = [1]\nkeys = ["fluid.hangs"]\n')
         process = self.start()
         self.wait_for(lambda: self.starts())
         os.kill(int((self.queue / "jobs/1_0").read_text()), signal.SIGTERM)
         _, err = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 5, err)
         self.assertIn("ended by the queue before it had come any further: give it more time", err)
+        process = self.start()
+        self.wait_for(lambda: len(self.starts()) == 2)  # it is given more time
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+
+    def test_a_run_whose_files_changed_since_runs_again(self):
+        self.write('[[axis]]\nname = "x"\nvalues = [1]\nkeys = ["fluid.x"]\n')
+        self.done()
+        next(self.out.glob("runs/*/fluid.csv")).unlink()
+        again = self.done()
+        self.assertIn("the files of the run are not as it left them: it runs again", again.stderr)
+        self.assertEqual(len(self.starts()), 2)
+
+    def test_more_runs_than_an_array_takes_run_no_more_at_a_time(self):
+        asked = []
+
+        def answer(command):
+            asked.append(command)
+            return subprocess.CompletedProcess(command, 0, f"{len(asked)}\n", "")
+
+        with unittest.mock.patch.object(slurm_queue, "ask", answer):
+            for jobs in (2, None):
+                queue = slurm_queue.Slurm("a study", jobs, 1, [])
+                former = queue.submit(self.folder / "0001.json", 1000, [])
+                queue.submit(self.folder / "0002.json", 1, former)
+        waits = [[word for word in command if word.startswith("--dependency")] for command in asked]
+        self.assertEqual(waits, [[], ["--dependency=afterany:1"], [], []])
 
     def test_what_sbatch_refuses_is_told(self):
         self.write(ONE_AXIS)
@@ -154,6 +187,8 @@ class Asked(Elsewhere):
 
     def test_options_that_are_of_no_use_are_refused(self):
         self.write(ONE_AXIS)
+        nowhere = subprocess.run(self.command("--on="), capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual((nowhere.returncode, nowhere.stderr), (2, "--on '': error: expected 'slurm' or hosts\n"))
         here = subprocess.run(self.command("--partition=short"), capture_output=True, text=True, cwd=self.folder)
         self.assertEqual((here.returncode, here.stderr), (2, "--partition=short: error: is an option of --on slurm\n"))
         for name in ("sbatch", "squeue", "scancel"):
@@ -172,6 +207,17 @@ class Lost(Elsewhere):
         self.assertIn("without a word of how it ended: it runs again", done.stderr)
         self.assertEqual(len(self.starts()), 3)
         self.assertEqual(len(self.asked("sbatch")), 2)
+
+    def test_what_keeps_the_runs_from_a_host_is_told(self):
+        self.write('[[axis]]\nname = "x"\nvalues = [1]\nkeys = ["fluid.x"]\n')
+        ssh = self.folder / "ssh"
+        ssh.write_text('#!/bin/sh\necho "ssh: Could not resolve hostname nowhere" >&2\nexit 255\n')
+        ssh.chmod(0o755)
+        self.environment["PARALLEL_SSH"] = str(ssh)
+        self.where = "2/nowhere"
+        ended = self.study("--jobs=1")
+        self.assertEqual(ended.returncode, 5)
+        self.assertIn("ssh: Could not resolve hostname nowhere", ended.stderr)
 
 
 class Hosts(Elsewhere):
@@ -205,6 +251,16 @@ class Hosts(Elsewhere):
         _, err = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, err)
         self.assertIn("the same command goes on from there", err)
+
+    def test_left_by_its_terminal_it_ends_its_runs(self):
+        self.write('[[axis]]\nname = "hangs"\nvalues = [0, 1]\nkeys = ["fluid.hangs"]\n')
+        process = self.start("--jobs=2")
+        self.wait_for(lambda: len(self.starts()) == 2)
+        process.send_signal(signal.SIGHUP)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, err)
+        self.assertNotIn("in the queue", err)
+        self.assertTrue(all((folder / "ended.json").exists() for folder in self.out.glob("runs/*")))
 
 
 if __name__ == "__main__":

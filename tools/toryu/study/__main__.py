@@ -70,6 +70,8 @@ def queue_of(study, options):
         raise BadStudy(f"{given[0]}: error: is an option of --on slurm")
     if options.on is None:
         return None
+    if not options.on.strip():
+        raise BadStudy(f"--on '{options.on}': error: expected 'slurm' or hosts")
     if study.timing:
         raise BadStudy(f"--on {options.on}: error: a study with [timing] compares times of one machine")
     kind = slurm if options.on == "slurm" else hosts

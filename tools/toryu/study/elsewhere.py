@@ -28,6 +28,7 @@ class Queued:
     setting: object
     folder: object
     job: str  # as the queue calls it
+    output: object  # file of what the queue and its programs print about it
     goes_on: bool
     reached: float = 0.0  # [s] of the simulated time when it was given to the queue
     losses: int = 0
@@ -36,7 +37,8 @@ class Queued:
 
 
 class Elsewhere(runner.Runner):
-    """Runs the settings that are not done yet in `queue`, which has submit, alive, drop and kill (slurm.py, hosts.py)."""
+    """Runs the settings that are not done yet in `queue`, which has submit, output, alive, drop and kill, and tells whether
+    it outlives the study (slurm.py, hosts.py)."""
 
     def __init__(self, study, out, bin_folder, threads, progress, queue):
         super().__init__(study, out, bin_folder, 1, threads, progress)
@@ -80,16 +82,17 @@ class Elsewhere(runner.Runner):
             folder.mkdir(parents=True, exist_ok=True)
             for name in (ENDED, runner.OUTPUT, "stop"):
                 (folder / name).unlink(missing_ok=True)
-            runs.append(Queued(setting, folder, "", goes_on, runner.reached(folder), losses))
+            runs.append(Queued(setting, folder, "", None, goes_on, runner.reached(folder), losses))
+        jobs = []
         for part in batches(runs, self.queue.largest):
             table = {"runs": [{"key": run.setting.key, "folder": str(run.folder.resolve()), "time_limit": self.time_limit,
                                "command": self._whole_command(run.setting, run.goes_on)} for run in part]}
             path = self._next_table()
             program.write_whole(path, json.dumps(table, indent=1))
-            jobs = self.queue.submit(path, len(part))
+            jobs = self.queue.submit(path, len(part), jobs)
             program.write_whole(path, json.dumps(table | {"jobs": jobs}, indent=1))
-            for run, job in zip(part, jobs):
-                run.job = job
+            for index, (run, job) in enumerate(zip(part, jobs)):
+                run.job, run.output = job, self.queue.output(path, index)
                 self.running[run.setting.key] = run
 
     def _next_table(self):
@@ -99,16 +102,23 @@ class Elsewhere(runner.Runner):
         return folder.resolve() / f"{max(numbers, default=0) + 1:04}.json"
 
     def _found_again(self, waiting):
-        """Of the runs that wait, those that the queue still has, and those that ended while nobody looked."""
+        """Of the runs that wait, those that the queue still has, and those that came to a result while nobody looked."""
         found = {}
         for path in sorted((self.out / QUEUE).glob("*.json")):
             with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
                 table = json.loads(path.read_text(encoding="utf-8"))
-                for run, job in zip(table["runs"], table["jobs"]):
+                for index, (run, job) in enumerate(zip(table["runs"], table["jobs"])):
                     if setting := waiting.get(run["key"]):
-                        found[setting.key] = Queued(setting, self.folder(setting), job, "--restart" in run["command"])
+                        found[setting.key] = Queued(setting, self.folder(setting), job, self.queue.output(path, index),
+                                                    "--restart" in run["command"])
         alive = self.queue.alive([run.job for run in found.values()]) if found else set()
-        return {key: run for key, run in found.items() if run.job in alive or read_ended(run.folder)}
+        return {key: run for key, run in found.items() if self._is_of_use(run, alive)}
+
+    def _is_of_use(self, run, alive):
+        """One that ended without a result, or whose result was taken and is no longer whole, has to run again."""
+        if ended := read_ended(run.folder):
+            return ended[0] in self.verdicts | {runner.HUNG} and not (run.folder / runner.RECORD).exists()
+        return run.job in alive
 
     def _ages(self):
         now, ages = time.monotonic(), []
@@ -154,17 +164,17 @@ class Elsewhere(runner.Runner):
                 run.gone_since = now
             elif now - run.gone_since > LATE:
                 if run.losses == MOST_LOSSES:
-                    raise runner.Ended(MACHINE, f"the run with {run.setting} was lost {MOST_LOSSES + 1} times: it left the queue "
-                                                f"as {run.job} without a word of how it ended; see {run.folder} and "
-                                                f"{self.out / QUEUE}")
-                self.progress.tell(f"warning: the run with {run.setting} left the queue as {run.job} without a word of how it "
-                                   "ended: it runs again")
+                    raise runner.Ended(MACHINE, f"{last_line(run.output)}the run with {run.setting} was lost {MOST_LOSSES + 1} "
+                                                f"times: it left the queue as {run.job} without a word of how it ended; see "
+                                                f"{run.folder} and {run.output}")
+                self.progress.tell(f"{last_line(run.output)}warning: the run with {run.setting} left the queue as {run.job} "
+                                   "without a word of how it ended: it runs again")
                 del self.running[run.setting.key]
                 self._submit([run.setting], losses=run.losses + 1)
 
     def _interrupted(self, number, _):
-        """A terminal that goes away leaves the runs to the queue."""
-        if number == signal.SIGHUP:
+        """A terminal that goes away leaves the runs to a queue that stays."""
+        if number == signal.SIGHUP and self.queue.outlives_study:
             self.left = True
         else:
             self.interruptions += 1
@@ -182,6 +192,14 @@ class Elsewhere(runner.Runner):
         while self.queue.alive(jobs) and time.monotonic() < end and self.interruptions < 2:
             time.sleep(POLL)
         self.queue.kill(jobs)
+
+
+def last_line(path):
+    """The last line of a file with its end, "" if there is none."""
+    with contextlib.suppress(OSError):
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+        return next((f"{line.strip()}\n" for line in reversed(lines) if line.strip()), "")
+    return ""
 
 
 def batches(items, size):

@@ -12,6 +12,7 @@ PROGRAMS = ("parallel",)
 
 class Hosts:
     largest = 100_000  # runs of a submission
+    outlives_study = False
 
     def __init__(self, hosts, jobs, threads):
         """`hosts`: a file with one a line, or a list with commas, as GNU parallel reads them ("4/name": 4 runs at most);
@@ -21,13 +22,17 @@ class Hosts:
         self.at_a_time = str(jobs) if jobs else f"{max(1, 100 // threads)}%"
         self.processes = {}  # number of the submission -> process
 
-    def submit(self, table, count):
+    def submit(self, table, count, _):
         command = ["parallel", "--will-cite", *self.hosts, f"--jobs={self.at_a_time}", f"--workdir={os.getcwd()}",
                    "--quote", *program.python("study.one_run", table), "{}", ":::", *map(str, range(count))]
-        with open(table.with_suffix(".txt"), "wb") as output:
+        with open(self.output(table, 0), "wb") as output:
             process = start(command, output)
         self.processes[str(process.pid)] = process
         return [f"{process.pid}_{index}" for index in range(count)]
+
+    def output(self, table, _):
+        """One file for all of a submission."""
+        return table.with_suffix(".txt")
 
     def alive(self, jobs):
         """Those of submissions that have not ended; how each of their runs stands, its folder tells."""
