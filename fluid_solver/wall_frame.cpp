@@ -18,7 +18,8 @@ bool any_wall_moves(const std::vector<Boundary>& boundaries) {
 
 std::optional<Frame> frame_of_walls(const std::vector<Boundary>& boundaries) {
   Frame frame;
-  FrameField wall{"wall", "1", "number in the case, from 0", 1, {}}, velocity{"velocity", "m/s", "", dim, {}};
+  FrameField wall{"wall", "1", "number of the body, from 0 in the order of fluid.csv", 1, {}},
+      velocity{"velocity", "m/s", "", dim, {}};
   double number = 0;
   for (const Boundary& boundary : boundaries) {
     if (!is_rigid(boundary)) continue;

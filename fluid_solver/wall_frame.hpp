@@ -9,8 +9,8 @@
 
 namespace toryu::fluid {
 
-/// The particles of all rigid walls, in the order of the case; none of a fluid without walls. The solid draws
-/// itself.
+/// The particles of all rigid walls, body by body as fluid.csv has them; none of a fluid without walls. The
+/// solid draws itself.
 std::optional<Frame> frame_of_walls(const std::vector<Boundary>& boundaries);
 /// Whether any of them may move.
 bool any_wall_moves(const std::vector<Boundary>& boundaries);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "common/error/counted.hpp"
 
@@ -18,22 +20,36 @@ constexpr std::size_t most_kept = 4;
 /// Of the time: by how much a window may begin beside the end of the one before.
 constexpr double rounding = 1e-9;
 
-/// Each series with the numbers of its rows, of an interface of `count` particles.
-std::vector<std::pair<std::string, std::size_t>> sizes(std::size_t count) {
-  const std::size_t wide = dim * count;
-  return {{"presence", 3},        {"pressure", count},
-          {"force", wide},        {"friction_force", wide},
-          {"impedance", wide},    {"impulse_on_fluid", dim},
-          {"time_step_limit", 1}, {"work_of_impulse_on_fluid", 1},
-          {"fluid_energies", 2},  {"fluid_momentum", dim},
-          {"position", wide},     {"velocity", wide},
-          {"impulse", wide},      {"work_of_impulse_on_solid", 1},
-          {"impulse_taken", dim}, {"solid_energies", 2},
-          {"solid_momentum", dim}};
-}
-
 /// Which of the vectors that may be absent are there, in this order: friction force, impedance, impulse.
 using Presence = std::array<double, 3>;
+
+struct SeriesField {
+  const char *name, *unit;
+  HdfSeriesFile::Shape shape;  ///< of a row
+};
+
+/// What is kept of each window, of an interface of `count` particles.
+std::vector<SeriesField> series_of(hsize_t count) {
+  return {{"window_start", "s", {}},
+          {"window_length", "s", {}},
+          {"presence", "1", {Presence{}.size()}},
+          {"pressure", "Pa", {count}},
+          {"force", "N/m", {count, dim}},
+          {"friction_force", "N/m", {count, dim}},
+          {"impedance", "kg/(s.m)", {count, dim}},
+          {"impulse_on_fluid", "N.s/m", {dim}},
+          {"work_of_impulse_on_fluid", "J/m", {}},
+          {"time_step_limit", "s", {}},
+          {"fluid_energies", "J/m", {2}},
+          {"fluid_momentum", "N.s/m", {dim}},
+          {"position", "m", {count, dim}},
+          {"velocity", "m/s", {count, dim}},
+          {"impulse", "N.s/m", {count, dim}},
+          {"work_of_impulse_on_solid", "J/m", {}},
+          {"impulse_taken", "N.s/m", {dim}},
+          {"solid_energies", "J/m", {2}},
+          {"solid_momentum", "N.s/m", {dim}}};
+}
 
 }  // namespace
 
@@ -57,25 +73,7 @@ ExchangeWriter::ExchangeWriter(const std::filesystem::path& out, const CouplingS
   file_.constant("mass", "kg/m", {count}, interface.mass);
   file_.constant("start_position", "m", {count, dim}, start.motion.position);
   file_.constant("start_velocity", "m/s", {count, dim}, start.motion.velocity);
-  file_.series("window_start", "s", {});
-  file_.series("window_length", "s", {});
-  file_.series("presence", "1", {Presence{}.size()});
-  file_.series("pressure", "Pa", {count});
-  file_.series("force", "N/m", {count, dim});
-  file_.series("friction_force", "N/m", {count, dim});
-  file_.series("impedance", "kg/(s.m)", {count, dim});
-  file_.series("impulse_on_fluid", "N.s/m", {dim});
-  file_.series("work_of_impulse_on_fluid", "J/m", {});
-  file_.series("time_step_limit", "s", {});
-  file_.series("fluid_energies", "J/m", {2});
-  file_.series("fluid_momentum", "N.s/m", {dim});
-  file_.series("position", "m", {count, dim});
-  file_.series("velocity", "m/s", {count, dim});
-  file_.series("impulse", "N.s/m", {count, dim});
-  file_.series("work_of_impulse_on_solid", "J/m", {});
-  file_.series("impulse_taken", "N.s/m", {dim});
-  file_.series("solid_energies", "J/m", {2});
-  file_.series("solid_momentum", "N.s/m", {dim});
+  for (const auto& [name, unit, shape] : series_of(count)) file_.series(name, unit, shape);
 }
 
 void ExchangeWriter::write(const Window& window, const FluidAnswer& fluid, const SolidAnswer& solid) {
@@ -128,10 +126,12 @@ void ExchangeReader::check_windows() {
     if (!(lengths_[n] > 0) || !(std::abs(starts_[n] - before) <= rounding * ends_[n]))
       refuse(fmt::format("its window {} does not begin where the one before ends, or has no length", n));
   }
-  for (const auto& [name, size] : sizes(start_.interface.size()))
+  for (const auto& [name, unit, shape] : series_of(start_.interface.size())) {
+    const auto size = std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
     if (const auto found = file_.row(name, 0).size(); found != size || file_.rows(name) < ends_.size())
       refuse(fmt::format("its '{}' has {} of {}, not {} of {}", name, counted(file_.rows(name), "row"), found,
                          ends_.size(), size));
+  }
 }
 
 std::size_t ExchangeReader::at(double time) const {

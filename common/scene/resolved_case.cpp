@@ -80,7 +80,8 @@ toml::array motions(const Scene& scene) {
     toml::array poses;
     for (const double t : times) {
       const Pose pose = motion.pose_at(t);
-      poses.push_back(toml::array(t, pose.centre[0], pose.centre[1], pose.angle));
+      poses.push_back(
+          toml::array(t, pose.centre[0], pose.centre[1], pose.angle, pose.velocity[0], pose.velocity[1]));
     }
     const Vec about = motion.pose_at(0).about;
     found.push_back(toml::table{{"wall", static_cast<std::int64_t>(i)},

@@ -12,8 +12,8 @@ namespace toryu {
 /// either its `points` (rows of time [s] and value) or its `fault`; `files`, all that the case names;
 /// `shapes` of all bodies as they come to lie in the scene: the `list` in which they stand, their `number` in
 /// it, their `name`, whether they are an outline, and `rings` of corners [m]; and `motions` of walls: the
-/// number of the `wall`, and `poses`, rows of time [s], place of the point `about` [m] and angle [rad].
-/// Throws BadInput with the faults of the overrides.
+/// number of the `wall`, and `poses`, rows of time [s], place of the point `about` [m], angle [rad], velocity
+/// of the point [m/s]. Throws BadInput with the faults of the overrides.
 std::string resolved_case(CaseFile& file);
 
 }  // namespace toryu

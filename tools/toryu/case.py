@@ -30,7 +30,7 @@ class Case:
     references: list[dict] = field(default_factory=list)  # what is said of each, and its "points" or its "fault"
     files: list[str] = field(default_factory=list)  # that it names, relative to its folder
     shapes: list[dict] = field(default_factory=list)  # of all bodies: "list", "number", "name", "is_outline", "rings" [m]
-    motions: dict = field(default_factory=dict)  # number of a wall -> the point "about" and "poses": time, x, y, angle
+    motions: dict = field(default_factory=dict)  # number of a wall -> the point "about" and "poses": time, x, y, angle, v_x, v_y
     places: list = field(default_factory=list)  # (path of a key, line, column)
 
     @property

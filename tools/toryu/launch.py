@@ -14,6 +14,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 
 from toryu import PROGRAMS, program, replay, summary_text
 from toryu.case import PROGRAMS_OF, BadCase, resolve
@@ -119,27 +120,25 @@ def is_study(argument, coupler):
     return False
 
 
-def install_for_charts():
-    if importlib.util.find_spec("matplotlib") is None:
-        installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "study"]).returncode
-        if installed != DONE:
-            raise SystemExit(installed)
+def install(group, modules):
+    """Installs a group of packages unless the modules that they bring are there."""
+    if all(map(importlib.util.find_spec, modules)):
+        return
+    installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", group]).returncode
+    if installed != DONE:
+        raise SystemExit(installed)
 
 
 def go_on_as(part, arguments):
     """Becomes toryu.study or toryu.compare, which need a package more."""
-    install_for_charts()
+    install("study", ["matplotlib"])
     os.execv(sys.executable, program.python(part, *arguments))
 
 
 def install_for_drawings(case):
     """What reads drawings is installed when a case names one."""
     wanted = {PACKAGE_FOR[kind] for name in case.files if (kind := pathlib.PurePath(name).suffix.lower()) in PACKAGE_FOR}
-    if all(map(importlib.util.find_spec, wanted)):
-        return
-    installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", "import"]).returncode
-    if installed != DONE:
-        raise SystemExit(installed)
+    install("import", wanted)
 
 
 def case_of(options):
@@ -171,15 +170,15 @@ def complain(text):
     return BAD_INPUT
 
 
-def check(commands, tell):
-    """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file. With
-    `tell` what they say of the run is shown, and what they warn of: a run that follows says it itself."""
+def check(commands, more=()):
+    """Runs `--check` of every program; returns 0, or 2 after listing all errors once, in the order of the file. With the
+    options `more` what they say of the run is shown, and what they warn of: a run that follows says it itself."""
     errors, others, codes = set(), [], set()
     for name, command in commands.items():
-        done = subprocess.run([*command, "--check", *(["--outlook"] if tell else [])], capture_output=True, encoding="utf-8", errors="backslashreplace",
+        done = subprocess.run([*command, "--check", *more], capture_output=True, encoding="utf-8", errors="backslashreplace",
                               stdin=subprocess.DEVNULL)
         if done.returncode == DONE:
-            if tell:
+            if more:
                 print(done.stdout, end="")
                 print(done.stderr, end="", file=sys.stderr)
             continue
@@ -210,18 +209,30 @@ def warn_without_checkpoints(options, guests):
         print(f"warning: {executable} cannot write checkpoints: this run goes on without them", file=sys.stderr)
 
 
-def draw_scene(options, case):
-    """The picture that --check was asked for."""
-    install_for_charts()
+def check_alone(options, case, own, guests):
+    """All that --check does, with the picture of the scene if that was asked for."""
+    with contextlib.ExitStack() as kept:
+        more, frames = ["--outlook"], None
+        if options.picture is not None:
+            frames = kept.enter_context(tempfile.TemporaryDirectory(prefix="toryu_picture_"))
+            more.append(f"--start-frames={frames}")
+        if code := check(own, more):
+            return code
+        warn_without_checkpoints(options, guests)
+        print(f"{case.file}: no errors")
+        return DONE if frames is None else draw_scene(options, case, pathlib.Path(frames))
+
+
+def draw_scene(options, case, frames):
+    """Draws what the programs left in `frames`."""
+    install("study", ["matplotlib"])
     from toryu import picture  # takes its time, and a package more
 
     path = pathlib.Path(options.picture or pathlib.Path("out") / f"{case.name}_scene.svg")
     if fault := picture.fault_of(path):
         return complain(fault)
     try:
-        print(picture.draw(case, path, options.bin, options.passed_on))
-    except picture.NoPicture as error:
-        return complain(str(error))
+        print(picture.draw(case, frames, path))
     except OSError as error:
         if error.errno in program.SHORTAGES:
             raise
@@ -332,12 +343,12 @@ def main(arguments):
         return describe(commands)
     # A program that takes a solver's place checks its own input when it starts.
     own = {name: command for name, command in commands.items() if pathlib.Path(command[0]).parent == options.bin}
-    if code := check(own, tell=options.check):
-        return code
-    warn_without_checkpoints(options, [command[0] for name, command in commands.items() if name not in own])
+    guests = [command[0] for name, command in commands.items() if name not in own]
     if options.check:
-        print(f"{case.file}: no errors")
-        return DONE if options.picture is None else draw_scene(options, case)
+        return check_alone(options, case, own, guests)
+    if code := check(own):
+        return code
+    warn_without_checkpoints(options, guests)
 
     # what the user has set, stays
     environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ

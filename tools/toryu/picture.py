@@ -2,9 +2,6 @@
 
 import contextlib
 import json
-import pathlib
-import subprocess
-import tempfile
 from dataclasses import dataclass
 
 import h5py
@@ -15,9 +12,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from toryu import program
-from toryu.case import PROGRAMS_OF
-from toryu.processes import DONE
 from toryu.report import data
 from toryu.study.drawing import PALETTE
 
@@ -29,11 +23,8 @@ GHOSTS = 5  # positions of what moves
 ARROW = 26  # [pt] of gravity
 INK, SOFT = PALETTE["ink"], PALETTE["soft"]
 COLOURS = {"wall": PALETTE["wall"], "moving": "#9db4c9", "work_piece": PALETTE["piece"], "walls": SOFT, "fluid": "#2c728e",
-           "solid": PALETTE["c1"], "clamp": INK, "load": PALETTE["bad"], "observer": PALETTE["c3"], "inlet": PALETTE["good"], "outlet": PALETTE["c4"]}
-
-
-class NoPicture(Exception):
-    """Why there is none."""
+           "solid": PALETTE["c1"], "clamp": INK, "load": PALETTE["bad"], "observer": PALETTE["c3"], "inlet": PALETTE["good"],
+           "outlet": PALETTE["c4"]}
 
 
 @dataclass
@@ -44,10 +35,13 @@ class Particles:
     points: np.ndarray  # n x 2 [m]
     spacing: float  # [m]
 
+    @property
+    def count(self):
+        return f"{len(self.points):,} particles".replace(",", " ")
+
 
 def fault_of(path):
     """What is wrong with where the picture should go; "" if nothing."""
-    path = pathlib.Path(path)
     if path.suffix.lower() not in ENDINGS:
         return f"--picture {path}: error: must end in {' or '.join(ENDINGS)}"
     if path.is_dir():
@@ -55,25 +49,17 @@ def fault_of(path):
     return ""
 
 
-def particles_at_start(case, bin_folder, settings):
-    """As the programs fill the scene."""
-    with tempfile.TemporaryDirectory(prefix="toryu_picture_") as folder:
-        for name in PROGRAMS_OF[case.kind]:
-            if name == "coupler":
-                continue
-            done = subprocess.run([bin_folder / name, case.file, "--check", f"--start-frames={folder}", f"--out={folder}/out",
-                                   *settings], capture_output=True, encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL)
-            if done.returncode != DONE:
-                raise NoPicture((done.stdout + done.stderr).strip())
-        found = []
-        for name in ("walls", "fluid", "solid"):
-            with contextlib.suppress(FileNotFoundError):
-                entry = json.loads((pathlib.Path(folder) / f"{name}.hdf.series").read_text(encoding="utf-8"))["files"][0]
-                with h5py.File(pathlib.Path(folder) / entry["name"]) as file:
-                    points = file["VTKHDF/Points"][:, :2]
-                spacing = data.table(case.content, "solid" if name == "solid" else "fluid").get("spacing")
-                found.append(Particles(name, points, spacing if data.is_number(spacing) else 0.0))
-        return found
+def particles_at_start(case, frames):
+    """As the programs filled the scene and left it in the folder `frames`."""
+    found = []
+    for name in ("walls", "fluid", "solid"):
+        with contextlib.suppress(FileNotFoundError):
+            entry = json.loads((frames / f"{name}.hdf.series").read_text(encoding="utf-8"))["files"][0]
+            with h5py.File(frames / entry["name"]) as file:
+                points = file["VTKHDF/Points"][:, :2]
+            spacing = data.table(case.content, "solid" if name == "solid" else "fluid").get("spacing")
+            found.append(Particles(name, points, spacing if data.is_number(spacing) else 0.0))
+    return found
 
 
 def bounds_of(case, particles):
@@ -93,7 +79,7 @@ def rings_of(case, wall):
 
 def placed(ring, motion, pose):
     """A ring of corners as a moving wall has it in a pose."""
-    _, x, y, angle = pose
+    x, y, angle = pose[1:4]
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     return (np.array(ring) - motion["about"]) @ turn.T + [x, y]
 
@@ -156,14 +142,14 @@ class Drawing:
             size = (0.8 * body.spacing * self.points_per_metre) ** 2
             self.axes.scatter(*body.points.T, s=size, color=COLOURS[body.name], linewidths=0, alpha=0.85, zorder=3,
                               rasterized=len(body.points) > MOST_VECTORS)
-            count = f"{len(body.points):,}".replace(",", " ")
-            self.legend[f"{body.name}, {count} particles"] = Line2D([], [], marker="o", markersize=5, linestyle="",
+            self.legend[f"{body.name}, {body.count}"] = Line2D([], [], marker="o", markersize=5, linestyle="",
                                                                     color=COLOURS[body.name])
 
     def bodies(self):
         styles = {"solid.clamp": ("clamp", {"hatch": "////", "edgecolor": COLOURS["clamp"], "linewidth": 0.8}),
                   "solid.load": ("load", {"edgecolor": COLOURS["load"], "linewidth": 1.4}),
-                  "fluid.observer": ("observer", {"edgecolor": COLOURS["observer"], "linewidth": 1.2, "linestyle": (0, (4, 2))})}
+                  "fluid.observer": ("observer", {"edgecolor": COLOURS["observer"], "linewidth": 1.2,
+                                                  "linestyle": (0, (4, 2))})}
         for shape in self.case.shapes:
             if shape["list"] not in styles:
                 continue
@@ -173,8 +159,8 @@ class Drawing:
                 self.write_name(shape["rings"], shape["name"], COLOURS["observer"])
         for side in ("fluid", "solid"):
             for observer in data.tables_of(data.table(self.case.content, side), "observer"):
-                place = next((observer[k] for k in ("at", "position", "point") if data.numbers(observer.get(k), 2)), None)
-                if place is None:
+                place = observer.get("point")
+                if not data.numbers(place, 2):
                     continue
                 self.legend["observer"] = self.axes.scatter(*place, marker="x", s=45, color=COLOURS["observer"], zorder=6)
                 self.axes.annotate(str(observer.get("name", "")).replace("_", " "), place, xytext=(5, 5),
@@ -198,8 +184,8 @@ class Drawing:
         gravity = content.get("gravity")
         if data.numbers(gravity, 2) and any(gravity):
             way = np.array(gravity, float) / np.hypot(*gravity)
-            self.axes.annotate("", (0.97, 0.9), xycoords="axes fraction", xytext=tuple(-ARROW * way), textcoords="offset points",
-                               arrowprops={"arrowstyle": "-|>", "color": INK}, zorder=9)
+            self.axes.annotate("", (0.97, 0.9), xycoords="axes fraction", xytext=tuple(-ARROW * way),
+                               textcoords="offset points", arrowprops={"arrowstyle": "-|>", "color": INK}, zorder=9)
             self.axes.text(0.98, 0.9, "g", transform=self.axes.transAxes, fontsize=10, style="italic", zorder=9)
         title = str(content.get("title") or self.case.name)
         self.axes.set_title(title, loc="left", fontsize=12)
@@ -208,23 +194,24 @@ class Drawing:
     def save(self, path):
         path.parent.mkdir(parents=True, exist_ok=True)
         with matplotlib.rc_context({"svg.hashsalt": path.name}):  # the same scene gives the same file
-            self.figure.savefig(path, dpi=DPI, facecolor="white", metadata={"Date": None} if path.suffix == ".svg" else None)
+            undated = {"metadata": {"Date": None}} if path.suffix.lower() == ".svg" else {}
+            self.figure.savefig(path, dpi=DPI, facecolor="white", **undated)
 
 
-def draw(case, path, bin_folder, settings):
-    """Makes the picture and returns what to say of the scene. Raises NoPicture, and OSError where it cannot be written."""
-    particles = particles_at_start(case, bin_folder, settings)
+def draw(case, frames, path):
+    """Makes the picture of the particles in the folder `frames` and returns what to say of the scene. Raises OSError where
+    it cannot be written."""
+    particles = particles_at_start(case, frames)
     drawing = Drawing(case, particles)
     drawing.walls()
     drawing.dots()
     drawing.bodies()
     drawing.open_ends()
     drawing.frame()
-    drawing.save(pathlib.Path(path))
+    drawing.save(path)
     return "\n".join(summary(body) for body in particles)
 
 
 def summary(body):
     low, high = body.points.min(axis=0), body.points.max(axis=0)
-    count = f"{len(body.points):,}".replace(",", " ")
-    return (f"{body.name}: {count} particles, x {low[0]:.4g} to {high[0]:.4g} m, y {low[1]:.4g} to {high[1]:.4g} m")
+    return (f"{body.name}: {body.count}, x {low[0]:.4g} to {high[0]:.4g} m, y {low[1]:.4g} to {high[1]:.4g} m")

@@ -12,8 +12,8 @@ import numpy as np
 from toryu import program
 
 FILE = "exchange.h5"
-ANSWERS = {"solid": {"position": "m", "velocity": "m/s"},
-           "fluid": {"pressure": "Pa", "force": "N/m", "friction_force": "N/m"}}  # of each side, with their units
+ANSWERS = {"solid": ("position", "velocity"), "fluid": ("pressure", "force", "friction_force")}  # of each side
+SPAN = {"solid": 1.0, "fluid": 0.5}  # where in a window its answers are: a motion at the end, a mean load in the middle
 OTHER = {"solid": "fluid", "fluid": "solid"}
 CHUNK = 256  # windows that are held at once
 HINT = "a run leaves it with [coupling] record = 'every_window'"
@@ -32,7 +32,7 @@ class Difference:
     distance: np.ndarray  # window: root mean square over the interface
     largest: np.ndarray  # window: of all components
     scale: float  # largest root mean square of the record, of a position that of its displacement
-    same: np.ndarray  # window: whether every bit is that of the record
+    same: bool  # whether every bit is that of the record
 
 
 def fault_of(options, case):
@@ -65,49 +65,45 @@ def settings(options, case):
     return changed
 
 
-def at(file, name, times, kind):
-    """The record's `name` at `times` [s], of a motion at the ends of windows and of a load in their middle."""
-    ends = file["window_start"][:] + (1.0 if kind == "motion" else 0.5) * file["window_length"][:]
-    upper = np.clip(np.searchsorted(ends, times), 1, len(ends) - 1) if len(ends) > 1 else np.zeros(len(times), int)
+def at(dataset, known, times):
+    """What a dataset has at the times `known` [s], between these at `times`."""
+    upper = np.clip(np.searchsorted(known, times), 1, len(known) - 1) if len(known) > 1 else np.zeros(len(times), int)
     lower = np.maximum(upper - 1, 0)
     first, last = lower.min(), upper.max() + 1
-    values = file[name][first:last]
-    width = np.where(upper > lower, ends[upper] - ends[lower], 1.0)
-    share = np.clip((times - ends[lower]) / width, 0, 1).reshape(-1, *[1] * (values.ndim - 1))
+    values = dataset[first:last]
+    width = np.where(upper > lower, known[upper] - known[lower], 1.0)
+    share = np.clip((times - known[lower]) / width, 0, 1).reshape(-1, *[1] * (values.ndim - 1))
     return (1 - share) * values[lower - first] + share * values[upper - first]
 
 
-def difference(record, run, name, unit, aligned):
-    """Compares one answer of all windows."""
-    kind = "motion" if name in ANSWERS["solid"] else "load"
-    starts, lengths = run["window_start"][:], run["window_length"][:]
-    times = starts + (1.0 if kind == "motion" else 0.5) * lengths
-    distance, largest, same, scale = [], [], [], 0.0
+def difference(record, run, name, known, times):
+    """Compares one answer of all windows, whose answers are at `times` [s], with the record, which has them at `known`."""
+    aligned = np.array_equal(known[:len(times)], times)
+    distance, largest, same, scale = [], [], aligned, 0.0
     origin = record["start_position"][:] if name == "position" else 0.0
     for first in range(0, len(times), CHUNK):
         part = slice(first, first + CHUNK)
         found = run[name][part]
-        expected = record[name][part] if aligned else at(record, name, times[part], kind)
+        expected = record[name][part] if aligned else at(record[name], known, times[part])
         apart = (found - expected).reshape(len(found), -1)
-        same.append(aligned & (found == expected).reshape(len(found), -1).all(axis=1))
+        same = same and bool((found == expected).all())
         distance.append(np.sqrt((apart**2).sum(axis=1) / max(found.shape[1], 1)))
         largest.append(np.abs(apart).max(axis=1, initial=0.0))
         size = (expected - origin).reshape(len(found), -1)
         scale = max(scale, float(np.sqrt((size**2).sum(axis=1) / max(found.shape[1], 1)).max(initial=0.0)))
-    return Difference(name, unit, np.concatenate(distance), np.concatenate(largest), scale, np.concatenate(same))
+    unit = run[name].attrs["unit"].decode()
+    return Difference(name, unit, np.concatenate(distance), np.concatenate(largest), scale, same)
 
 
 def compare(record, out, side):
     """Times [s] and the differences of all that the side `side` answers. Raises BadRecord if a file is of no use."""
     with open_record(record) as before, open_record(out) as now:
         try:
-            windows = [(file["window_start"][:], file["window_length"][:]) for file in (before, now)]
-            count = len(windows[1][0])
-            if count == 0:
+            known, times = (file["window_start"][:] + SPAN[side] * file["window_length"][:] for file in (before, now))
+            if len(times) == 0:
                 raise BadRecord(f"{out / FILE}: error: holds no window")
-            aligned = all(np.array_equal(a[:count], b) for a, b in zip(*windows))
-            return windows[1][0] + windows[1][1], [difference(before, now, name, unit, aligned)
-                                                   for name, unit in ANSWERS[side].items()]
+            ends = now["window_start"][:] + now["window_length"][:]
+            return ends, [difference(before, now, name, known, times) for name in ANSWERS[side]]
         except (OSError, KeyError, ValueError, TypeError, RuntimeError) as error:
             raise BadRecord(f"{out / FILE}, {record / FILE}: error: cannot be compared: {error}") from None
 
@@ -122,7 +118,7 @@ def open_record(folder):
 def tell(side, times, differences):
     """The differences as lines of text."""
     count = len(times)
-    if all(d.same.all() for d in differences):
+    if all(d.same for d in differences):
         return f"replay, the {side} alone: in {count} windows every answer is that of the record, bit for bit"
     lines = [f"replay, the {side} alone, {count} windows; root mean square distance from the record over the interface:"]
     for d in differences:

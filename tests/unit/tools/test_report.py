@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 
 from toryu import PROGRAMS
+from toryu.case import resolve
 from toryu.folder_lock import lock_folder
 from toryu.report import data, frames, scene, tables
 from toryu.report.__main__ import page as make_page
@@ -71,8 +72,8 @@ class Page(unittest.TestCase):
         text = case.read_text()
         case.write_text(text[:text.index("[[reference]]")])
         self.assertEqual(self.telling()["time"], 0, "nothing is observed")
-        case.write_text(case.read_text().replace("[solid]\n", "[solid]\n[[solid.observer]]\nname = 'tip'\nquantity = 'displacement'\n"
-                                                 "at = [0.1, 0.0]\n"))
+        case.write_text(case.read_text().replace("[solid]\n", "[solid]\n[[solid.observer]]\nname = 'tip'\n"
+                                                 "point = [0.1, 0.0]\n"))
         self.assertAlmostEqual(self.telling()["time"], 0.15, delta=0.01)
 
     def test_it_marks_the_particle_that_failed(self):
@@ -250,41 +251,53 @@ class Pieces(unittest.TestCase):
 
     def test_a_worn_wall_is_drawn_with_its_outline(self):
         box = {"min": [0, 0], "max": [2, 1]}
-        wall, = scene.wall_paths({"wall": [{"name": "floor", "box": box, "worn": [
-            {"face": "upper", "depth": [[0.0, 0.1], [1.0, 0.3], [2.0, 0.1]]}, {"face": "left", "depth": [[0.5, 0.2]]}]}]}, 1.0)
+        wall, = scene.walls_of({"wall": [{"name": "floor", "box": box, "worn": [
+            {"face": "upper", "depth": [[0.0, 0.1], [1.0, 0.3], [2.0, 0.1]]}, {"face": "left", "depth": [[0.5, 0.2]]}]}]})
         self.assertEqual(wall["rings"], [[[0, 0], [2, 0], [2, 0], [2, 1], [2, 0.9], [1, 0.7], [0, 0.9], [0.2, 1],
                                           [0.2, 0.5], [0.2, 0]]])
-        wall, = scene.wall_paths({"wall": [{"name": "floor", "box": box, "worn": [{"face": "upper", "depth": [[0, 0]]}]}]}, 1.0)
+        wall, = scene.walls_of({"wall": [{"name": "floor", "box": box, "worn": [{"face": "upper", "depth": [[0, 0]]}]}]})
         self.assertEqual(wall["rings"], [])
 
     def test_a_wall_that_is_no_box_is_drawn_by_its_rings(self):
         frame = [[[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [1, 2], [2, 2]]]
-        floor, part = scene.wall_paths({"wall": [{"name": "floor", "box": {"min": [0, 0], "max": [1, 1]}},
-                                                 {"name": "part", "file": "part.svg"}]}, 1.0, {1: frame})
+        floor, part = scene.walls_of({"wall": [{"name": "floor", "box": {"min": [0, 0], "max": [1, 1]}},
+                                                 {"name": "part", "file": "part.svg"}]}, {1: frame})
         self.assertEqual((floor["rings"], floor["box"]), ([], [0, 0, 1, 1]))
         self.assertEqual((part["rings"], part["box"], part["round"]), (frame, [0, 0, 4, 4], False))
 
+    def charts_of(self, motion):
+        """Title -> label -> value at a time, of the charts of a wall that moves so for 2 s."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        case = pathlib.Path(folder.name) / "case.toml"
+        case.write_text('[case]\ntitle = "A"\nend_time = 2.0\ndomain = { min = [-9, -9], max = [9, 9] }\n[[wall]]\nname = "w"\n'
+                        f"box = {{ min = [0, 0], max = [1, 1] }}\n{motion}\n[fluid]\n")
+        resolved = resolve(case, PROGRAMS / "coupler")
+        charts = scene.motion_charts(scene.walls_of(resolved.content, resolved.outlines, resolved.motions), 2.0)
+        return {chart["title"]: {line["label"]: lambda t, points=line["points"]: np.interp(t, *zip(*points))
+                                 for line in chart["lines"]} for chart in charts}
+
     def test_a_wall_moves_by_the_integral_of_its_velocity(self):
-        wall, = scene.wall_paths({"wall": [
-            {"name": "w", "box": {"min": [0, 0], "max": [1, 1]},
-             "motion": {"velocity": [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]]}}]}, end=2.0)
-        at = {round(t, 6): x for t, x, *_ in wall["path"]}
-        self.assertAlmostEqual(at[0.5], 0.25)  # t^2
-        self.assertAlmostEqual(at[1.0], 1.0)
-        self.assertAlmostEqual(at[2.0], 3.0)  # the last velocity goes on
+        moved = self.charts_of("motion = { velocity = [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]] }")["prescribed displacement"]
+        self.assertEqual(list(moved), ["w, x"])
+        for time, place in ((0.5, 0.25), (1.0, 1.0), (2.0, 3.0)):  # t^2; the last velocity goes on
+            self.assertAlmostEqual(moved["w, x"](time), place)
 
     def test_a_wall_moves_faster_and_for_longer_by_its_multipliers(self):
-        wall, = scene.wall_paths({"wall": [
-            {"name": "w", "box": {"min": [0, 0], "max": [1, 1]},
-             "motion": {"velocity": [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]], "speed": 3.0, "time": 2.0}}]}, end=2.0)
-        at = {round(t, 6): x for t, x, *_ in wall["path"]}
-        self.assertAlmostEqual(at[1.0], 3 * 2 * 0.25)
-        self.assertAlmostEqual(at[2.0], 3 * 2 * 1.0)
+        found = self.charts_of("motion = { velocity = [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0]], speed = 3.0, time = 2.0 }")
+        self.assertAlmostEqual(found["prescribed displacement"]["w, x"](1.0), 3 * 2 * 0.25)
+        self.assertAlmostEqual(found["prescribed displacement"]["w, x"](2.0), 3 * 2 * 1.0)
+        self.assertAlmostEqual(found["prescribed velocity"]["w, x"](1.0), 3.0)
 
-    def test_a_wall_without_motion_has_no_path(self):
-        wall, = scene.wall_paths({"wall": [
-            {"name": "w", "box": {"min": [0, 0], "max": [1, 1]}}]}, end=2.0)
-        self.assertEqual(wall["path"], [])
+    def test_a_wall_that_turns_has_a_chart_of_its_angle_alone(self):
+        found = self.charts_of("motion.rotation = { about = [0.5, 0.5], angular_velocity = [[0.0, 2.0]] }")
+        self.assertEqual(list(found), ["prescribed angle"])
+        self.assertAlmostEqual(found["prescribed angle"]["w"](1.5), 3.0)
+
+    def test_a_wall_without_motion_has_no_poses(self):
+        wall, = scene.walls_of({"wall": [{"name": "w", "box": {"min": [0, 0], "max": [1, 1]}}]})
+        self.assertEqual(wall["poses"], [])
+        self.assertEqual(scene.motion_charts([wall], 2.0), [])
 
 
 if __name__ == "__main__":

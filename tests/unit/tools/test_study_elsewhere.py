@@ -233,7 +233,7 @@ class Hosts(Elsewhere):
         self.write(ONE_AXIS)
         ssh = self.folder / "ssh"
         ssh.write_text(f'#!/bin/bash\necho "$@" >> {self.folder}/ssh.txt\nshift\n[[ $1 == -- ]] && shift\n'
-                       'exec /bin/bash -c "$*"\n')
+                       'export SHELL=/bin/bash\nexec /bin/bash -c "$*"\n')  # sshd sets the login's shell
         ssh.chmod(0o755)
         self.environment["PARALLEL_SSH"] = str(ssh)
         self.where = "some_host,2/another_host"

@@ -37,7 +37,7 @@ def page(case_path, out, coupler, exit_code, words):
     found = frames.read_bodies(out, faults)
     bodies, boxes, step = frames.collect(found, case)
     end = scene.end_of(case, bodies)
-    walls = scene.wall_paths(case, end, used.outlines, used.motions)
+    walls = scene.walls_of(case, used.outlines, used.motions)
     file = along.read(out, faults)
     contours = surface.contours(file) if file else []
     times = sorted({time for body in bodies for time in body["times"]})

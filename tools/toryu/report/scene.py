@@ -28,7 +28,7 @@ def near_view(view, walls, bodies, contours):
     if contours:
         reach = contours[0].spacing / 2
         low, high = contours[0].position.min(axis=0) - reach, contours[0].position.max(axis=0) + reach
-    elif (solid is not None and any(wall["path"] for wall in walls)
+    elif (solid is not None and any(wall["poses"] for wall in walls)
           and max(solid[2:] - solid[:2]) < SMALL * max(view[2] - view[0], view[3] - view[1])):
         low, high = solid[:2], solid[2:]
     else:
@@ -41,26 +41,17 @@ def near_view(view, walls, bodies, contours):
     return [*map(float, low), *map(float, high)]
 
 
-def wall_paths(case, end, outlines=None, motions=None):
-    """Boxes of the rigid walls, the rings of those that `outlines` has by their number, and how they move until `end` [s]:
-    of a table of velocities rows of time, displacement, velocity (x, y of each), the displacement the integral of the
-    velocity; and of any motion that `motions` has by their number the poses that it passes."""
+def walls_of(case, outlines=None, motions=None):
+    """Boxes of the rigid walls, the rings of those that `outlines` has by their number, and of those that `motions` has the
+    poses that they pass."""
     walls = []
     for number, wall in enumerate(data.tables_of(case, "wall")):
-        rings, path = (outlines or {}).get(number, []), []
+        rings = (outlines or {}).get(number, [])
         box = bounds(rings) if rings else data.box_of(data.table(wall, "box"))
         if box is None:
             continue
-        rows = rows_of(motion_of(case, wall))
-        if len(rows):
-            times = np.union1d(rows[:, 0], np.linspace(0, end, 201))
-            velocity = np.column_stack([np.interp(times, rows[:, 0], rows[:, axis]) for axis in (1, 2)])
-            steps = np.diff(times)[:, None] * (velocity[1:] + velocity[:-1]) / 2
-            moved = np.vstack([[0, 0], np.cumsum(steps, axis=0)])
-            moved -= moved[np.searchsorted(times, 0)]
-            path = np.column_stack([times, moved, velocity]).tolist()
         walls.append({"name": str(wall.get("name", "")), "box": box, "round": data.table(wall, "box").get("round") is True,
-                      "path": path, "work_piece": wall.get("work_piece") is True, "rings": rings or worn_rings(wall, box),
+                      "work_piece": wall.get("work_piece") is True, "rings": rings or worn_rings(wall, box),
                       **(motions or {}).get(number, {"about": [0, 0], "poses": []})})
     return walls
 
@@ -89,41 +80,25 @@ def worn_rings(wall, box):
     return [corners]
 
 
-def motion_of(case, wall):
-    """Its own, or the one that it shares."""
-    shared = [m for m in data.tables_of(case, "motion") if m.get("name") == wall.get("moves_with")]
-    return shared[0] if shared else data.table(wall, "motion")
-
-
-def rows_of(motion):
-    """Rows of time, velocity x, y of a prescribed motion; none if it cannot be read, or is more than a table of
-    velocities: the picture shows such walls as they lie at the start."""
-    if any(motion.get(kind) for kind in ("position", "sine", "rotation")):
-        return np.empty((0, 3))
-    speed, time = motion.get("speed", 1), motion.get("time", 1)
-    rows = motion.get("velocity", [])
-    if not isinstance(rows, list) or not all(data.numbers(row, 3) for row in rows) or not data.numbers([speed, time], 2):
-        return np.empty((0, 3))
-    return np.array(rows, float).reshape(-1, 3) * [time, speed, speed]
-
-
 def motion_charts(walls, end):
-    """Charts of velocity and displacement of what moves by prescription, from 0 to `end` [s]; what moves alike is
+    """Charts of velocity, displacement and angle of what moves by prescription, from 0 to `end` [s]; what moves alike is
     one line."""
     groups = {}
     for wall in walls:
-        if wall["path"]:
-            groups.setdefault(str(wall["path"]), []).append(wall)
-    lines = {"velocity": [], "displacement": []}
+        if wall["poses"]:
+            groups.setdefault(str((wall["about"], wall["poses"])), []).append(wall)
+    lines = {"velocity": [], "displacement": [], "angle": []}
     for alike in groups.values():
         name = joined([results.readable(wall["name"]) for wall in alike])
-        path = np.array([row for row in alike[0]["path"] if 0 <= row[0] <= end * (1 + 1e-9)])
-        for axis, letter in enumerate("xy"):
-            moved, velocity = path[:, 1 + axis], path[:, 3 + axis]
+        times, x, y, angle, v_x, v_y = np.array([row for row in alike[0]["poses"] if row[0] <= end * (1 + 1e-9)]).T
+        about = alike[0]["about"]
+        for letter, moved, velocity in (("x", x - about[0], v_x), ("y", y - about[1], v_y)):
             if velocity.any():
                 for kind, values in (("velocity", velocity), ("displacement", moved)):
-                    lines[kind].append((f"{name}, {letter}", path[:, 0].tolist(), values.tolist(), "line"))
-    units = {"velocity": "m/s", "displacement": "m"}
+                    lines[kind].append((f"{name}, {letter}", times.tolist(), values.tolist(), "line"))
+        if angle.any():
+            lines["angle"].append((name, times.tolist(), angle.tolist(), "line"))
+    units = {"velocity": "m/s", "displacement": "m", "angle": "rad"}
     return [data.chart(f"prescribed {kind}", units[kind], found) for kind, found in lines.items() if found]
 
 

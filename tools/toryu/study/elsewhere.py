@@ -77,9 +77,7 @@ class Elsewhere(runner.Runner):
         runs = []
         for setting in settings:
             folder = self.folder(setting)
-            folder.mkdir(parents=True, exist_ok=True)
             goes_on = runner.prepare(folder, may_go_on)
-            folder.mkdir(parents=True, exist_ok=True)
             for name in (ENDED, runner.OUTPUT, "stop"):
                 (folder / name).unlink(missing_ok=True)
             runs.append(Queued(setting, folder, "", None, goes_on, runner.reached(folder), losses))
@@ -131,10 +129,11 @@ class Elsewhere(runner.Runner):
 
     def _ended(self):
         """Records of the runs that ended since."""
-        for run in [run for run in self.running.values() if read_ended(run.folder)]:
-            del self.running[run.setting.key]
-            if record := self._record_of(run, *read_ended(run.folder)):
-                yield record
+        for run in list(self.running.values()):
+            if ended := read_ended(run.folder):
+                del self.running[run.setting.key]
+                if record := self._record_of(run, *ended):
+                    yield record
         self._look_for_losses()
 
     def _record_of(self, run, code, elapsed):
