@@ -1,8 +1,14 @@
 """Runs cases and studies of toryu, and reads what they leave."""
 
+import difflib
 import pathlib
 
 PROGRAMS = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin"  # where a build leaves them
+
+
+def nearest(word, words):
+    near = difflib.get_close_matches(word, words, n=1)
+    return f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(map(repr, words))}" if words else ""
 
 
 def counted(count, thing):
