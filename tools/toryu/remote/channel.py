@@ -39,13 +39,11 @@ class Channel:
                 raise ChannelClosed(error.strerror) from error
 
     def skip_to(self, mark, limit):
-        """Passes over what comes before `mark`, within `limit` [s]; returns it. Raises as `receive` does."""
+        """Passes over what comes before `mark`, within `limit` [s]. Raises as `receive` does."""
         end = time.monotonic() + limit
         while (at := self.unread.find(mark)) < 0:
             self._read_more(max(0.0, end - time.monotonic()))
-        said = bytes(self.unread[:at])
         del self.unread[:at + len(mark)]
-        return said
 
     def receive(self, limit):
         """The next message that is more than a sign of life, and its bytes. Raises Silence after `limit` [s]."""

@@ -12,7 +12,7 @@ import time
 
 from toryu.processes import BAD_INPUT, MACHINE, PEER_LOST, ends_with_this_process
 from toryu.remote import agent
-from toryu.remote.channel import Channel, ChannelClosed, Silence
+from toryu.remote.channel import PULSE, Channel, ChannelClosed, Silence
 
 HERE = pathlib.Path(__file__).resolve().parent
 REACH_LIMIT = 30.0  # [s] in which a host answers
@@ -52,7 +52,7 @@ class Connection:
     def __init__(self, job):
         self.job = job
         self.limit = job.lost_after + SILENCE
-        self.said = []  # by the launcher and by what it started, but for the messages
+        self.said = []  # on standard error, by the launcher and by what it started
         command = [*job.launcher, job.address, "bash"]
         try:
             self.leader = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -65,7 +65,7 @@ class Connection:
         with contextlib.suppress(BrokenPipeError):
             self.leader.stdin.write(agent_line())
         try:
-            self.said += self.channel.skip_to(agent.MARK, REACH_LIMIT).decode(errors="replace").splitlines()
+            self.channel.skip_to(agent.MARK, REACH_LIMIT)
         except (ChannelClosed, Silence) as failure:
             raise self._unreached(isinstance(failure, Silence)) from failure
 
@@ -88,9 +88,12 @@ class Connection:
         return HostFailed(f"error: peer lost: the connection to {self.job.address} is gone: {why}", PEER_LOST)
 
     def close(self):
-        """Ends the agent, and with it what it started there."""
+        """Ends the agent, and with it what it started there; it may take its time to remove what was written."""
         with contextlib.suppress(OSError):
             self.leader.stdin.close()
+        with contextlib.suppress(HostFailed):
+            while True:
+                self.receive(PULSE)
         with contextlib.suppress(subprocess.TimeoutExpired):
             self.leader.wait(CLOSING)
         with contextlib.suppress(ProcessLookupError):
