@@ -128,6 +128,24 @@ class Copies(Folders):
         self.assertEqual(self.bring(), [])
         self.assertEqual((self.here / "checkpoint/000001/fluid.state").read_text(), "state")
 
+    def test_of_frames_leave_room(self):
+        frame = self.write("frames/fluid_000001.hdf", "frame")
+        self.bring()
+        self.assertFalse(frame.exists())
+        self.assertEqual(self.bring(), [])
+        self.assertTrue((self.here / "frames/fluid_000001.hdf").exists())
+
+    def test_that_cannot_be_written_are_passed_over(self):
+        receiver = Receiver(self.here)
+        self.write("file", "x", self.here)
+        for at, is_last in ((0, False), (3, False), (6, True)):
+            message = {"name": "file/a", "at": at, "last": is_last, "mode": 0o644}
+            if at == 0:
+                self.assertRaises(OSError, receiver.take, message, b"abc")
+            else:
+                self.assertIsNone(receiver.take(message, b"abc"))
+        self.assertTrue(receiver.take({"name": "b", "at": 0, "last": True, "mode": 0o644}, b"abc"))
+
     def test_of_the_lead_have_the_manifest_last(self):
         self.mirror.keeps_checkpoints = True
         for name in ("manifest.toml", "coupler.state", "solid.state"):

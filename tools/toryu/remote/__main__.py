@@ -17,7 +17,7 @@ import sys
 import threading
 
 from toryu import program
-from toryu.processes import BAD_INPUT, DONE, own_pause, requests_to_end
+from toryu.processes import BAD_INPUT, DONE, MACHINE, own_pause, requests_to_end
 from toryu.remote.channel import PULSE, ChannelClosed
 from toryu.remote.connection import Connection, HostFailed
 from toryu.remote.job import Job, argument, place, restart_files
@@ -41,13 +41,14 @@ class Stand:
         self.job = job
         self.out = pathlib.Path(job.out)
         self.participant = job.name.removesuffix("_solver")
+        self.work = ""  # the folder of the run there
         self.connection = Connection(job)
         self.channel = self.connection.channel
         self.asked = queue.SimpleQueue()  # signals to pass on
         self.there = set()  # parts of checkpoints that the host has, as names in the results
 
     def look(self):
-        """Whether the program can run there; returns the work folder. Raises HostFailed."""
+        """Whether the program can run there. Raises HostFailed."""
         self._send("check", program=self.job.program, folder=self.job.folder, limit=self.connection.limit,
                    asks_version=bool(self.job.version), out=place(self.job.out), is_lead=self.job.is_lead)
         message, _ = self._awaited("checked")
@@ -56,13 +57,13 @@ class Stand:
             raise HostFailed(f"error: {self.job.address}: {self.job.program} is another version ({found}) than here "
                              f"({self.job.version}): build the same commit there, or give its folder by --remote-bin",
                              BAD_INPUT)
-        return message["work"]
+        self.work = message["work"]
 
     def run(self, ended):
         """Runs the program; closes the descriptor `ended` when it has ended. Returns its status."""
-        work = self.look()
+        self.look()
         self._hand_over()
-        command = [self.job.program, argument(self.job.case, work), f"--out={argument(self.job.out, work)}",
+        command = [self.job.program, argument(self.job.case, self.work), f"--out={argument(self.job.out, self.work)}",
                    *self.job.arguments]
         self._send("start", command=command, folder=place("."), environment=of_threads(),
                    has_terminal=self.job.is_lead and sys.stderr.isatty())
@@ -195,6 +196,9 @@ def main(arguments):
     finally:
         if stand is not None:
             stand.connection.close()
+    if status == MACHINE:
+        print(f"{job.name}: error: that was on {job.address}, where it writes below {stand.work} until all was brought here; "
+              "--remote-folder gives another folder there", file=sys.stderr)
     return end_as(status)
 
 

@@ -63,25 +63,24 @@ class Agent:
         obeying.join()  # until all is taken
 
     def clean_up(self):
-        self.kill()
+        self.signal(signal.SIGKILL)
         if self.work is not None:
             shutil.rmtree(self.work, ignore_errors=True)
 
-    def kill(self):
-        if self.process is not None:
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(self.process.pid, signal.SIGKILL)
+    def signal(self, number):
+        """To the program and what it started, unless it has ended: its number may be another's then."""
+        if self.process is not None and self.process.returncode is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.process.pid, number)
 
     def _check(self, wanted):
         """Tells the version of the program, and makes the folder of the run."""
         program = wanted["program"]
         if not shutil.which(program):
-            raise Fault(f"has no program {program}")
+            raise Fault(f"has no program {program}: build toryu there, or give the folder of its programs by --remote-bin")
         version = ""
         if wanted["asks_version"]:
-            with contextlib.suppress(subprocess.TimeoutExpired, OSError):
-                version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                         stdin=subprocess.DEVNULL, timeout=VERSION_LIMIT).stdout.decode(errors="replace")
+            version = version_of(program)
         folder = wanted["folder"] or tempfile.gettempdir()
         try:
             self.work = pathlib.Path(tempfile.mkdtemp(prefix="toryu_", dir=folder))
@@ -89,12 +88,19 @@ class Agent:
         except OSError as error:
             raise Fault(f"{folder}: {error.strerror}", is_machine=True) from error
         self.mirror = Mirror(self.work / wanted["out"], self.channel, wanted["is_lead"])
-        self.channel.send("checked", version=version.strip(), work=str(self.work))
+        self.channel.send("checked", version=version, work=str(self.work))
 
     def _take(self, message, data):
         path = self.receiver.take(message, data)
         if path and message["known"]:
             self.mirror.note(path)
+
+    def _take_in_run(self, message, data):
+        """A part of a checkpoint: the run goes on without."""
+        try:
+            self._take(message, data)
+        except OSError as error:
+            self.channel.send("output", f"warning: {words_of(error)}\n".encode())
 
     def _obey(self):
         """What the run asks for while the program runs."""
@@ -103,17 +109,14 @@ class Agent:
                 message, data = self.channel.receive(None if self.is_paused else self.limit)
                 if message["kind"] == "signal":
                     self.is_paused = message["number"] == signal.SIGSTOP
-                    with contextlib.suppress(ProcessLookupError):
-                        os.killpg(self.process.pid, message["number"])
+                    self.signal(message["number"])
                 elif message["kind"] == "file":
-                    self._take(message, data)
-        except OSError as error:  # of a file: the run goes on, but for its checkpoints
-            with contextlib.suppress(ChannelClosed):
-                self.channel.send("output", f"warning: {error}\n".encode())
+                    self._take_in_run(message, data)
         except (ChannelClosed, Silence):
             pass
-        self.clean_up()
-        os._exit(1)
+        finally:
+            self.clean_up()
+            os._exit(1)
 
     def _start(self, start):
         folder = self.work / start["folder"]
@@ -171,6 +174,28 @@ class Agent:
                 self.channel.send("log", lines)
 
 
+def words_of(error):
+    return ": ".join(str(part) for part in (error.filename, error.strerror) if part)
+
+
+def version_of(program):
+    """What it tells. Raises Fault that says why it tells nothing: one of another processor is killed, for one."""
+    try:
+        done = subprocess.run([program, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              stdin=subprocess.DEVNULL, timeout=VERSION_LIMIT)
+    except subprocess.TimeoutExpired:
+        how = f"'--version' takes more than {VERSION_LIMIT:g} s"
+    except OSError as error:
+        how = error.strerror
+    else:
+        said = done.stdout.decode(errors="replace").strip()
+        if done.returncode == 0:
+            return said
+        how = said or (f"signal {-done.returncode} ({signal.strsignal(-done.returncode)})" if done.returncode < 0 else
+                       f"'--version' ends with {done.returncode}")
+    raise Fault(f"{program} does not run there: {how}; build it there, or on a machine of that kind")
+
+
 def end_with_the_parent():
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
@@ -189,7 +214,7 @@ def main():
     except Fault as fault:
         tell_of(agent, str(fault), fault.is_machine)
     except OSError as error:
-        tell_of(agent, ": ".join(str(part) for part in (error.filename, error.strerror) if part), True)
+        tell_of(agent, words_of(error), True)
     except (ChannelClosed, Silence):
         pass
     finally:

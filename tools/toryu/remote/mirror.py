@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from toryu.remote.channel import PIECE
 
-CHECKPOINTS = "checkpoint"
+CHECKPOINTS, FRAMES = "checkpoint", "frames"
 # Of one host alone; the log is passed on line by line.
 KEPT = {"run.lock", "run.secret", "launch.lock", "log.txt", "stop"}
 
@@ -45,10 +45,22 @@ class Receiver:
 
     def __init__(self, root):
         self.root = pathlib.Path(root)
-        self.file, self.whole = None, True
+        self.file, self.whole, self.has_failed = None, True, False
 
     def take(self, message, data):
-        """Returns the path of a file that is complete now, else None."""
+        """Returns the path of a file that is complete now, else None. Once an OSError was raised the rest of that file is
+        passed over."""
+        if self.has_failed:
+            self.has_failed = not message["last"]
+            return None
+        try:
+            return self._write(message, data)
+        except OSError:
+            self.has_failed = not message["last"]
+            self.file = None
+            raise
+
+    def _write(self, message, data):
         path = self.root / safe(message["name"])
         part = path.with_name(path.name + ".incoming")
         if self.file is None:
@@ -95,7 +107,7 @@ class Mirror:
     """What a program writes into `root`, for the other side of `channel`."""
 
     def __init__(self, root, channel, keeps_checkpoints):
-        """Where this is not the lead's host, parts of checkpoints are needed here no more once they were sent."""
+        """Frames are needed here no more once they were sent, nor are parts of checkpoints but on the lead's host."""
         self.root, self.channel, self.keeps_checkpoints = pathlib.Path(root), channel, keeps_checkpoints
         self.known = {}
 
@@ -135,7 +147,7 @@ class Mirror:
         grown = known and 0 < known.size <= facts.st_size and check_sum(path, known.size) == known.check_sum
         size, total = send_file(self.channel, path, name, known.size if grown else 0)
         self.known[name] = Known(size, facts.st_mtime_ns, total)
-        if name.startswith(CHECKPOINTS) and not self.keeps_checkpoints:
+        if name.startswith(FRAMES) or name.startswith(CHECKPOINTS) and not self.keeps_checkpoints:
             path.unlink()
             del self.known[name]
 

@@ -16,6 +16,7 @@ OTHER = {"fluid": "solid", "solid": "fluid"}
 NAMES = {"coupler": "coupler", "fluid": "fluid_solver", "solid": "solid_solver"}
 # Asks nothing, since nobody could answer; and gives up a host that is away.
 SSH = "ssh -T -o BatchMode=yes -o ConnectTimeout=10 -o ServerAliveInterval=15"
+LOOPBACK = "127.0.0.1"
 LONGEST_SILENCE = 3.0  # [s], as in common/run/network.hpp
 
 
@@ -69,11 +70,15 @@ def launcher_of(options):
     return words
 
 
+def is_loopback(address):
+    return address.startswith("127.")
+
+
 def own_address(host):
-    """The address by which `host` knows this machine; nothing is sent."""
+    """The address by which `host`, an address, knows this machine; nothing is sent."""
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            probe.connect((address_of(host), 7400))
+            probe.connect((host, 7400))
             return probe.getsockname()[0]
     except OSError as error:
         refuse(f"--host: error: no way leads to {host}: {error.strerror}; 'ip route get {host}' shows why")
@@ -88,10 +93,11 @@ def address_of(host):
 
 
 def peers_of(hosts, names):
-    """All hosts of a run, by addresses that each of them can reach."""
-    remote = [address.rpartition("@")[2] for address in hosts.values()]
-    own = [own_address(remote[0])] if len(hosts) < len(names) else []
-    return ",".join(dict.fromkeys([*own, *map(address_of, remote)]))
+    """All hosts of a run, by addresses that each of them can reach: loopback is this machine, which others know by another."""
+    remote = [address_of(address.rpartition("@")[2]) for address in hosts.values()]
+    own = next((address for address in map(own_address, remote) if not is_loopback(address)), LOOPBACK)
+    here = [own] if len(hosts) < len(names) else []
+    return ",".join(dict.fromkeys(here + [own if is_loopback(address) else address for address in remote]))
 
 
 def version_of(executable):
