@@ -300,6 +300,13 @@ def set_former_aside(options):
             raise SystemExit(complain(f"{options.out}: error: the former results cannot be {done}: {error}{hint}"))
 
 
+def age_of_used_case(out):
+    """When the programs wrote down what they use, which they do once they have met [ns]; None if they did not."""
+    with contextlib.suppress(OSError):
+        return (out / "used_case.toml").stat().st_mtime_ns
+    return None
+
+
 def go_on_with(arguments, options):
     """The command that goes on with this run: the same one, but that it restarts."""
     kept = [word for word in arguments if word != "--overwrite"] + ["--restart"] * (options.restart is None)
@@ -364,8 +371,9 @@ def main(arguments):
         if options.restart is None:
             set_former_aside(options)
         placement.make_secret()
+        before = age_of_used_case(options.out)
         try:
-            code, words = placement.run_of(commands, environment)()
+            code, words = placement.run_of(commands, environment, lambda: age_of_used_case(options.out) != before)()
         finally:
             placement.forget_secret()
         if words:

@@ -116,17 +116,24 @@ class Copies(Folders):
     def test_of_what_is_written_still_or_of_a_host_alone_are_none(self):
         for name in ("frames/fluid_000001.hdf.part", "checkpoint/000001/fluid.state.part", "run.secret", "run.lock", "log.txt"):
             self.write(name, "x")
-        self.assertFalse(self.mirror.has_new_parts())
+        self.assertFalse(self.mirror.has_news())
         self.assertEqual(self.bring(), [])
 
     def test_of_checkpoints_come_last_and_leave_room(self):
         part = self.write("checkpoint/000001/fluid.state", "state")
         self.write("fluid.csv.part", "a\n")
-        self.assertTrue(self.mirror.has_new_parts())
+        self.assertTrue(self.mirror.has_news())
         self.assertEqual([name for name, *_ in self.bring()], ["fluid.csv.part", "checkpoint/000001/fluid.state"])
         self.assertFalse(part.exists())
         self.assertEqual(self.bring(), [])
         self.assertEqual((self.here / "checkpoint/000001/fluid.state").read_text(), "state")
+
+    def test_are_wanted_at_once_when_the_run_has_begun(self):
+        path = self.write("used_case.toml", "a")
+        self.mirror.note(path)
+        self.assertFalse(self.mirror.has_news())
+        self.write("used_case.toml", "of the restart")
+        self.assertTrue(self.mirror.has_news())
 
     def test_of_frames_leave_room(self):
         frame = self.write("frames/fluid_000001.hdf", "frame")

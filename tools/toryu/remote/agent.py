@@ -139,7 +139,7 @@ class Agent:
             else:
                 time.sleep(TICK)
             self._pass_on_log()
-            if self.mirror.has_new_parts() or time.monotonic() >= next_copy:
+            if self.mirror.has_news() or time.monotonic() >= next_copy:
                 start = time.monotonic()
                 self.mirror.bring_up_to_date()
                 end = time.monotonic()

@@ -116,9 +116,12 @@ class Mirror:
         facts = path.stat()
         self.known[self._name(path)] = Known(facts.st_size, facts.st_mtime_ns, check_sum(path, facts.st_size))
 
-    def has_new_parts(self):
-        return any(self._name(path) not in self.known for path in self.root.glob(f"{CHECKPOINTS}/*/*")
-                   if is_whole(path.name))
+    def has_news(self):
+        """Whether there is what the run waits for: a part of a checkpoint, or the sign that it has begun."""
+        waited_for = [path for path in self.root.glob(f"{CHECKPOINTS}/*/*") if is_whole(path.name)]
+        with contextlib.suppress(FileNotFoundError):
+            return any(map(self._has_changed, [*waited_for, *self.root.glob("used_case.toml")]))
+        return False
 
     def bring_up_to_date(self):
         """Sends what is new and what has changed, checkpoints after the files that they belong to and the manifests last of
@@ -135,15 +138,19 @@ class Mirror:
     def _name(self, path):
         return path.relative_to(self.root).as_posix()
 
+    def _has_changed(self, path):
+        known, facts = self.known.get(self._name(path)), path.stat()
+        return not known or (known.size, known.changed) != (facts.st_size, facts.st_mtime_ns)
+
     def _turn(self, path):
         name = self._name(path)
         return name.startswith(CHECKPOINTS), path.name == "manifest.toml", name
 
     def _send(self, path):
+        if not self._has_changed(path):
+            return
         name, facts = self._name(path), path.stat()
         known = self.known.get(name)
-        if known and (known.size, known.changed) == (facts.st_size, facts.st_mtime_ns):
-            return
         grown = known and 0 < known.size <= facts.st_size and check_sum(path, known.size) == known.check_sum
         size, total = send_file(self.channel, path, name, known.size if grown else 0)
         self.known[name] = Known(size, facts.st_mtime_ns, total)

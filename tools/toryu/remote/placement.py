@@ -147,7 +147,7 @@ class Placement:
                 print(words, file=sys.stderr)
         return max((look.returncode for look in looks), default=DONE)
 
-    def run_of(self, commands, environment):
+    def run_of(self, commands, environment, have_met):
         """The run of `commands`, name -> words, with what stands here for those on other hosts."""
         placed, stands = {}, set()
         for name, command in commands.items():
@@ -158,7 +158,7 @@ class Placement:
                 placed[name] = program.python("remote", job.as_text())
             else:
                 placed[name] = command + self.network
-        return Run(placed, lead=next(iter(placed)), environment=environment, stands=stands)
+        return Run(placed, lead=next(iter(placed)), environment=environment, stands=stands, have_met=have_met)
 
     def make_secret(self):
         """Of a coupled run: each host gets a copy (common/link/run_secret.hpp)."""
