@@ -4,6 +4,7 @@ connection or a host's disk ends.
     launched_hosts_test.py BIN [GROUP]"""
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -88,10 +89,18 @@ class Restart(HostsCase):
                 self.assertEqual(self.names(newest),
                                  ["case.toml", "coupler.state", "fluid.state", "manifest.toml", "solid.state"])
                 self.assertEqual(len(list((run.out / "checkpoint").iterdir())), 2)
+                for part in ("fluid", "solid"):
+                    self.add_frames_beyond(run.out, part)
                 time = float((newest / "manifest.toml").read_text().split()[2])
                 self.assert_end(run.start(roles, f"--end-time={time + 0.002}", every, "--restart"), DONE)
                 self.assert_end(run.start(ON_ONE, f"--end-time={time + 0.002}", every, "--overwrite", out=one), DONE)
                 self.assert_same(run.out, one)
+
+    def add_frames_beyond(self, out, part):
+        """As of a run that was killed well after its last checkpoint."""
+        last = max(out.glob(f"frames/{part}_*.hdf"))
+        for beyond in range(1, 5):
+            shutil.copy(last, last.with_name(f"{part}_{int(last.stem[-6:]) + beyond:06}.hdf"))
 
 
 class Refusal(HostsCase):
@@ -139,7 +148,9 @@ class Failure(HostsCase):
         run = self.hosts()
         run.start(ON_THREE, LONG).wait_for("coupler.csv.part")
         run.wait_for("fluid.csv.part")  # copied as the run goes on
-        os.kill(run.processes_on("fluid")["agent"], signal.SIGKILL)
+        there = run.processes_on("fluid")
+        os.kill(there["fluid_solver"], signal.SIGSTOP)  # it cannot end by itself
+        os.kill(there["agent"], signal.SIGKILL)
         code, said = run.end()
         self.assertEqual(code, PEER_LOST, said)
         self.assertIn("fluid_solver: error: peer lost: the connection to 10.77.0.2 is gone: it was closed", said)
