@@ -1,5 +1,6 @@
 // A canvas that shows a part of the scene: walls, particles, what is drawn over them; zoom and pan.
 const MOST_HEIGHT = 0.68;  // of the window, of a picture that takes the page's width
+const OUTLINE = 1.5;  // [pixels of the page]
 const cssColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name);
 
 class Stage {
@@ -48,16 +49,19 @@ class Stage {
   }
 
   async draw(time) {
-    const frames = await Promise.all(this.bodies.map((body) => body.frame(body.indexAt(time))));
+    const bodies = this.bodies.filter(({style}) => style !== "hidden");
+    const frames = await Promise.all(bodies.map((body) => body.frame(body.indexAt(time))));
     const {width, height} = this.canvas;
     this.context.clearRect(0, 0, width, height);
     this.drawWalls(time);
     const image = this.context.getImageData(0, 0, width, height);
-    this.shown = this.bodies.map((body, i) => {
+    this.shown = [];
+    bodies.forEach((body, i) => {
       body.adapt(frames[i]);
-      const places = body.places(frames[i], this.factor);
-      this.drawBody(image, body, places, frames[i][2 + body.chosen]);
-      return {body, places, field: frames[i][2 + body.chosen]};
+      const places = body.places(frames[i], this.factor), field = frames[i][2 + body.chosen];
+      if (body.style === "outlined") return this.drawOutline(image, body, places);
+      this.drawBody(image, body, places, field);
+      this.shown.push({body, places, field});
     });
     this.context.putImageData(image, 0, 0);
     for (const draw of this.over) draw(this, time);
@@ -66,34 +70,69 @@ class Stage {
 
   drawWalls(time) {
     for (const wall of this.walls) {
-      const place = placing(wall, time);
       this.context.fillStyle = cssColour(wall.poses.length ? "--moving" : wall.work_piece ? "--piece" : "--wall");
-      this.context.beginPath();
-      for (const ring of wall.rings.length ? wall.rings : [cornersOf(wall)]) {
-        ring.forEach((corner, k) => this.context[k ? "lineTo" : "moveTo"](...this.toPixel(...place(corner))));
-        this.context.closePath();
-      }
+      this.trace(wall, time);
       this.context.fill("evenodd");
     }
   }
 
+  outlineWalls(walls, time) {
+    this.context.strokeStyle = cssColour("--second");
+    this.context.lineWidth = OUTLINE * this.ratio;
+    for (const wall of walls) {
+      this.trace(wall, time);
+      this.context.stroke();
+    }
+  }
+
+  // The rings of a wall as the context's path.
+  trace(wall, time) {
+    const place = placing(wall, time);
+    this.context.beginPath();
+    for (const ring of wall.rings.length ? wall.rings : [cornersOf(wall)]) {
+      ring.forEach((corner, k) => this.context[k ? "lineTo" : "moveTo"](...this.toPixel(...place(corner))));
+      this.context.closePath();
+    }
+  }
+
   drawBody(image, body, places, field) {
-    const palette = body.palette(), {width, height} = this.canvas, pixels = image.data;
+    const palette = body.palette(), pixels = image.data;
+    this.coverBy(body, places, (i, pixel, cover) => {
+      const colour = !field ? palette[0] : field[i] === NO_VALUE ? NOT_FINITE : palette[field[i] >> 8], at = 4 * pixel;
+      // Over what is there; an empty pixel takes the colour and is as opaque as it is covered.
+      const below = pixels[at + 3] / 255 * (1 - cover), alpha = cover + below;
+      for (let c = 0; c < 3; ++c) pixels[at + c] = (colour[c] * cover + pixels[at + c] * below) / alpha;
+      pixels[at + 3] = 255 * alpha;
+    });
+  }
+
+  // The edge of what drawBody would fill.
+  drawOutline(image, body, places) {
+    const {width, height} = this.canvas, filled = new Uint8Array(width * height), pixels = image.data;
+    this.coverBy(body, places, (_, pixel, cover) => { if (cover > 0.5) filled[pixel] = 1; });
+    const colour = channels(cssColour("--second")), wide = Math.max(1, Math.round(OUTLINE * this.ratio));
+    for (let y = wide; y < height - wide; ++y)
+      for (let x = wide; x < width - wide; ++x) {
+        const pixel = y * width + x;
+        if (!filled[pixel] || filled[pixel - wide] && filled[pixel + wide] && filled[pixel - wide * width] && filled[pixel + wide * width])
+          continue;
+        for (let c = 0; c < 3; ++c) pixels[4 * pixel + c] = colour[c];
+        pixels[4 * pixel + 3] = 255;
+      }
+  }
+
+  // Tells `paint` every pixel of each particle's disc: (number of the particle, pixel, cover).
+  coverBy(body, places, paint) {
+    const {width, height} = this.canvas;
     const radius = Math.max(0.7, this.disc * body.spacing * this.scale), masks = discs(radius);
     for (let i = 0; 2 * i < places.length; ++i) {
       const [px, py] = this.toPixel(places[2 * i], places[2 * i + 1]);
       const left = Math.floor(px), top = Math.floor(py);
       if (!(px > -radius && px < width + radius && py > -radius && py < height + radius)) continue;
       const mask = masks[Math.floor((px - left) * 4) + 4 * Math.floor((py - top) * 4)];
-      const colour = !field ? palette[0] : field[i] === NO_VALUE ? NOT_FINITE : palette[field[i] >> 8];
       for (let k = 0; k < mask.length; k += 3) {
         const x = left + mask[k], y = top + mask[k + 1];
-        if (x < 0 || x >= width || y < 0 || y >= height) continue;
-        const at = 4 * (y * width + x), cover = mask[k + 2];
-        // Over what is there; an empty pixel takes the colour and is as opaque as it is covered.
-        const below = pixels[at + 3] / 255 * (1 - cover), alpha = cover + below;
-        for (let c = 0; c < 3; ++c) pixels[at + c] = (colour[c] * cover + pixels[at + c] * below) / alpha;
-        pixels[at + 3] = 255 * alpha;
+        if (x >= 0 && x < width && y >= 0 && y < height) paint(i, y * width + x, mask[k + 2]);
       }
     }
   }
