@@ -7,6 +7,7 @@ const MAPS = {
 };
 const NOT_FINITE = [255, 0, 255], WITHOUT_VALUES = [128, 128, 128];
 
+const nearestTo = (time, times) => times.reduce((best, t, k) => Math.abs(t - time) < Math.abs(times[best] - time) ? k : best, 0);
 const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.trim().slice(i, i + 2), 16));
 
 // 256 colours, linear between those of the map.
@@ -115,6 +116,7 @@ class Body {
 }
 
 // Discs of `radius` pixels as lists of (dx, dy, cover), one for each quarter-pixel position of the centre.
+const CENTRED = 10;
 function discs(radius) {
   return Array.from({length: 16}, (_, k) => {
     const cx = (k % 4 + 0.5) / 4, cy = (Math.floor(k / 4) + 0.5) / 4, reach = Math.ceil(radius) + 1, pixels = [];

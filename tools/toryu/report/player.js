@@ -32,7 +32,7 @@ class Player {
   // The index of the frame nearest to a time; null, which stands for no end, is the last.
   nearest(time) {
     if (time === null) return this.times.length - 1;
-    return this.times.reduce((best, t, k) => Math.abs(t - time) < Math.abs(this.times[best] - time) ? k : best, 0);
+    return nearestTo(time, this.times);
   }
 
   show(index) {

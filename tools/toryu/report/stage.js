@@ -1,6 +1,7 @@
 // A canvas that shows a part of the scene: walls, particles, what is drawn over them; zoom and pan.
 const MOST_HEIGHT = 0.68;  // of the window, of a picture that takes the page's width
 const OUTLINE = 1.5;  // [pixels of the page]
+const GAP = 0.4;  // in spacings: an outline closes what is twice as wide, as between particles in disorder
 const cssColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name);
 
 class Stage {
@@ -106,25 +107,34 @@ class Stage {
     });
   }
 
-  // The edge of what drawBody would fill.
+  // The edge of what drawBody would fill, without the gaps between neighbours.
   drawOutline(image, body, places) {
-    const {width, height} = this.canvas, filled = new Uint8Array(width * height), pixels = image.data;
-    this.coverBy(body, places, (_, pixel, cover) => { if (cover > 0.5) filled[pixel] = 1; });
-    const colour = channels(cssColour("--second")), wide = Math.max(1, Math.round(OUTLINE * this.ratio));
-    for (let y = wide; y < height - wide; ++y)
-      for (let x = wide; x < width - wide; ++x) {
-        const pixel = y * width + x;
-        if (!filled[pixel] || filled[pixel - wide] && filled[pixel + wide] && filled[pixel - wide * width] && filled[pixel + wide * width])
-          continue;
-        for (let c = 0; c < 3; ++c) pixels[4 * pixel + c] = colour[c];
-        pixels[4 * pixel + 3] = 255;
-      }
+    const colour = channels(cssColour("--second")), pixels = image.data;
+    for (const pixel of edgeOf(this.areaOf(body, places), this.canvas.width, Math.max(1, Math.round(OUTLINE * this.ratio)))) {
+      for (let c = 0; c < 3; ++c) pixels[4 * pixel + c] = colour[c];
+      pixels[4 * pixel + 3] = 255;
+    }
   }
 
-  // Tells `paint` every pixel of each particle's disc: (number of the particle, pixel, cover).
-  coverBy(body, places, paint) {
+  // 1 for each pixel that a body covers: its discs are drawn larger, which closes gaps, and what that adds is taken off.
+  areaOf(body, places) {
+    const {width, height} = this.canvas, more = GAP * body.spacing * this.scale, area = new Uint8Array(width * height);
+    this.coverBy(body, places, (_, pixel, cover) => { if (cover > 0.5) area[pixel] = 1; }, more);
+    const disc = discs(more)[CENTRED], taken = area.slice();
+    for (const pixel of edgeOf(area, width, 1)) {
+      const x = pixel % width, y = Math.floor(pixel / width);
+      for (let k = 0; k < disc.length; k += 3) {
+        const px = x + disc[k], py = y + disc[k + 1];
+        if (disc[k + 2] > 0.5 && px >= 0 && px < width && py >= 0 && py < height) taken[py * width + px] = 0;
+      }
+    }
+    return taken;
+  }
+
+  // Tells `paint` every pixel of each particle's disc, `more` pixels wider: (number of the particle, pixel, cover).
+  coverBy(body, places, paint, more = 0) {
     const {width, height} = this.canvas;
-    const radius = Math.max(0.7, this.disc * body.spacing * this.scale), masks = discs(radius);
+    const radius = Math.max(0.7, this.disc * body.spacing * this.scale) + more, masks = discs(radius);
     for (let i = 0; 2 * i < places.length; ++i) {
       const [px, py] = this.toPixel(places[2 * i], places[2 * i + 1]);
       const left = Math.floor(px), top = Math.floor(py);
@@ -191,6 +201,18 @@ class Stage {
     }
     return found;
   }
+}
+
+// The covered pixels of an area that lie within `wide` of one that is not.
+function edgeOf(area, width, wide) {
+  const height = area.length / width, found = [];
+  for (let y = wide; y < height - wide; ++y)
+    for (let x = wide; x < width - wide; ++x) {
+      const pixel = y * width + x;
+      if (area[pixel] && !(area[pixel - wide] && area[pixel + wide] && area[pixel - wide * width] && area[pixel + wide * width]))
+        found.push(pixel);
+    }
+  return found;
 }
 
 // Corners of a wall that is a box, or the ellipse in it.
