@@ -4,7 +4,7 @@ import html
 import pathlib
 import string
 
-from toryu import program
+from toryu import printable, program
 from toryu.compare.runs import percent
 from toryu.report import player, tables
 from toryu.results import readable, unit_of
@@ -58,7 +58,8 @@ def draw(column, names, path):
         panel.plot(times, [factor * v for v in values], color=drawing.LINES[number], label=name,
                    linestyle="-" if number == 0 else (0, (4, 2)))
     panel.set_xlabel("time [s]")
-    panel.set_ylabel(f"{readable(column.name)} [{unit}]" if unit else readable(column.name))
+    label = f"{readable(column.name)} [{unit}]" if unit else readable(column.name)
+    panel.set_ylabel(printable(label))  # XML holds no control characters
     panel.legend()
     return drawing.save(made, path)
 
