@@ -48,6 +48,10 @@ class Motion(unittest.TestCase):
         self.outs.reverse()
         content, _ = self.collect()
         np.testing.assert_allclose(content["times"], [0.05 * k for k in range(7)])
+        # nor is a body shown at a time that another one of its run has not reached
+        for k in (3, 4, 5, 6):
+            (self.outs[0] / f"frames/solid_{k:06}.hdf").unlink()
+        np.testing.assert_allclose(self.collect()[0]["times"], [0, 0.05, 0.1])
 
     def test_both_are_coloured_over_one_range(self):
         for frame in (self.outs[1] / "frames").glob("fluid*.hdf"):

@@ -27,11 +27,12 @@ def times_of(bodies):
 
 
 def keep_common_times(found):
-    """Leaves out frames that only one run reached: the last frame of the other stands for half an interval more."""
-    ends = [times[-1] + (times[-1] - times[-2]) / 2 if len(times) > 1 else times[-1] for times in map(times_of, found)]
-    for bodies in found:
-        for body in bodies:
-            body.files = [file for file in body.files if file[0] <= min(ends)] or body.files[:1]
+    """Leaves out frames that not all bodies of both runs reached: a last frame stands for half an interval more."""
+    bodies = [body for of_run in found for body in of_run]
+    end = min(times[-1] + (times[-1] - times[-2]) / 2 if len(times) > 1 else times[-1]
+              for times in (times_of([body]) for body in bodies))
+    for body in bodies:
+        body.files = [file for file in body.files if file[0] <= end] or body.files[:1]
 
 
 def pairs(first, second):
