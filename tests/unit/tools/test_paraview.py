@@ -117,6 +117,8 @@ class Frames(unittest.TestCase):
         self.assertEqual(self.in_pvpython("picture.png", "0.2").saved, [("picture.png", [1600, 900], 0.2)])
         self.assertEqual(self.in_pvpython("picture.png").saved, [("picture.png", [1600, 900], 0.4)])
         self.assertEqual(self.in_pvpython().saved, [])
+        with self.assertRaisesRegex(SystemExit, "TIME is a number of seconds, found '0,2'"):
+            self.in_pvpython("picture.png", "0,2")
 
     def test_results_that_were_moved_are_found(self):
         self.make(("fluid",))

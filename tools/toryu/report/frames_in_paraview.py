@@ -78,7 +78,7 @@ def look_at(view, box):
     view.CameraParallelScale = max(y1 - y0, (x1 - x0) * height / width) / 2
 
 
-def draw(picture=None, time=None):
+def draw(picture, time):
     view = simple.GetActiveViewOrCreate("RenderView")
     sources = [show(body, view) for body in BODIES]
     simple.Show(simple.AnnotateTimeFilter(sources[0]), view)
@@ -95,4 +95,15 @@ def draw(picture=None, time=None):
         simple.SaveScreenshot(picture, view)
 
 
-draw(*(sys.argv[1:2] + [float(text) for text in sys.argv[2:3]]) if sys.argv[0].endswith("frames.py") else [])
+def arguments():
+    """Picture and time of pvpython's command line; a window has none."""
+    picture, time = (*sys.argv[1:3], None, None)[:2]
+    if not sys.argv[0].endswith("frames.py"):
+        return None, None
+    try:
+        return picture, time and float(time)
+    except ValueError:
+        sys.exit(f"frames.py: error: TIME is a number of seconds, found '{time}'")
+
+
+draw(*arguments())
