@@ -53,9 +53,9 @@ class Results(HostsCase):
         run = self.hosts()
         one = run.base / "one"
         self.assert_end(run.start(ON_ONE, SHORT, out=one), DONE)
-        for roles in (ON_THREE, ("coupler", "fluid")):
+        for roles, *network in ((ON_THREE,), (("coupler", "fluid"), "--interface=eth0", "--domain=7", "--lost-after=4")):
             with self.subTest(roles=roles):
-                self.assert_end(run.start(roles, SHORT, "--overwrite"), DONE, "round trip")
+                self.assert_end(run.start(roles, SHORT, "--overwrite", *network), DONE, "round trip")
                 self.assert_same(run.out, one)
                 self.assertEqual(self.names(run.out), self.names(one))
                 for part in ("fluid", "solid"):

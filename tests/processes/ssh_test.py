@@ -1,5 +1,5 @@
-"""A run whose solvers are reached by a real ssh, through a server on loopback: the same bits as without, its end by Ctrl-C, and
-the end of ssh itself.
+"""A run whose solvers are reached by a real ssh, through a server on loopback: the same bits as without, its end by Ctrl-C,
+and the end of ssh itself.
 
     ssh_test.py BIN"""
 import os

@@ -68,7 +68,8 @@ class LoopbackSsh:
     def _wait(self):
         end = time.monotonic() + START
         while True:
-            done = subprocess.run([*self.command(), "127.0.0.1", "true"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+            done = subprocess.run([*self.command(), "127.0.0.1", "true"], stdin=subprocess.DEVNULL, capture_output=True,
+                                  text=True)
             if done.returncode == 0:
                 return
             if time.monotonic() > end or self.server.poll() is not None:

@@ -355,8 +355,10 @@ def main(arguments):
     if options.describe:
         return describe(commands)
     # A program that takes a solver's place checks its own input when it starts.
-    own = {name: command for name, command in commands.items() if pathlib.Path(command[0]).parent == options.bin}
+    own = [name for name, executable in executables.items() if pathlib.Path(executable).parent == options.bin]
     placement = Placement(options, case, executables, own)
+    commands = {name: command + placement.network for name, command in commands.items()}
+    own = {name: commands[name] for name in own}
     guests = [command[0] for name, command in commands.items() if name not in {**own, **placement.jobs}]
     if options.check:
         return placement.check() or check_alone(options, case, own, guests)

@@ -114,7 +114,8 @@ class Copies(Folders):
         self.assertEqual([path.name for path in self.here.iterdir()], ["fluid.csv"])
 
     def test_of_what_is_written_still_or_of_a_host_alone_are_none(self):
-        for name in ("frames/fluid_000001.hdf.part", "checkpoint/000001/fluid.state.part", "run.secret", "run.lock", "log.txt"):
+        for name in ("frames/fluid_000001.hdf.part", "checkpoint/000001/fluid.state.part", "run.secret", "run.lock",
+                     "log.txt"):
             self.write(name, "x")
         self.assertFalse(self.mirror.has_news())
         self.assertEqual(self.bring(), [])

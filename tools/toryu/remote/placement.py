@@ -106,7 +106,8 @@ def version_of(executable):
 
 
 class Placement:
-    """The programs of a run and where they are: `jobs` of those that are on other hosts."""
+    """The programs of a run and where they are: `jobs` of those that are on other hosts, and what each program of the run is
+    told of the `network`."""
 
     def __init__(self, options, case, executables, own):
         """`executables`: program -> path, the lead first; those of `own` are of toryu."""
@@ -154,10 +155,10 @@ class Placement:
             if job := self.jobs.get(name):
                 name = f"{name} on {job.address}"
                 stands.add(name)
-                job.arguments = command[3:] + self.network  # without the program, the case and the results
+                job.arguments = command[3:]  # without the program, the case and the results
                 placed[name] = program.python("remote", job.as_text())
             else:
-                placed[name] = command + self.network
+                placed[name] = command
         return Run(placed, lead=next(iter(placed)), environment=environment, stands=stands, have_met=have_met)
 
     def make_secret(self):
