@@ -170,8 +170,9 @@ class Copies(Folders):
     def test_that_did_not_come_whole_have_no_name(self):
         receiver = Receiver(self.here)
         receiver.take({"name": "a", "at": 0, "last": False, "mode": 0o644}, b"half")
-        receiver.file.close()
         self.assertFalse((self.here / "a").exists())
+        receiver.give_up()
+        self.assertEqual(list(self.here.iterdir()), [])
 
     def test_keep_secrets_to_their_owner(self):
         Receiver(self.here).take({"name": "run.secret", "at": 0, "last": True, "mode": 0o600}, b"x")

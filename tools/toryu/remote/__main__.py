@@ -41,6 +41,7 @@ class Stand:
         self.job = job
         self.out = pathlib.Path(job.out)
         self.participant = job.name.removesuffix("_solver")
+        self.receiver = Receiver(self.out)
         self.work = ""  # the folder of the run there
         self.connection = Connection(job)
         self.channel = self.connection.channel
@@ -69,7 +70,6 @@ class Stand:
                    has_terminal=self.job.is_lead and sys.stderr.isatty())
         self._awaited("started")
         threading.Thread(target=self._pass_on_signals, daemon=True).start()
-        receiver = Receiver(self.out)
         while True:
             message, data = self.connection.receive(TICK)
             match message["kind"]:
@@ -80,7 +80,7 @@ class Stand:
                     append(self.out / "log.txt", data)
                 case "file":
                     self.there.add(message["name"])
-                    receiver.take(message, data)
+                    self.receiver.take(message, data)
                 case "gone":
                     remove(self.out, message["name"])
                 case "over":
@@ -195,6 +195,7 @@ def main(arguments):
         return failure.code
     finally:
         if stand is not None:
+            stand.receiver.give_up()
             stand.connection.close()
     if status == MACHINE:
         print(f"{job.name}: error: that was on {job.address}, where it writes below {stand.work} until all was brought here; "

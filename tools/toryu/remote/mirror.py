@@ -45,7 +45,7 @@ class Receiver:
 
     def __init__(self, root):
         self.root = pathlib.Path(root)
-        self.file, self.whole, self.has_failed = None, True, False
+        self.file, self.part, self.whole, self.has_failed = None, None, True, False
 
     def take(self, message, data):
         """Returns the path of a file that is complete now, else None. Once an OSError was raised the rest of that file is
@@ -57,17 +57,26 @@ class Receiver:
             return self._write(message, data)
         except OSError:
             self.has_failed = not message["last"]
-            self.file = None
+            self.give_up()
             raise
+
+    def give_up(self):
+        """What has not come whole does not stay."""
+        if self.file is None:
+            return
+        with contextlib.suppress(OSError):  # what it held back cannot be written either
+            self.file.close()
+        self.file = None
+        if self.whole:
+            self.part.unlink(missing_ok=True)
 
     def _write(self, message, data):
         path = self.root / safe(message["name"])
-        part = path.with_name(path.name + ".incoming")
         if self.file is None:
-            self.whole = message["at"] == 0
+            self.whole, self.part = message["at"] == 0, path.with_name(path.name + ".incoming")
             path.parent.mkdir(parents=True, exist_ok=True)
             flags = os.O_CREAT | os.O_TRUNC if self.whole else 0
-            self.file = open(os.open(part if self.whole else path, os.O_WRONLY | flags, message["mode"] | 0o200), "wb")
+            self.file = open(os.open(self.part if self.whole else path, os.O_WRONLY | flags, message["mode"] | 0o200), "wb")
             self.file.seek(message["at"])
         self.file.write(data)
         if not message["last"]:
@@ -75,7 +84,7 @@ class Receiver:
         self.file.close()
         self.file = None
         if self.whole:
-            part.replace(path)
+            self.part.replace(path)
         return path
 
 
