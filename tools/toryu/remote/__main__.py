@@ -198,7 +198,7 @@ def main(arguments):
             stand.receiver.give_up()
             stand.connection.close()
     if status == MACHINE:
-        print(f"{job.name}: error: that was on {job.address}, where it writes below {stand.work} until all was brought here; "
+        print(f"{job.name}: error: it was on {job.address}, where it wrote below {stand.work} until all was brought here; "
               "--remote-folder gives another folder there", file=sys.stderr)
     return end_as(status)
 

@@ -55,10 +55,10 @@ class Receiver:
             return None
         try:
             return self._write(message, data)
-        except OSError:
+        except OSError as error:
             self.has_failed = not message["last"]
             self.give_up()
-            raise
+            raise OSError(error.errno, error.strerror, str(self.root / message["name"])) from error
 
     def give_up(self):
         """What has not come whole does not stay."""
