@@ -5,13 +5,15 @@ import tempfile
 import threading
 import types
 import unittest
+import unittest.mock
 
-from toryu.remote import agent
+from toryu.processes import MACHINE, PEER_LOST
+from toryu.remote import agent, placement
 from toryu.remote.__main__ import is_same
 from toryu.remote.channel import Channel, ChannelClosed, Silence
+from toryu.remote.connection import Connection, HostFailed
 from toryu.remote.job import argument, restart_files
 from toryu.remote.mirror import Mirror, Receiver, remove
-from toryu.remote.placement import inputs_of
 
 
 class Folders(unittest.TestCase):
@@ -62,6 +64,43 @@ class Messages(Folders):
         os.close(a.outgoing)
         self.closed.add(a.outgoing)
         self.assertRaises(ChannelClosed, b.receive, 5)
+
+
+class Hosts(Folders):
+    def connection(self):
+        """To a host that has answered once, and the host's end."""
+        host, here = self.pair()
+        connection = Connection.__new__(Connection)
+        connection.job, connection.channel, connection.limit = types.SimpleNamespace(address="10.0.0.2"), here, 13.0
+        return connection, host
+
+    def test_that_are_silent_for_long_are_lost(self):
+        connection, host = self.connection()
+        self.assertEqual(connection.receive(0.01)[0]["kind"], "nothing")
+        connection.channel.heard -= 14
+        host.send("alive")
+        self.assertEqual(connection.receive(0.01)[0]["kind"], "nothing")
+        connection.channel.heard -= 14
+        with self.assertRaisesRegex(HostFailed, "the connection to 10.0.0.2 is gone: no sign of life for 13 s") as lost:
+            connection.receive(0.01)
+        self.assertEqual(lost.exception.code, PEER_LOST)
+
+    def test_tell_what_is_wrong_there(self):
+        connection, host = self.connection()
+        host.send("fault", text="/tmp: No space left on device", is_machine=True)
+        with self.assertRaisesRegex(HostFailed, "^error: the machine: 10.0.0.2: /tmp: No space left on device$") as failed:
+            connection.receive(5)
+        self.assertEqual(failed.exception.code, MACHINE)
+
+    def test_know_each_other_by_addresses_that_all_can_reach(self):
+        names = ["coupler", "fluid_solver", "solid_solver"]
+        towards = {"127.0.0.1": "127.0.0.1", "10.0.0.3": "10.0.0.1", "10.0.0.2": "10.0.0.1"}
+        with unittest.mock.patch.object(placement, "own_address", towards.get):
+            for hosts, peers in (({"fluid_solver": "user@10.0.0.2"}, "10.0.0.1,10.0.0.2"),
+                                 ({"fluid_solver": "127.0.0.1", "solid_solver": "10.0.0.3"}, "10.0.0.1,10.0.0.3"),
+                                 ({"fluid_solver": "127.0.0.1"}, "127.0.0.1"),
+                                 (dict.fromkeys(names, "10.0.0.2"), "10.0.0.2")):
+                self.assertEqual(placement.peers_of(hosts, names), peers)
 
 
 class Copies(Folders):
@@ -194,7 +233,7 @@ class Jobs(Folders):
     def test_take_what_the_case_names_but_by_absolute_paths(self):
         own, table, absolute = (self.write(name, "x") for name in ("case.toml", "table.csv", "other.csv"))
         case = types.SimpleNamespace(inputs=[own, table, absolute], files=["table.csv", str(absolute)])
-        self.assertEqual(inputs_of(case), [own, table])
+        self.assertEqual(placement.inputs_of(case), [own, table])
 
     def test_that_go_on_take_their_own_files_and_of_frames_the_names(self):
         for name in ("fluid.csv", "solid.csv", "coupler.csv", "surface.h5.rows", "log.txt", "run.lock",
