@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "common/error/failure.hpp"
@@ -26,7 +27,10 @@ double Stress::von_mises() const {
 }
 
 SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Scene& scene)
-    : parameters_(parameters), body_(body), gravity_(scene.gravity), domain_(scene.domain) {
+    : parameters_(parameters), body_(body), gravity_(scene.gravity), domain_(scene.domain), period_(scene) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < dim; ++axis)
+    if (period_.along(axis)) domain_.min[axis] = -infinity, domain_.max[axis] = infinity;
   const std::size_t count = body_.size(), size = padded(count);
   VecField X;
   resize(X, size);
@@ -46,8 +50,8 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
   find_external();
   state_.load_sum = sum_of_loads();
   for (const auto& observer : parameters_.observers)
-    observers_.emplace_back(observer,
-                            MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h(), body_.shape));
+    observers_.emplace_back(
+        observer, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h(), body_.shape, body_.shifts));
   if (parameters_.wall_contact) {
     walls_.emplace(scene.walls, *parameters_.wall_contact, parameters_.material, body_.spacing,
                    parameters_.h());

@@ -11,6 +11,7 @@
 #include "common/link/participant.hpp"
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
+#include "common/scene/period.hpp"
 #include "common/sph/points.hpp"
 #include "common/state/field.hpp"
 #include "solid_solver/body.hpp"
@@ -188,7 +189,8 @@ class SolidModel : public Solver {
   Parameters parameters_;
   Body body_;
   Vec gravity_;
-  Box domain_;
+  Box domain_;  ///< without end where space repeats itself
+  Period period_;
   State state_, saved_;
   // What follows from the numbers of the particles:
   std::vector<std::uint32_t> slot_;  ///< of a particle

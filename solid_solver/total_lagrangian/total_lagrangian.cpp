@@ -22,8 +22,9 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
     volume_[k] = body_.volume(i);
     set(cells, k, body_.cell[i]);
   }
-  pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
-                                            Held{mobile_, cells, body_.has_outline()}, body_.shape);
+  pairs_ =
+      std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
+                                       Held{mobile_, cells, body_.has_outline()}, body_.shape, body_.shifts);
   resize_fields(form_, size);
   resize(T_, size);
   if (drive_.turns()) resize(turned_back_, size);

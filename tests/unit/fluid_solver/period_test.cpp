@@ -1,5 +1,5 @@
 // Space that repeats itself.
-#include "fluid_solver/period.hpp"
+#include "common/scene/period.hpp"
 
 #include <gtest/gtest.h>
 
