@@ -41,7 +41,7 @@ std::vector<std::pair<std::string, std::string>> periodic_faults(const Parameter
     for (std::size_t k = 0; k < p.regions.size(); ++k) {
       const Box& box = p.regions[k].box;
       const double middle = 0.5 * (box.min[axis] + box.max[axis]);
-      if (middle < scene.domain.min[axis] || middle >= scene.domain.max[axis])
+      if (middle < scene.domain.min[axis] || middle > scene.domain.max[axis])
         faults.emplace_back(
             fmt::format("solid.region.{}.{}", k, p.regions[k].shape.place()),
             fmt::format("the middle of region '{}' lies outside [case.domain], at {} = {:.6g} m: move it by "
