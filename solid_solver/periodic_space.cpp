@@ -25,8 +25,6 @@ std::vector<std::pair<std::string, std::string>> periodic_faults(const Parameter
   };
   if (p.formulation == Formulation::updated_lagrangian)
     refuse("solid.formulation", "only a solid by \"total_lagrangian\" can be");
-  if (p.wall_contact) refuse("solid.wall_contact", "walls do not push solids");
-  if (p.body_contact) refuse("solid.body_contact", "bodies do not push each other");
   for (std::size_t k = 0; k < p.clamps.size(); ++k)
     if (p.clamps[k].motion && p.clamps[k].motion->turns())
       refuse(fmt::format("solid.clamp.{}", k), "clamps do not turn");

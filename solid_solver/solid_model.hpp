@@ -171,6 +171,8 @@ class SolidModel : public Solver {
   double strip_width() const { return std::sqrt(static_cast<double>(lane_count)) * body_.spacing; }  ///< [m]
   /// Adds the walls' push on the particles at x [m] and the present time to `a`, within a parallel region.
   void add_wall_contact(const VecField& x);
+  /// Sets the present positions of a cluster, where they lie in the domain [m].
+  void place_in_domain(VecField& x, std::size_t cluster) const;
   /// Counts what acts at present for a time `dt` [s].
   void count_impulses(double dt);
   /// Finds what drives a step of `dt` [s] that begins, in its middle, and notes what it begins from.

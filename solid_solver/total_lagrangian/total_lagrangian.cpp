@@ -32,7 +32,7 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
     bodies_.emplace(X_, volume_, particle_count(), *parameters_.body_contact, parameters_.material,
-                    body_.spacing, parameters_.h(), body_.shape);
+                    body_.spacing, parameters_.h(), body_.shape, body_.shifts);
   if (!walls_ && !bodies_) return;
   resize(x_, size);
 #pragma omp parallel
@@ -120,11 +120,7 @@ void TotalLagrangian::evaluate() {
 
 void TotalLagrangian::touch() {
 #pragma omp for schedule(static)
-  for (std::size_t c = 0; c < clusters(); ++c)
-    for (int a = 0; a < dim; ++a) {
-      const std::size_t i = c * lane_count;
-      store(load(X_[a], i) + load(state_.u[a], i), x_[a], i);
-    }
+  for (std::size_t c = 0; c < clusters(); ++c) place_in_domain(x_, c);
   if (walls_) add_wall_contact(x_);
 #pragma omp single
   if (bodies_) bodies_->push(state_.bodies, x_, state_.a);

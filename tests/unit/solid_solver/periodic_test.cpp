@@ -161,6 +161,38 @@ TEST(PeriodicSolid, KnowsBondsAcrossTheSeam) {
   EXPECT_NEAR(bonds.stretches(x).largest, 1.5, 1e-12);
 }
 
+/// Two blocks of 4 x 4 particles, `begin` [m] the left side of the left one, that fly at each other over a
+/// step of the floor below them.
+std::vector<Vec> after_contacts(double begin, bool touch) {
+  const Vec side = Vec::Constant(4 * d_0);
+  const Vec left(begin, 0.5 * d_0), right(begin + 5 * d_0, d_0);
+  Parameters p = free_plate(4);
+  p.spacing = d_0;
+  p.regions = {{"left", {left, left + side}, InitialVelocity{.velocity = Vec(3, -2)}},
+               {"right", {right, right + side}, InitialVelocity{.velocity = Vec(-2, -1)}}};
+  if (touch) p.wall_contact = p.body_contact = Contact{};
+  Scene scene = repeating();
+  scene.walls = {{"step", {Vec(begin - d_0, -3 * d_0), Vec(begin + 10 * d_0, 0)}, {}}};
+  const auto model = model_in(scene, p);
+  double most = 0;
+  for (int n = 0; n < 200; ++n) {
+    model->advance(1e-4);
+    if (touch) most = std::max(most, observed(*model, "contact_energy"));
+  }
+  if (touch) {
+    EXPECT_GT(most, 1e-2);
+  }
+  return displacements(*model);
+}
+
+TEST(PeriodicSolid, TouchesWallsAndBodiesAcrossTheSeam) {
+  const auto within = after_contacts(3 * d_0, true), apart = after_contacts(3 * d_0, false);
+  EXPECT_GT(largest_difference(within, apart), 0.1 * largest(within)) << "they do touch";
+  for (const double begin : {9 * d_0, 12 * d_0, 14 * d_0})  // body against body, either against the step
+    EXPECT_LT(largest_difference(within, after_contacts(begin, true)), 1e-11 * largest(within))
+        << begin / d_0;
+}
+
 std::vector<std::string> faults(const std::function<void(Parameters&, Scene&)>& change) {
   Parameters p = plate(0, length);
   Scene scene = repeating();
@@ -181,15 +213,11 @@ TEST(PeriodicSolid, SaysWhatItDoesNotGoWith) {
   EXPECT_EQ(
       faults([](Parameters& p, Scene&) {
         p.formulation = Formulation::updated_lagrangian;
-        p.wall_contact = p.body_contact = Contact{};
         p.clamps = {{.name = "still", .box = {}},
                     {.name = "turning", .box = {}, .motion = Motion{.rotation = Rotation{}}}};
       }),
       (Said{"solid.formulation: only a solid by \"total_lagrangian\" can be in space that repeats itself "
             "([case] periodic)",
-            "solid.wall_contact: walls do not push solids in space that repeats itself ([case] periodic)",
-            "solid.body_contact: bodies do not push each other in space that repeats itself ([case] "
-            "periodic)",
             "solid.clamp.1: clamps do not turn in space that repeats itself ([case] periodic)"}));
   EXPECT_EQ(
       faults([](Parameters& p, Scene&) {
