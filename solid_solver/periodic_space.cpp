@@ -25,6 +25,7 @@ std::vector<std::pair<std::string, std::string>> periodic_faults(const Parameter
   };
   if (p.formulation == Formulation::updated_lagrangian)
     refuse("solid.formulation", "only a solid by \"total_lagrangian\" can be");
+  if (p.detachment) refuse("solid.detachment", "particles that come off are not looked for");
   for (std::size_t k = 0; k < p.clamps.size(); ++k)
     if (p.clamps[k].motion && p.clamps[k].motion->turns())
       refuse(fmt::format("solid.clamp.{}", k), "clamps do not turn");

@@ -49,6 +49,8 @@ void check_walls(CaseFile& file, const Scene& scene) {
              !box_in_box(swept_box(wall), scene.domain))
       file.fault(key + ".press.travel",
                  fmt::format("the wall '{}' leaves [case.domain] by its travel", wall.name));
+    if (!wall.worn.empty() && is_within_domain(wall.box, scene) && !box_in_box(wall.box, scene.domain))
+      file.fault(key + ".worn", "a wall with worn faces cannot cross a side of [case.domain]");
     if (wall.press && file.has("solid"))
       file.fault(key + ".press", "a solid knows of no walls that the fluid moves: prescribe a 'motion'");
     if (wall.press && scene.periodic != Periodic::none)

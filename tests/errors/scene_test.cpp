@@ -122,6 +122,8 @@ TEST(SceneFaults, WhereSpaceRepeatsItself) {
   }
   EXPECT_EQ(with("[[wall]]", "{min=[-1.5,-1], max=[-0.5,0]}"),
             "case.toml:16:1: error: the box of wall 'block' is not within [case.domain]");
+  EXPECT_EQ(with("[[wall]]", "{min=[-0.5,0], max=[0.5,1]}\nworn = [{ face = 'upper', depth = [[0, 0.1]] }]"),
+            "case.toml:17:1: error: a wall with worn faces cannot cross a side of [case.domain]");
   EXPECT_EQ(with("[[solid.region]]", "{min=[-0.5,-1], max=[1.6,0]}"),
             "case.toml:16:1: error: the solid's region 'block' is 2.1 m long along x, in which space repeats "
             "itself after 2 m: it overlaps itself");

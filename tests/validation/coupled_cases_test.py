@@ -121,15 +121,15 @@ class PeriodicSpace(unittest.TestCase):
     domain and the piece does so at another time. What differs is the order in which sums are added up: by 1e-16 of the
     largest terms, which 860 windows make 4e-14 of."""
 
+    CASES = pathlib.Path(__file__).resolve().parents[1] / "participants"
     HALF = {"fluid.hole.0.min": [-0.015625, 0], "fluid.hole.0.max": [0.015625, 0.078125],
             "solid.region.0.box.min": [-0.015625, -0.015625], "solid.region.0.box.max": [0.015625, 0.078125],
             "fluid.hole.1.min": [0.03125, 0.109375], "fluid.hole.1.max": [0.0625, 0.140625],
             "solid.region.1.box.min": [0.03125, 0.109375], "solid.region.1.box.max": [0.0625, 0.140625]}
 
     def test_has_no_place_where_it_begins(self):
-        case = pathlib.Path(__file__).resolve().parents[1] / "participants/flaps"
-        here, figures, _ = run(case)
-        there, _, _ = run(case, **self.HALF)
+        here, figures, _ = run(self.CASES / "flaps")
+        there, _, _ = run(self.CASES / "flaps", **self.HALF)
         self.assertLess(figures["largest_impulse_error"], 1e-12)
         self.assertGreater(here[-1]["piece_displacement_x[m]"], 0.1)  # 0.0625 m are to the side of the domain
         self.assertEqual(len(here), len(there))
@@ -137,6 +137,20 @@ class PeriodicSpace(unittest.TestCase):
             largest = max(abs(row[column]) for row in here)
             apart = max(abs(a[column] - b[column]) for a, b in zip(here, there))
             self.assertLessEqual(apart, 1e-11 * largest, column)
+
+    def test_shears_an_elastic_floor_without_ends(self):
+        """The floor of Poiseuille flow bears tau = rho_f g H/2, and its face moves by (tau h + rho_s g h^2/2)/G. The fluid pulls
+        at all rows that it has in reach, not at the face: 7.6 % less with 6 rows, 3.7 % with 12."""
+        rows, figures, _ = run(self.CASES / "elastic_floor")
+        h, shear_modulus, last = 0.046875, 4e4 / 2.6, rows[-1]
+        moved = (1000 * 0.1875 / 2 * h + 1500 * h * h / 2) / shear_modulus
+        self.assertLess(abs(last["inside_displacement_x[m]"] / moved - 0.924), 0.01)
+        self.assertLess(abs(last["seam_displacement_x[m]"] / last["inside_displacement_x[m]"] - 1), 1e-9)
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+        held, before = (row["impulse_from_clamps_x[N.s/m]"] for row in (last, rows[-6]))
+        force = (held - before) / (last["time[s]"] - rows[-6]["time[s]"])
+        weight = (1000 * 0.1875 / 2 + 1500 * 0.0625) * 0.125  # of half the medium and the floor
+        self.assertLess(abs(force / -weight - 1), 1e-3)
 
 
 class ThinWall(unittest.TestCase):

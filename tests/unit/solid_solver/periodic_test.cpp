@@ -213,12 +213,16 @@ TEST(PeriodicSolid, SaysWhatItDoesNotGoWith) {
   EXPECT_EQ(
       faults([](Parameters& p, Scene&) {
         p.formulation = Formulation::updated_lagrangian;
+        p.detachment = Detachment{};
         p.clamps = {{.name = "still", .box = {}},
                     {.name = "turning", .box = {}, .motion = Motion{.rotation = Rotation{}}}};
       }),
-      (Said{"solid.formulation: only a solid by \"total_lagrangian\" can be in space that repeats itself "
-            "([case] periodic)",
-            "solid.clamp.1: clamps do not turn in space that repeats itself ([case] periodic)"}));
+      (Said{
+          "solid.formulation: only a solid by \"total_lagrangian\" can be in space that repeats itself "
+          "([case] periodic)",
+          "solid.detachment: particles that come off are not looked for in space that repeats itself ([case] "
+          "periodic)",
+          "solid.clamp.1: clamps do not turn in space that repeats itself ([case] periodic)"}));
   EXPECT_EQ(
       faults([](Parameters& p, Scene&) {
         p = plate(length, 2 * length);
