@@ -55,16 +55,12 @@ class ReferencePairs {
       return lanes;
     };
     const VecLanes X_i = load(X_, cluster * lane_count);
-    const auto near = list_.near(cluster);
-    if (share_start_[cluster] == none)
-      over_places(near, X_i, pointers(X_),
-                  [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA { add(j, next(w), X_ij); });
-    else {
-      const double* s = share_.data() + share_start_[cluster];
-      over_places(near, X_i, pointers(X_), [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
-        add(j, next(w), product(next(s), X_ij));
-      });
-    }
+    const bool shared = share_start_[cluster] != none;
+    const double* s = shared ? share_.data() + share_start_[cluster] : nullptr;
+    for (const ShiftedNeighbours& near : list_.near(cluster))
+      over_sources(near.sources, shifted(X_i, near.shift), pointers(X_),
+                   [&](std::uint32_t j, const VecLanes& X_ij)
+                       TORYU_INLINE_LAMBDA { add(j, next(w), shared ? product(next(s), X_ij) : X_ij); });
   }
   /// Puts the shares of X_ij into `share_` where a particle of the cluster, or a source, is held.
   void find_shares(const ClampFaces& faces, std::size_t cluster, std::size_t count);
