@@ -11,6 +11,7 @@ import tempfile
 import tomllib
 import unittest
 
+import mounted_cylinder
 import path_difference
 import turek_hron_fsi
 
@@ -81,6 +82,26 @@ class TurekHron(unittest.TestCase):
         self.assertLess(abs(forces.lift / 0.7638 - 1), 0.2)
         self.assertLess(abs(forces.u_x / 2.27e-5 - 1), 0.15)
         self.assertLess(abs(forces.u_y / 8.21e-4 - 1), 0.4)
+
+
+class FloatingBox(unittest.TestCase):
+    def test_a_rigid_box_floats_as_deep_as_archimedes_says(self):
+        rows, figures, _ = run("floating_box", **{"case.end_time": 2, "fluid.spacing": 0.0125, "solid.spacing": 0.0125})
+        late = [row for row in rows if row["time[s]"] >= 1.5]
+        risen = sum(row["body_displacement_y[m]"] for row in late) / len(late)
+        self.assertLess(abs((0.05 - 1.5 * risen) / 0.06 - 1), 0.025)  # -1.5 %
+        self.assertLess(max(abs(row["body_angle[rad]"]) for row in rows), 1e-3)
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+class MountedCylinder(unittest.TestCase):
+    def test_swings_with_its_exact_added_mass(self):
+        with tempfile.TemporaryDirectory() as out:
+            done = launch("mounted_cylinder", out, "--set=case.frame_interval=0", "--set=fluid.spacing=0.01", "--set=solid.spacing=0.01")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            swing = mounted_cylinder.of_run(pathlib.Path(out))
+        self.assertLess(abs(swing.frequency / 1.9010 - 1), 0.012)  # +0.8 % at this spacing
+        self.assertLess(abs(swing.damping), 0.015)
 
 
 class SubmergedBeam(unittest.TestCase):
