@@ -44,6 +44,13 @@ class HydrostaticPlate(unittest.TestCase):
         self.assertLess(figures["largest_impulse_error"], 1e-12)
 
 
+    def test_a_rigid_flap_leans_as_far_as_its_spring_lets_it(self):
+        rows, figures, _ = run("hydrostatic_plate/flap.toml", **{"fluid.spacing": 0.02, "solid.spacing": 0.02})
+        late = [row["body_angle[rad]"] for row in rows if row["time[s]"] >= 0.6]
+        self.assertLess(abs(sum(late) / len(late) / -0.011787 - 1), 0.01)
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
 class ElasticObstacle(unittest.TestCase):
     def test_bends_as_the_wave_strikes(self):
         rows, _, _ = run("dam_break_elastic_obstacle", **{"case.end_time": 0.2, "fluid.spacing": 0.00584, "solid.spacing": 0.003})
@@ -95,6 +102,12 @@ class FloatingBox(unittest.TestCase):
 
 
 class MountedCylinder(unittest.TestCase):
+    def test_a_check_tells_its_mass_and_its_frequency_without_water(self):
+        with tempfile.TemporaryDirectory() as out:
+            said = launch("mounted_cylinder", out, "--check").stdout
+        self.assertIn("[solid]: rigid body: mass 7.85", said)
+        self.assertIn("natural frequency in x 3.11", said)
+
     def test_swings_with_its_exact_added_mass(self):
         with tempfile.TemporaryDirectory() as out:
             done = launch("mounted_cylinder", out, "--set=case.frame_interval=0", "--set=fluid.spacing=0.01", "--set=solid.spacing=0.01")
@@ -141,8 +154,8 @@ class PushedColumn(unittest.TestCase):
     EXPLICIT = {"coupling.scheme": "serial_explicit", "solid.artificial_viscosity": "{alpha=0.1, beta=0.0}"}
     IMPLICIT = {"coupling.scheme": "serial_implicit", "solid.artificial_viscosity": "{alpha=0.1, beta=0.0}"}
 
-    def way_error(self, density, **settings):
-        rows, figures, said = run("pushed_column", **{"solid.density": density} | settings)
+    def way_error(self, density, case="pushed_column", **settings):
+        rows, figures, said = run(case, **{"solid.density": density} | settings)
         lag = density * 0.02 / 2e4  # m_s/(rho_f c)
         return rows[-1]["layer_displacement_y[m]"] / (0.2 * (0.04 - lag * (1 - math.exp(-0.04 / lag)))) - 1, figures, said
 
@@ -167,6 +180,13 @@ class PushedColumn(unittest.TestCase):
         error, _, said = self.way_error(1000, **parallel)
         self.assertLess(abs(error), 0.02)
         self.assertNotIn("the exchange feeds the solid", said)
+
+    def test_a_rigid_layer_of_any_weight_goes_as_far_as_theory_says(self):
+        for density in (1000, 1):  # 2 and 0.002 rows of water
+            error, figures, said = self.way_error(density, "pushed_column/rigid.toml")
+            self.assertLess(abs(error), 0.02)
+            self.assertLess(figures["largest_impulse_error"], 1e-12)
+            self.assertEqual("beyond the edge of stability" in said, density == 1)
 
     def test_a_light_layer_is_borne_by_the_robin_scheme_alone_without_iterations(self):
         for density in (50, 20):
