@@ -77,9 +77,10 @@ double Parameters::largest_speed() const {
 }
 
 void describe(ParameterTable& table, SolidLimits& limits) {
-  table.number(
-      "speed", limits.speed,
-      {.unit = "m/s", .minimum = 0, .help = "largest speed of a particle; 0: the longitudinal sound speed"});
+  table.number("speed", limits.speed,
+               {.unit = "m/s",
+                .minimum = 0,
+                .help = "largest speed of a particle; 0: the longitudinal sound speed, of a rigid body any"});
   table.number("strain", limits.strain,
                {.minimum = 0,
                 .above_minimum = true,

@@ -1,12 +1,12 @@
 /// The solid as one rigid body: x, y and angle of its point of reference, the centre of mass or the pivot of
 /// its mounting. All its regions are one with each other, whether they touch or not.
 ///
-///     m Dv/Dt = sum_i f_i + F,   I domega/dt = sum_i r_i x f_i + M         F, M of the mounting
-///     (mounting.hpp)
+///     m Dv/Dt = sum_i f_i + F,   I domega/dt = sum_i r_i x f_i + M
 ///
-/// with f_i of gravity, loads, walls and the fluid on particle i. In q = (x, y, angle), with the matrix A of
-/// the inertia, C of the dampers, and Z of the fluid's impedance where the load has one, a step is a leapfrog
-/// in which what resists motion is implicit, and stable for any size of it,
+/// with f_i of gravity, loads, walls and the fluid on particle i, F and M of what holds it (mounting.hpp). In
+/// q = (x, y, angle), with the matrix A of the inertia, C of the dampers, and Z of the fluid's impedance
+/// where the load has one, a step is a leapfrog in which what resists motion is implicit, and stable for any
+/// size of it,
 ///
 ///     (A + dt/2 (C + Z)) w = A v_n + dt/2 (f(q_n) + Z w_c),   q_n+1 = q_n + dt w
 ///     A v_n+1 = A w + dt/2 (f(q_n+1) - C w + Z (w_c - w))
@@ -28,7 +28,7 @@ class RigidBody final : public SolidModel {
   RigidBody(const Parameters& parameters, const Body& body, const Scene& scene);
 
   /// A share of what resolves the motion: 1/20 radian of the fastest spring, damper or turn, and 1/20 of the
-  /// interval of frames; walls it touches are followed stably.
+  /// interval of frames (without frames 1/1000 of the run); walls it touches are followed stably.
   double time_step_limit() const override;
   std::string_view time_step_rule() const override { return "accuracy"; }
   void advance(double dt) override;

@@ -101,6 +101,13 @@ class FloatingBox(unittest.TestCase):
         self.assertLess(figures["largest_impulse_error"], 1e-12)
 
 
+class FloatingSquare(unittest.TestCase):
+    def test_turns_until_a_corner_points_down(self):
+        rows, _, _ = run("floating_box/square.toml", **{"fluid.spacing": 0.0125, "solid.spacing": 0.0125})
+        late = [row["body_angle[rad]"] for row in rows if row["time[s]"] >= 7]
+        self.assertLess(abs(math.degrees(sum(late) / len(late)) - 45), 1)  # 44.4
+
+
 class MountedCylinder(unittest.TestCase):
     def test_a_check_tells_its_mass_and_its_frequency_without_water(self):
         with tempfile.TemporaryDirectory() as out:
