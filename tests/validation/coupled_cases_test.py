@@ -108,6 +108,16 @@ class FloatingSquare(unittest.TestCase):
         self.assertLess(abs(math.degrees(sum(late) / len(late)) - 45), 1)  # 44.4
 
 
+class CylinderInAStream(unittest.TestCase):
+    def test_a_spring_near_the_eddies_frequency_makes_them_follow_the_cylinder(self):
+        rows, figures, _ = run("cylinder_in_channel/mounted.toml", **{"case.end_time": 3})
+        late = [(row["time[s]"], row["body_displacement_y[m]"]) for row in rows if row["time[s]"] > 1]
+        up = [t for (t, y), (_, after) in zip(late, late[1:]) if y < 0 <= after]
+        self.assertLess(abs((len(up) - 1) / (up[-1] - up[0]) / 2.97 - 1), 0.03)
+        self.assertGreater(max(y for _, y in late), 0.02)  # pushed, it began with 0.01 m
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
 class MountedCylinder(unittest.TestCase):
     def test_a_check_tells_its_mass_and_its_frequency_without_water(self):
         with tempfile.TemporaryDirectory() as out:
