@@ -35,6 +35,7 @@ class SolidSection : public testing::Test {
     file.read("solid", parameters, "an elastic body");
     file.throw_if_faulty();
     used_ = file.used();
+    described_ = file.description();
     return parameters;
   }
   std::string faults(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -49,7 +50,7 @@ class SolidSection : public testing::Test {
     return "";
   }
   std::filesystem::path folder_;
-  std::string used_;
+  std::string used_, described_;
 };
 
 TEST_F(SolidSection, RefusesTwoObserversOfOneName) {
@@ -147,6 +148,7 @@ angular_damping = 2
   const std::string used = used_;
   EXPECT_EQ(used.find("youngs_modulus"), std::string::npos);
   EXPECT_EQ(used.find("pivot"), std::string::npos);
+  EXPECT_NE(described_.find("  pivot              none "), std::string::npos);
   read(used);
   EXPECT_EQ(used_, used);
 }
