@@ -63,7 +63,7 @@ def parse(arguments):
     parser.add_argument("--only", choices=["fluid", "solid"], help="the side of a replay that runs")
     parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
     parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
-    parser.add_argument("--no-report", action="store_true", help="leave report.html out")
+    parser.add_argument("--no-report", action="store_true", help="leave report.html and frames.py out")
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
                         help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
