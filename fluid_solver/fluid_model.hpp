@@ -81,6 +81,8 @@ class FluidModel : public Solver {
   double potential_energy() const;
   double elastic_energy() const;  ///< of compression [J per metre]
   double mass() const;            ///< [kg per metre]
+  /// Mean density by the room that the particles have, whatever their own say [kg/m3].
+  double density_of_packing() const;
   Vec momentum() const;
   /// What the press adds to the pressure of an enclosed medium [Pa].
   double pressure_offset() const;

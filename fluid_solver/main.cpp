@@ -156,6 +156,10 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
                "the walls that are pressed set the mean pressure: leave it out");
   else if (medium && !pressed && !(medium->mean_pressure > 0))
     file.fault("fluid.enclosed_medium", "without a pressed wall the medium needs a 'mean_pressure' above 0");
+  if (parameters.held_volume && (pressed || file.has("solid") || parameters.has_open_ends()))
+    file.fault(
+        "fluid.held_volume",
+        "pressed walls, an elastic solid and open ends leave the medium no volume of its own: leave it out");
   if (parameters.wall_slip && file.has("solid"))
     file.fault(
         "fluid.wall_slip",
@@ -237,6 +241,9 @@ ExitCode solve(const Options& options) {
     throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
                      "the fluid has a free surface at the start, where its pressure is 0: give no "
                      "mean pressure"}});
+  if (parameters.held_volume && !model.is_enclosed())
+    throw BadInput({{"[fluid.held_volume]", 0, 0,
+                     "the fluid has a free surface at the start: nothing holds its volume"}});
   if (parameters.model == fluid::Model::implicit && !model.is_enclosed()) {
     const auto [key, message] = fluid::implicit_surface_fault();
     throw BadInput({{key, 0, 0, message}});

@@ -19,3 +19,8 @@ def __getattr__(name):
     if name in ("run", "RunFailed"):
         return getattr(importlib.import_module("toryu.running"), name)
     raise AttributeError(f"module 'toryu' has no attribute '{name}'")
+
+
+def printable(text):
+    """The text on one line, what a terminal would obey as an escape."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
