@@ -30,14 +30,15 @@ class HydrostaticFluid(Fluid):
         self.low, self.high = (np.array(fluid["region"][0]["box"][end]) for end in ("min", "max"))
 
     def begin(self, interface):
-        A = np.linalg.norm(interface.area_vector, axis=1)
-        n = interface.area_vector / np.where(A > 0, A, 1)[:, None]
-        before = interface.position + interface.spacing * n
-        wet = (A > 0) & (before > self.low).all(axis=1) & (before < self.high).all(axis=1)
-        self.n, self.A = n, np.where(wet, A, 0)
+        # A corner has two faces, of which one may be dry.
+        before = interface.position[:, None] + interface.spacing * np.sign(interface.area_vector)[:, :, None] * np.eye(2)
+        wet = ((before > self.low) & (before < self.high)).all(axis=2)
+        area = np.where(wet, interface.area_vector, 0)
+        self.A = np.linalg.norm(area, axis=1)
+        self.n = area / np.where(self.A > 0, self.A, 1)[:, None]
         depth = np.maximum(self.high[1] - interface.position[:, 1], 0)
         self.m = self.A * 7 / 8 * self.density * np.sqrt((self.high[1] - self.low[1]) * depth)  # [kg/m]
-        self.u = np.zeros(len(A))  # of the water that goes with the face, along n [m/s]
+        self.u = np.zeros(len(self.A))  # of the water that goes with the face, along n [m/s]
 
     def advance(self, window, motion):
         work = 0.0
