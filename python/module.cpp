@@ -133,6 +133,7 @@ ExitCode compute(const Program& program, const Options& options) {
 /// Runs the program with the command line `arguments`, its name first; returns its exit code.
 int run(const Program& program, std::vector<std::string> arguments) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size());
   for (auto& argument : arguments) argv.push_back(argument.data());
   const auto body = [&](const Options& options) {
     return program.side == "fluid" ? compute<PythonFluid, FluidLink>(program, options)

@@ -6,6 +6,7 @@ windows that repeat, and that waits leave Python to other threads.
 
 import pathlib
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -167,6 +168,18 @@ class Python(unittest.TestCase):
         with self.fluid(more="state = None", settings=["coupling.scheme=serial_implicit"]) as run:
             run.start_all()
             self.assert_end(run, "coupler", BAD_INPUT, "my_fluid")
+
+    def test_another_program_does_not_go_on_from_its_checkpoint(self):
+        with self.fluid(end_time="0.002") as run:
+            run.start_all()
+            for name in trio.ROLES:
+                self.assert_end(run, name, DONE)
+            self.assertIn("my_fluid of toryu 0.1.0 (commit " + (BIN / "commit.txt").read_text().strip(),
+                          subprocess.run([run.programs["fluid"], "--version"], capture_output=True, text=True).stdout)
+            run.programs["fluid"] = run.programs["fluid"].rename(run.programs["fluid"].with_name("other_fluid.py"))
+            run.end_time = "0.003"
+            run.start_all(extra=["--restart"])
+            self.assert_end(run, "fluid", BAD_INPUT, "my_fluid")
 
     def test_its_series_is_written_as_often_as_the_case_says(self):
         with self.fluid(more="def observe(self): return {'windows[1]': self.windows}", end_time="0.005") as run:
