@@ -81,7 +81,7 @@ void RigidBody::place_particles() {
     const Vec X = at(X_, k);
     set(state_.u, k, now.place(X) - X);
     set(state_.v, k, now.velocity_of(X));
-    if (walls_) set(x_, k, now.place(X));
+    if (walls_) set(x_, k, period_.inside(now.place(X)));
   }
   if (!walls_) return;
   for (int n = 0; n < dim; ++n) std::fill(state_.a[n].begin(), state_.a[n].end(), 0.0);

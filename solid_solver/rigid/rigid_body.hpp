@@ -88,7 +88,7 @@ class RigidBody final : public SolidModel {
   Coordinates inertia_ = Coordinates::Zero();
   double longest_step_;               ///< [s]
   Vec first_momentum_ = Vec::Zero();  ///< [N.s/m]
-  VecField x_;                        ///< present positions, if walls act on the solid [m]
+  VecField x_;                        ///< present positions in the domain, if walls act on the solid [m]
   FormState form_, saved_form_;
 };
 
