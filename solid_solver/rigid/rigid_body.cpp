@@ -239,9 +239,11 @@ std::vector<ActiveTerm> RigidBody::active_terms() const {
             fmt::format("natural frequency in {} {:.6g} Hz", name, omega / (2 * std::numbers::pi)));
       if (c > 0 && k > 0)
         parts.push_back(fmt::format("damping ratio in {} {:.4g}", name, 0.5 * c / (inertia_[n] * omega)));
+      else if (c > 0)
+        parts.push_back(fmt::format("decay time in {} {:.4g} s", name, inertia_[n] / c));
     }
-    terms.push_back(
-        {"mounting", "F = -k (q - q_rest) - c dq/dt", "", fmt::format("{}", fmt::join(parts, ", "))});
+    terms.push_back({"mounting", "F = -k (q - q_rest) - c dq/dt", "",
+                     parts.empty() ? "holds nothing" : fmt::format("{}", fmt::join(parts, ", "))});
   }
   for (auto& term : SolidModel::active_terms()) terms.push_back(std::move(term));
   return terms;

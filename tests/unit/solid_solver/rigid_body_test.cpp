@@ -274,6 +274,18 @@ TEST(RigidBody, ResolvesWhatSwingsTurnsAndIsShown) {
   EXPECT_DOUBLE_EQ(rigid(p, scene).time_step_limit(), 0.05 / (100 * std::numbers::pi));
 }
 
+TEST(RigidBody, TellsWhatHoldsIt) {
+  const auto told = [](const Mounting& mounting) {
+    for (const auto& term : rigid(mounted(mounting)).active_terms())
+      if (term.name == "mounting") return term.parameters;
+    return std::string();
+  };
+  EXPECT_EQ(told({}), "holds nothing");
+  EXPECT_EQ(told({.fixed = {"x"}, .damping = Vec(0, 3.2)}), "x fixed, decay time in y 0.5 s");
+  EXPECT_EQ(told({.stiffness = Vec(0, 6.4), .damping = Vec(0, 3.2)}),
+            "natural frequency in y 0.31831 Hz, damping ratio in y 0.5");
+}
+
 TEST(RigidBody, SharesItsWholeMassWithWhatTheFluidTouches) {
   const RigidBody body = rigid(bar());
   const Interface touched = body.interface(0.006);
