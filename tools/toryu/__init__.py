@@ -1,8 +1,8 @@
 """Runs cases and studies of toryu, and reads what they leave."""
 
-import pathlib
+from toryu.installation import folder_of_programs
 
-PROGRAMS = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin"  # where a build leaves them
+PROGRAMS = folder_of_programs()
 
 
 def counted(count, thing):

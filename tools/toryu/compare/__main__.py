@@ -10,6 +10,7 @@ import sys
 
 from toryu import counted, program, results
 from toryu.compare import page, runs
+from toryu.installation import COMMAND
 from toryu.processes import BAD_INPUT, DONE
 
 MOST_TOLD = 12  # columns and settings on the terminal; the table has all
@@ -17,7 +18,7 @@ MOST_TOLD = 12  # columns and settings on the terminal; the table has all
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh --compare", allow_abbrev=False, description="Lays two runs over each other: what they set "
+        prog=f"{COMMAND.removeprefix('./')} --compare", allow_abbrev=False, description="Lays two runs over each other: what they set "
         "otherwise, how far their series lie apart over the times that both reached, charts of what differs most, "
         "a page.")
     parser.add_argument("first", metavar="OUT_A", type=pathlib.Path, help="results folder of a run")
