@@ -11,7 +11,6 @@ import argparse
 import json
 import pathlib
 import sys
-import tomllib
 from dataclasses import dataclass
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -19,7 +18,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 import h5py
 import numpy as np
 
-from toryu import results
+from toryu import PROGRAMS, results
+from toryu.case import resolve
 from toryu.report import scene
 
 CELLS = 10  # points of the grid, across a spacing, on which voids are looked for
@@ -46,12 +46,12 @@ class Conditions:
 
 
 class Space:
-    """Where the medium may be, over time."""
+    """Where the medium may be, over time; `motions` as `--resolved` tells them."""
 
-    def __init__(self, case):
+    def __init__(self, case, motions):
         regions = np.array([[r["box"]["min"], r["box"]["max"]] for r in case["fluid"]["region"]])
         self.low, self.high = regions[:, 0].min(axis=0), regions[:, 1].max(axis=0)
-        self.walls = scene.wall_paths(case, case["case"]["end_time"])
+        self.walls = scene.walls_of(case, motions=motions)
         self.solids = [r["box"] for r in case.get("solid", {}).get("region", [])]
         holes = case["fluid"].get("hole", [])
         area = sum(np.prod(np.subtract(box["max"], box["min"])) for box in (r["box"] for r in case["fluid"]["region"]))
@@ -62,17 +62,17 @@ class Space:
 
     def _touching(self, axis, level, side):
         """The moving wall whose side (index into x0, y0, x1, y1) is at `level`."""
-        found = [w for w in self.walls if w["path"] and abs(w["box"][side] - level) < 1e-9]
+        found = [w for w in self.walls if w["poses"] and abs(w["box"][side] - level) < 1e-9]
         if not found:
             raise ValueError(f"no moving wall bounds the medium at {'xy'[axis]} = {level} m")
         return found[0]
 
     @staticmethod
     def shift(wall, time):
-        if not wall["path"]:
+        if not wall["poses"]:
             return np.zeros(2)
-        path = np.array(wall["path"])
-        return np.array([np.interp(time, path[:, 0], path[:, axis]) for axis in (1, 2)])
+        times, x, y = np.array(wall["poses"]).T[:3]
+        return np.array([np.interp(time, times, x), np.interp(time, times, y)]) - wall["about"]
 
     def hull(self, time):
         return (self.low + [0, self.shift(self.below, time)[1]], self.high + [0, self.shift(self.above, time)[1]])
@@ -149,8 +149,9 @@ def asymmetry(series, space, cycle):
 
 
 def conditions(out, cycle):
-    case = tomllib.loads((out / "used_case.toml").read_text(encoding="utf-8"))
-    space, spacing = Space(case), case["fluid"]["spacing"]
+    used = resolve(out / "used_case.toml", PROGRAMS / "fluid_solver")
+    case = used.content
+    space, spacing = Space(case, used.motions), case["fluid"]["spacing"]
     throat = next(o["box"] for o in case["fluid"]["observer"] if o["quantity"] == "flow_rate")
     mass = case["fluid"]["density"] * spacing ** 2
     worst = {"volume": 0.0, "void": 0.0, "depth": -np.inf}

@@ -296,6 +296,13 @@ def set_former_aside(options):
             raise SystemExit(complain(f"{options.out}: error: the former results cannot be {done}: {error}{hint}"))
 
 
+def age_of_used_case(out):
+    """When the programs wrote down what they use, which they do once they have met [ns]; None if they did not."""
+    with contextlib.suppress(OSError):
+        return (out / "used_case.toml").stat().st_mtime_ns
+    return None
+
+
 def go_on_with(arguments, options):
     """The command that goes on with this run: the same one, but that it restarts."""
     kept = [word for word in arguments if word != "--overwrite"] + ["--restart"] * (options.restart is None)
@@ -357,7 +364,8 @@ def main(arguments):
         (options.out / "run.secret").unlink(missing_ok=True)  # of a run that was killed
         if options.restart is None:
             set_former_aside(options)
-        code, words = Run(commands, lead=next(iter(commands)), environment=environment)()
+        before = age_of_used_case(options.out)
+        code, words = Run(commands, next(iter(commands)), environment, lambda: age_of_used_case(options.out) != before)()
         if words:
             print(words, file=sys.stderr)
         if options.replay is not None and code == DONE:

@@ -92,6 +92,7 @@ class Process:
     pidfd: int = -1
     ended: bool = False
     asked_to_end: bool = False  # by us, so how it ended says nothing
+    left_early: bool = False  # it ended as if all were done before the programs had met
     unread: bytes = b""
     held_lines: list[str] = field(default_factory=list)  # its errors, shown if it is the cause
 
@@ -100,7 +101,9 @@ class Process:
         return self.popen.returncode
 
     def exit_code(self):
-        """A process killed from outside is a lost peer; one that crashed is a bug."""
+        """A process killed from outside is a lost peer, as is one that never took part; one that crashed is a bug."""
+        if self.left_early:
+            return PEER_LOST
         if self.status >= 0:
             return self.status if self.status in MEANING else BUG
         return BUG if -self.status in FAULTS else PEER_LOST
@@ -110,6 +113,8 @@ class Process:
         return list(map(without_kind, self.held_lines))
 
     def fate(self):
+        if self.left_early:
+            return f"ended with exit code {self.status} before it had joined the run: no participant of a coupled run"
         if self.status >= 0:
             return f"ended with exit code {self.status} ({MEANING.get(self.status, 'unknown')})"
         return f"was killed by signal {-self.status} ({signal.strsignal(-self.status)})"
@@ -160,17 +165,19 @@ def without_kind(line):
 
 class Run:
     """Starts `commands` (name -> command line). `lead` keeps the terminal, for its progress line; the others' lines
-    are passed on, errors only of the one that caused the end."""
+    are passed on, errors only of the one that caused the end. `have_met` tells whether the run of several has begun."""
 
-    def __init__(self, commands, lead, environment):
+    def __init__(self, commands, lead, environment, have_met=lambda: True):
         self.processes = [Process(name, command) for name, command in commands.items()]
         self.lead = lead
         self.environment = environment
+        self.have_met = have_met
         self.selector = selectors.DefaultSelector()
         self.failed = []  # in the order in which they failed
         self.interruptions = 0
         self.deadline = None  # when those that remain are asked to end, then killed
         self.notice = None  # when it is said who has not ended since the interruption
+        self.doubt = None  # when it is looked at whether the run of one that is done has begun at all
 
     def __call__(self):
         """Runs to the end; returns the exit code of the run and what to say of it ("" if all is well)."""
@@ -195,12 +202,14 @@ class Run:
             self.selector.register(process.popen.stdout.fileno(), selectors.EVENT_READ, lambda: self._pass_on(process))
 
     def _wait(self):
-        limits = [limit for limit in (self.deadline, self.notice) if limit is not None]
+        limits = [limit for limit in (self.deadline, self.notice, self.doubt) if limit is not None]
         for key, _ in self.selector.select(max(0.0, min(limits) - time.monotonic()) if limits else None):
             if key.fileobj in self.selector.get_map():  # what came before may have ended it
                 key.data()
         if self.notice is not None and time.monotonic() >= self.notice:
             self._tell_who_is_waited_for()
+        if self.doubt is not None and time.monotonic() >= self.doubt:
+            self._look_for_absent()
         if self.deadline is not None and time.monotonic() >= self.deadline:
             self._end_the_rest()
 
@@ -212,6 +221,8 @@ class Run:
         os.close(process.pidfd)
         if process.popen.stdout and process.popen.stdout.fileno() in self.selector.get_map():
             self._pass_on(process)
+        if process.status == 0 and self.doubt is None:
+            self.doubt = time.monotonic() + GRACE
         if process.status != 0:
             self.failed.append(process)
             if self.deadline is None:
@@ -242,6 +253,16 @@ class Run:
         if rest:
             tell(f"waiting for {', '.join(rest)} to write a last checkpoint, for {PATIENCE:.0f} s at most; Ctrl-C again "
                  "ends them at once")
+
+    def _look_for_absent(self):
+        """A program that is done before the programs have met leaves the others to wait in vain."""
+        self.doubt = None
+        if self.deadline is not None or self.have_met() or any(p.ended for p in self.processes if p.name == self.lead):
+            return
+        for process in (p for p in self.processes if p.ended):
+            process.left_early = True
+            self.failed.append(process)
+        self.deadline = time.monotonic()
 
     def _end_the_rest(self):
         rest = [p for p in self.processes if not p.ended]
@@ -295,7 +316,7 @@ class Run:
         send(rest, signal.SIGSTOP)
         away = own_pause()
         send(rest, signal.SIGCONT)
-        self.deadline, self.notice = (limit and limit + away for limit in (self.deadline, self.notice))
+        self.deadline, self.notice, self.doubt = (limit and limit + away for limit in (self.deadline, self.notice, self.doubt))
 
     def _interrupted(self, numbers):
         self.interruptions += 1

@@ -10,20 +10,24 @@ import numpy as np
 import enclosed_medium
 
 
-def wall(name, low, high, *speed):
-    motion = {"motion": {"velocity": [[0.0, 0.0, *speed], [9.0, 0.0, *speed]]}} if speed else {}
-    return {"name": name, "box": {"min": low, "max": high}} | motion
+def wall(name, low, high):
+    return {"name": name, "box": {"min": low, "max": high}}
+
+
+def rising(v):
+    return {"about": [1.0, 0.0], "poses": [[0.0, 1.0, 0.0, 0.0, 0.0, v], [9.0, 1.0, 9 * v, 0.0, 0.0, v]]}
 
 
 CASE = {"case": {"end_time": 2.0},
         "fluid": {"region": [{"box": {"min": [0.0, 0.0], "max": [2.0, 5.0]}}],
                   "hole": [{"min": [0, 2], "max": [1, 3]}]},
-        "wall": [wall("below", [0.0, -1.0], [2.0, 0.0], 0.5), wall("above", [0.0, 5.0], [2.0, 6.0], 0.25)]}
+        "wall": [wall("below", [0.0, -1.0], [2.0, 0.0]), wall("above", [0.0, 5.0], [2.0, 6.0])]}
+MOTIONS = {0: rising(0.5), 1: rising(0.25)}
 
 
 class EnclosedMedium(unittest.TestCase):
     def test_the_space_is_what_is_between_the_pistons(self):
-        space = enclosed_medium.Space(CASE)
+        space = enclosed_medium.Space(CASE, MOTIONS)
         self.assertAlmostEqual(space.area_at(0.0), 2 * 5 - 1)
         self.assertAlmostEqual(space.area_at(2.0), 2 * (5 - 1 + 0.5) - 1, places=6)
 

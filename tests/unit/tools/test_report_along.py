@@ -133,7 +133,7 @@ class Pieces(unittest.TestCase):
         self.assertEqual(scene.end_of({"case": {"end_time": 2.0}}, [{"times": [0, 3.5]}]), 2.0)
 
     def test_a_wall_at_rest_has_no_chart(self):
-        walls = scene.wall_paths({"wall": [{"name": "floor", "box": {"min": [0, 0], "max": [1, 1]}}]}, 1.0)
+        walls = scene.walls_of({"wall": [{"name": "floor", "box": {"min": [0, 0], "max": [1, 1]}}]})
         self.assertEqual(scene.motion_charts(walls, 1.0), [])
 
     def test_lines_are_named_by_their_boundary(self):

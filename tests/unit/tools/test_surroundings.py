@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import termios
+import time
 import unittest
 
 from launch_case import Launch
@@ -153,6 +154,19 @@ class Faults(Surroundings):
             self.assertEqual(done.returncode, 1)
             self.assertIn("fluid_solver ended with exit code 1", done.stderr)
             self.assertNotIn("Traceback", done.stderr)
+
+    def test_a_program_that_is_done_before_the_run_begins_is_named(self):
+        self.plan(coupler="wait 60", solid="wait 60")
+        start = time.monotonic()
+        done = self.launch("--fluid", "/bin/true", "--no-report", "--overwrite")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("fluid_solver ended with exit code 0 before it had joined the run", done.stderr)
+        self.assertLess(time.monotonic() - start, 30)
+        self.assert_nothing_left()
+
+    def test_a_program_that_is_done_after_the_run_began_may_be_the_first(self):
+        self.plan(coupler="write used_case.toml met; wait 2")
+        self.assertEqual(self.launch("--no-report").returncode, 0)
 
     def test_a_program_that_is_none_is_refused(self):
         text = self.folder / "notes"
