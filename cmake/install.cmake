@@ -27,13 +27,15 @@ if(TORYU_PORTABLE)
     message(FATAL_ERROR "TORYU_PORTABLE=ON goes with TORYU_CPU=x86-64, not with '${TORYU_CPU}'")
   endif()
   include(ExternalProject)
+  foreach(setting CMAKE_BUILD_TYPE CMAKE_C_COMPILER CMAKE_CXX_COMPILER CMAKE_EXE_LINKER_FLAGS CMAKE_SKIP_RPATH
+      TORYU_WARNINGS_AS_ERRORS)
+    list(APPEND same -D${setting}=${${setting}})
+  endforeach()
   foreach(level x86-64-v3 x86-64-v4)
     ExternalProject_Add(programs_${level}
       SOURCE_DIR ${PROJECT_SOURCE_DIR}
       BINARY_DIR ${CMAKE_BINARY_DIR}/${level}
-      CMAKE_ARGS -DTORYU_CPU=${level} -DTORYU_TESTS=OFF -DTORYU_WARNINGS_AS_ERRORS=${TORYU_WARNINGS_AS_ERRORS}
-        -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
-        -DCMAKE_EXE_LINKER_FLAGS=${CMAKE_EXE_LINKER_FLAGS}
+      CMAKE_ARGS ${same} -DTORYU_CPU=${level} -DTORYU_TESTS=OFF
       BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target ${programs} toryu_commit
       BUILD_ALWAYS ON
       INSTALL_COMMAND ""
@@ -75,14 +77,17 @@ foreach(text README.md CHANGELOG.md VALIDATION.md ${texts})
   install(FILES ${text} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/toryu/${folder} COMPONENT programs)
 endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/toryu RENAME copyright COMPONENT programs)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/toryu-dev RENAME copyright COMPONENT development)
 
 # The manual pages are the --help of what was just installed.
 find_program(TORYU_HELP2MAN help2man)
 if(TORYU_HELP2MAN)
   install(CODE "set(help2man \"${TORYU_HELP2MAN}\")
     set(version \"${PROJECT_VERSION}\")
-    set(bin \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}\")
-    set(pages \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\")
+    set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
+    set(bin \"\${prefix}/${CMAKE_INSTALL_BINDIR}\")
+    set(pages \"\${prefix}/${CMAKE_INSTALL_MANDIR}/man1\")
+    set(tools \"\${prefix}/${root}/tools\")
     include(\"${PROJECT_SOURCE_DIR}/cmake/manual_pages.cmake\")" COMPONENT programs)
 else()
   message(STATUS "no help2man: an installation will have no manual pages")

@@ -2,6 +2,7 @@
 #
 #     tools/install.sh run package && tools/build.sh package && cpack --preset package
 set(CPACK_PACKAGE_CONTACT "The toryu authors" CACHE STRING "Who answers for the packages: name and address of mail")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_COMPONENTS_ALL programs development)

@@ -1,6 +1,7 @@
 """Where the programs are: in the sources, where a build leaves them; in an installation (cmake/install.cmake), whose
 folders are laid out like the sources, those for this processor."""
 
+import contextlib
 import pathlib
 import re
 
@@ -18,9 +19,11 @@ LEVELS = {
 }
 
 
-def flags_of_processor(cpuinfo):
-    """What /proc/cpuinfo tells that every processor of this machine has."""
-    lines = re.findall(r"^flags\s*:(.*)$", cpuinfo, re.MULTILINE)
+def flags_of_processor(cpuinfo=pathlib.Path("/proc/cpuinfo")):
+    """What every processor of this machine has; nothing if it cannot be read."""
+    lines = []
+    with contextlib.suppress(OSError):
+        lines = re.findall(r"^flags\s*:(.*)$", cpuinfo.read_text(encoding="utf-8"), re.MULTILINE)
     return set.intersection(*(set(line.split()) for line in lines)) if lines else set()
 
 
@@ -39,4 +42,4 @@ def folder_of_programs():
         return ROOT / "build/release/bin"
     if (INSTALLED / "coupler").exists():  # built for one processor
         return INSTALLED
-    return INSTALLED / best_level(flags_of_processor(pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")))
+    return INSTALLED / best_level(flags_of_processor())

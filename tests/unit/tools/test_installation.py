@@ -6,9 +6,11 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+from types import SimpleNamespace
 
-from toryu import installation
+from toryu import PROGRAMS, installation
 from toryu.installation import LEVELS, ROOT, best_level, flags_of_processor
+from toryu.study import runner
 
 OF_2012 = "cx16 lahf_lm popcnt sse4_1 sse4_2 ssse3 avx f16c xsave"  # Ivy Bridge: level 2
 OF_2013 = f"{OF_2012} abm avx2 bmi1 bmi2 fma movbe"  # Haswell
@@ -23,13 +25,18 @@ class Levels(unittest.TestCase):
             self.assertEqual(best_level(set(flags.split())), level, flags)
 
     def test_what_one_core_lacks_is_not_counted_on(self):
-        self.assertEqual(flags_of_processor("flags\t\t: fpu avx avx2\nbugs\t: x\n\nflags\t\t: fpu avx\n"), {"fpu", "avx"})
-        self.assertEqual(flags_of_processor("Features\t: fp asimd\n"), set())
+        with tempfile.TemporaryDirectory() as folder:
+            cpuinfo = pathlib.Path(folder) / "cpuinfo"
+            self.assertEqual(flags_of_processor(cpuinfo), set())
+            cpuinfo.write_text("flags\t\t: fpu avx avx2\nbugs\t: x\n\nflags\t\t: fpu avx\n")
+            self.assertEqual(flags_of_processor(cpuinfo), {"fpu", "avx"})
+            cpuinfo.write_text("Features\t: fp asimd\n")
+            self.assertEqual(flags_of_processor(cpuinfo), set())
 
     def test_the_loader_of_glibc_finds_the_same_level_here(self):
         loader = subprocess.run(["/lib64/ld-linux-x86-64.so.2", "--help"], capture_output=True, text=True).stdout
         supported = re.findall(r"(x86-64-v[34]) \(supported", loader) + ["x86-64"]
-        self.assertEqual(best_level(flags_of_processor(pathlib.Path("/proc/cpuinfo").read_text())), supported[0])
+        self.assertEqual(best_level(flags_of_processor()), supported[0])
 
 
 class Command(unittest.TestCase):
@@ -61,12 +68,22 @@ class Command(unittest.TestCase):
     def test_the_program_for_this_processor_is_started(self):
         for level in LEVELS:
             self.put_program(self.programs / level)
-        best = best_level(flags_of_processor(pathlib.Path("/proc/cpuinfo").read_text()))
+        best = best_level(flags_of_processor())
         self.assertEqual(self.started(), f"{self.programs / best / 'coupler'} a case --check")
 
     def test_a_build_for_one_processor_has_no_levels(self):
         self.put_program(self.programs)
         self.assertEqual(self.started(), f"{self.programs / 'coupler'} a case --check")
+
+
+class Study(unittest.TestCase):
+    def test_runs_on_other_machines_take_the_programs_that_are_for_those(self):
+        def command(programs):
+            runs = runner.Runner(SimpleNamespace(case="case.toml", map=None), pathlib.Path("out"), programs, 1, 1, None)
+            return runs.command(SimpleNamespace(options=lambda: []))
+
+        self.assertEqual(command(PROGRAMS)[-1], "case.toml")
+        self.assertEqual(command(pathlib.Path("/other"))[-1], "--bin=/other")
 
 
 class Sources(unittest.TestCase):
