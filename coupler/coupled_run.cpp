@@ -126,7 +126,7 @@ void CoupledRun::write_checkpoint() {
       failure = reason.what();
     }
   };
-  attempt([&] { folder = open_checkpoint(settings_.out); });
+  attempt([&] { folder = opened_ = open_checkpoint(settings_.out, opened_); });
   if (failure.empty()) failure = let_participants_write(folder);
   attempt([&] {
     write_part(folder, "coupler", "coupler", [&](std::ostream& stream) { write_state(stream); });

@@ -67,6 +67,7 @@ class CoupledRun {
   Checkpoints checkpoints_;
   CheckpointSchedule checkpoints_due_{0, 0};
   std::filesystem::path checkpoint_;  // that of the last window, in the results; empty if there is none
+  std::filesystem::path opened_;      // the last that was begun
   StopFile stop_;
   Timers timers_;
   State state_;

@@ -57,14 +57,17 @@ void Boundary::know_faces(const FaceDepths& depths, bool fit) {
   for (std::size_t k = 0; k < count; ++k) set(to_outline, k, depths.to_outline[id[k]]);
 }
 
-bool Boundary::covers(const Vec& point, double spacing) const {
+bool Boundary::covers(const Vec& point, double spacing, const std::vector<Vec>& shifts) const {
   const double half = 0.501 * spacing;
   bool found = false;
-  strips.in_box(x[1], point[0] - half, point[0] + half, point[1] - half, point[1] + half,
-                [&](std::size_t first, std::size_t last) {
-                  for (std::size_t k = first; k < last && !found; ++k)
-                    found = (at(x, k) - point).lpNorm<Eigen::Infinity>() < half;
-                });
+  for (const Vec& shift : shifts) {
+    const Vec image = point + shift;
+    strips.in_box(x[1], image[0] - half, image[0] + half, image[1] - half, image[1] + half,
+                  [&](std::size_t first, std::size_t last) {
+                    for (std::size_t k = first; k < last && !found; ++k)
+                      found = (at(x, k) - image).lpNorm<Eigen::Infinity>() < half;
+                  });
+  }
   return found;
 }
 

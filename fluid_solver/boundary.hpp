@@ -134,8 +134,9 @@ struct Boundary {
     return near.size() > 1 || !near[0].sources.empty();
   }
   bool is_interface() const { return std::holds_alternative<MovingInterface>(motion); }
-  /// Whether `point` lies in the cell of a particle; cells are `spacing` [m] wide.
-  bool covers(const Vec& point, double spacing) const;
+  /// Whether `point`, or its image in one of `shifts` [m], lies in the cell of a particle; cells are
+  /// `spacing` [m] wide.
+  bool covers(const Vec& point, double spacing, const std::vector<Vec>& shifts = {Vec::Zero()}) const;
   /// Takes away all particles but those at `kept`, which rises.
   void keep(const std::vector<std::uint32_t>& kept);
   /// Puts the particles in strip order again after they moved.

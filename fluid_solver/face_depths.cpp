@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "common/scene/occupancy_index.hpp"
+#include "common/scene/period.hpp"
 
 namespace toryu::fluid {
 
-FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, double far) {
+FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, double far,
+                               const std::vector<Vec>& shifts) {
   OccupancyIndex places(0.5 * spacing);
-  places.take(points, "");
+  places.take(with_images(points, shifts), "");
   const auto depth = [&](const Vec& x, const Vec& direction) {
     double steps = 1;
     while ((steps - 0.5) * spacing < far && places.taken(x + steps * spacing * direction)) ++steps;
@@ -24,8 +26,8 @@ FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, d
 }
 
 FaceDepths face_depths(const std::vector<Vec>& points, const std::vector<const Outline*>& outlines,
-                       double spacing, double far) {
-  FaceDepths depths = lattice_face_depths(points, spacing, far);
+                       double spacing, double far, const std::vector<Vec>& shifts) {
+  FaceDepths depths = lattice_face_depths(points, spacing, far, shifts);
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!outlines[k]) continue;
     depths.up[k] = depths.down[k] = Vec::Constant(far);

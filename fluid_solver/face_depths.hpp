@@ -6,11 +6,13 @@
 
 namespace toryu::fluid {
 
-/// Of `points` of one body on a lattice of `spacing` [m]; `far` [m] where the body goes on beyond that.
-FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, double far);
+/// Of `points` of one body on a lattice of `spacing` [m], which repeats itself by `shifts` (Period); `far`
+/// [m] where the body goes on beyond that.
+FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, double far,
+                               const std::vector<Vec>& shifts = {Vec::Zero()});
 
 /// The same where some of the points fit an outline, each its own: that alone is their face.
 FaceDepths face_depths(const std::vector<Vec>& points, const std::vector<const Outline*>& outlines,
-                       double spacing, double far);
+                       double spacing, double far, const std::vector<Vec>& shifts = {Vec::Zero()});
 
 }  // namespace toryu::fluid

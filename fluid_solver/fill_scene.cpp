@@ -158,14 +158,16 @@ void FluidModel::fill_walls() {
                    scene_.geometry);
     const bool fit = parameters_.wall_model.extrapolation == WallExtrapolation::fit;
     if (fit || parameters_.wall_slip)
-      boundary.know_faces(
-          made.kept(face_depths(made.lattice, made.outlines, parameters_.spacing, 2 * reach())), fit);
+      boundary.know_faces(made.kept(face_depths(made.lattice, made.outlines, parameters_.spacing, 2 * reach(),
+                                                period_.shifts())),
+                          fit);
     if (wall && wall->work_piece)
       boundary.make_work_piece(
           made.kept(faces_of(*wall, made.lattice, parameters_.spacing, period_.shifts(), scene_.geometry)));
   };
   for (const auto& wall : scene_.walls) {
-    const WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));
+    WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));
+    for (Vec& x : made.places) x = period_.inside(x);
     const std::string place = fmt::format("[[wall]] '{}'", wall.name);
     const bool on_its_own = wall.motion || wall.press || wall.work_piece;
     const bool in_group = !wall.moves_with.empty() && !wall.work_piece;
@@ -189,7 +191,7 @@ void FluidModel::fill_walls() {
   move_boundaries(0.0);
   for (auto& boundary : state_.boundaries)
     if (boundary.is_work_piece())
-      cover_faces(boundary, parameters_.spacing, state_.boundaries, parameters_.spacing);
+      cover_faces(boundary, parameters_.spacing, state_.boundaries, parameters_.spacing, period_.shifts());
 }
 
 /// A wall that holds the solid lies where the solid's clamp does: either would act on the fluid as a wall. Of
@@ -203,7 +205,7 @@ void FluidModel::leave_out_walls_in(const Boundary& solid, double spacing) {
       int covered = 0;
       for (int axis = 0; axis < dim; ++axis)
         for (const double side : {-quarter, quarter})
-          covered += solid.covers(at(wall.x, k) + side * Vec::Unit(axis), spacing);
+          covered += solid.covers(at(wall.x, k) + side * Vec::Unit(axis), spacing, period_.shifts());
       if (covered < 2 * dim) kept.push_back(k);
     }
     if (kept.size() < wall.count) wall.keep(kept);

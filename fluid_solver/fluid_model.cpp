@@ -66,19 +66,22 @@ void FluidModel::read_state(std::istream& stream) {
 }
 
 void FluidModel::attach(const Interface& interface) {
+  MovingInterface motion(interface, reach() / parameters_.sound_speed);
   std::vector<Vec> positions;
   std::vector<Faces> faces;
-  for (std::size_t k = 0; k < interface.size(); ++k) {
-    positions.push_back(vector_of(interface.position, k));
+  for (std::uint32_t k = 0; k < interface.size(); ++k) {
+    const Vec x = vector_of(interface.position, k), move = period_.back_into_domain(x);
+    if (!move.isZero(0)) motion.move_by_periods(k, move);
+    positions.push_back(x + move);
     faces.push_back(faces_of(vector_of(interface.area_vector, k)));
   }
   refuse_in_layers(positions);
   Boundary boundary;
   boundary.name = "interface";
-  boundary.motion = MovingInterface(interface, reach() / parameters_.sound_speed);
+  boundary.motion = std::move(motion);
   boundary.place(positions, interface.volume, parameters_.density, parameters_.strip_width());
   boundary.make_work_piece(faces);
-  cover_faces(boundary, interface.spacing, state_.boundaries, parameters_.spacing);
+  cover_faces(boundary, interface.spacing, state_.boundaries, parameters_.spacing, period_.shifts());
   leave_out_walls_in(boundary, interface.spacing);
   state_.boundaries.push_back(std::move(boundary));
   check_overlaps();
@@ -121,10 +124,16 @@ void FluidModel::move_back_into_domain() {
     state_.potential_of_moves += state_.fluid.m[i] * (potential(x) - potential(back));
     set(state_.fluid.x, i, back);
   }
-  for (Boundary& boundary : state_.boundaries)
-    if (auto* prescribed = std::get_if<PrescribedMotion>(&boundary.motion))
-      for (std::size_t k = 0; k < boundary.count; ++k)
-        prescribed->start[boundary.id[k]] += period_.back_into_domain(at(boundary.x, k));
+  for (Boundary& boundary : state_.boundaries) {
+    auto* prescribed = std::get_if<PrescribedMotion>(&boundary.motion);
+    auto* interface = std::get_if<MovingInterface>(&boundary.motion);
+    for (std::size_t k = 0; k < boundary.count; ++k) {
+      const Vec move = period_.back_into_domain(at(boundary.x, k));
+      if (move.isZero(0)) continue;
+      if (prescribed) prescribed->start[boundary.id[k]] += move;
+      if (interface) interface->move_by_periods(boundary.id[k], move);
+    }
+  }
   move_boundaries(state_.time);
 }
 

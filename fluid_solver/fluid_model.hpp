@@ -8,13 +8,13 @@
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
 #include "common/scene/fill.hpp"
+#include "common/scene/period.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/energy_balance.hpp"
 #include "fluid_solver/free_surface.hpp"
 #include "fluid_solver/neighbours.hpp"
 #include "fluid_solver/open_ends/open_ends.hpp"
 #include "fluid_solver/parameters.hpp"
-#include "fluid_solver/period.hpp"
 #include "fluid_solver/run_watch.hpp"
 #include "fluid_solver/suction_watch.hpp"
 #include "fluid_solver/surface_record.hpp"
@@ -81,6 +81,8 @@ class FluidModel : public Solver {
   double potential_energy() const;
   double elastic_energy() const;  ///< of compression [J per metre]
   double mass() const;            ///< [kg per metre]
+  /// Mean density by the room that the particles have, whatever their own say [kg/m3].
+  double density_of_packing() const;
   Vec momentum() const;
   /// What the press adds to the pressure of an enclosed medium [Pa].
   double pressure_offset() const;

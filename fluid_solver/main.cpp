@@ -67,8 +67,10 @@ void take_turns(FluidLink& link, FluidModel& model, RunRecord& record) {
   });
 }
 
-void warn_of_thin_wall(const fluid::Boundary& wall, double spacing, const fluid::Parameters& parameters) {
-  if (const auto thin = fluid::beyond_thinnest(wall, spacing, parameters)) log::warn("{}", *thin);
+void warn_of_thin_wall(const fluid::Boundary& wall, double spacing, const fluid::Parameters& parameters,
+                       const Scene& scene) {
+  if (const auto thin = fluid::beyond_thinnest(wall, spacing, parameters, Period(scene).shifts()))
+    log::warn("{}", *thin);
 }
 
 void warn_of_coarse_work_piece(double spacing, const fluid::Parameters& parameters) {
@@ -90,7 +92,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     log::info("the solid's interface has {} of spacing {:g} m", counted(interface.size(), "particle"),
               interface.spacing);
     model.attach(interface);
-    warn_of_thin_wall(model.boundaries().back(), interface.spacing, parameters);
+    warn_of_thin_wall(model.boundaries().back(), interface.spacing, parameters, scene);
     warn_of_coarse_work_piece(interface.spacing, parameters);
   } catch (...) {
     link.leave();
@@ -156,6 +158,10 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
                "the walls that are pressed set the mean pressure: leave it out");
   else if (medium && !pressed && !(medium->mean_pressure > 0))
     file.fault("fluid.enclosed_medium", "without a pressed wall the medium needs a 'mean_pressure' above 0");
+  if (parameters.held_volume && (pressed || file.has("solid") || parameters.has_open_ends()))
+    file.fault(
+        "fluid.held_volume",
+        "pressed walls, an elastic solid and open ends leave the medium no volume of its own: leave it out");
   if (parameters.wall_slip && file.has("solid"))
     file.fault(
         "fluid.wall_slip",
@@ -184,8 +190,9 @@ void warn_of_start(const CaseFile& file, const Scene& scene, const fluid::Parame
   for (const auto& gap : gap_warnings(file, scene)) log::warn("{}", gap);
   for (const auto& unknown : unknown_meetings(file, scene)) log::warn("{}", unknown);
   for (const auto& misfit : model.misfits()) log::warn("{}", fluid::misfit_text(misfit, parameters.spacing));
-  for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters);
-  if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing))
+  for (const auto& wall : model.boundaries()) warn_of_thin_wall(wall, parameters.spacing, parameters, scene);
+  if (const auto jet = fluid::beyond_thinnest_jet(particles, model.boundaries(), parameters.spacing,
+                                                  Period(scene).shifts()))
     log::warn("{}", *jet);
 }
 
@@ -213,6 +220,7 @@ ExitCode solve(const Options& options) {
       file.fault(key, message);
   file.throw_if_faulty();
   fluid::leave_out(left_out_of_fluid(file, scene), parameters);
+  fluid::repeat_holes(Period(scene), parameters);
   for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);
   for (const auto& [key, message] : fluid::similarity_faults(parameters, scene.geometry, file.has("solid")))
     file.fault(key, message);
@@ -237,6 +245,9 @@ ExitCode solve(const Options& options) {
     throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
                      "the fluid has a free surface at the start, where its pressure is 0: give no "
                      "mean pressure"}});
+  if (parameters.held_volume && !model.is_enclosed())
+    throw BadInput({{"[fluid.held_volume]", 0, 0,
+                     "the fluid has a free surface at the start: nothing holds its volume"}});
   if (parameters.model == fluid::Model::implicit && !model.is_enclosed()) {
     const auto [key, message] = fluid::implicit_surface_fault();
     throw BadInput({{key, 0, 0, message}});

@@ -29,6 +29,11 @@ void MovingInterface::begin_window(const InterfaceMotion& motion, double time, d
   state_.last_dt = dt;
 }
 
+void MovingInterface::move_by_periods(std::uint32_t k, const Vec& by) {
+  state_.periods.resize(count_, Vec::Zero());
+  state_.periods[k] += by;
+}
+
 void MovingInterface::note_impulse(const std::vector<double>& not_given, const Vec& received, double work) {
   for (std::size_t n = 0; n < not_given.size(); ++n) state_.sum.force[n] -= not_given[n];
   state_.sum.impulse_on_fluid += received;

@@ -12,7 +12,8 @@ struct Boundary;
 class MovingInterface {
  public:
   /// `interface` as the solid registered it. `response_time` [s] is the time over which its acceleration is
-  /// averaged.
+  /// averaged. Where space repeats itself the solid goes on out of the domain, and its particles here come in
+  /// at the other side.
   MovingInterface(const Interface& interface, double response_time);
 
   /// Begins a window of `dt` [s] at `time` [s], in which the interface is brought to where `motion` says.
@@ -29,10 +30,13 @@ class MovingInterface {
   /// Gives what particle k does at `time` [s].
   auto at(double time) const {
     return [this, since = time - state_.window_start](std::uint32_t k) {
-      return Kinematics{state_.start[k] + state_.velocity[k] * since, state_.velocity[k],
-                        state_.acceleration[k]};
+      Vec x = state_.start[k] + state_.velocity[k] * since;
+      if (!state_.periods.empty()) x += state_.periods[k];
+      return Kinematics{x, state_.velocity[k], state_.acceleration[k]};
     };
   }
+  /// Moves particle k by whole periods of space, besides those by which it was moved before [m].
+  void move_by_periods(std::uint32_t k, const Vec& by);
 
   /// Adds the boundary's force over `dt` [s] to the load; `received` is the force that the fluid got from it.
   void add_load(const Boundary& boundary, const Vec& received, double dt);
@@ -46,14 +50,16 @@ class MovingInterface {
   struct State {
     double window_start = 0, last_dt = 0;                 ///< [s]
     std::vector<Vec> start, end, velocity, acceleration;  ///< over the present window
+    std::vector<Vec> periods;                             ///< from where the solid is [m]; empty: none
     double load_time = 0;                                 ///< [s]
     InterfaceLoad sum;                                    ///< of load times time
   };
   template <class Archive>
   friend void serialize(Archive& archive, MovingInterface& interface) {
-    auto& [window_start, last_dt, start, end, velocity, acceleration, load_time, sum] = interface.state_;
+    auto& [window_start, last_dt, start, end, velocity, acceleration, periods, load_time, sum] =
+        interface.state_;
     auto& [pressure, force, friction_force, impulse_on_fluid, work_of_impulse, impedance, of_copy] = sum;
-    archive(window_start, last_dt, start, end, velocity, acceleration, load_time, pressure, force,
+    archive(window_start, last_dt, start, end, velocity, acceleration, periods, load_time, pressure, force,
             friction_force, impulse_on_fluid, work_of_impulse, impedance, of_copy);
   }
 

@@ -5,6 +5,7 @@
 
 #include "fluid_solver/fluid_model.hpp"
 #include "fluid_solver/held_pressure.hpp"
+#include "fluid_solver/held_volume.hpp"
 #include "fluid_solver/observers.hpp"
 
 namespace toryu::fluid {
@@ -123,6 +124,12 @@ double FluidModel::mean_density() const {
   return mass() / sum_inside([&](std::size_t i) { return state_.fluid.m[i] / state_.fluid.rho[i]; });
 }
 
+double FluidModel::density_of_packing() const {
+  const double share =
+      packing(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_, parameters_.density);
+  return parameters_.density * (std::isnan(share) ? 1 : share);
+}
+
 double FluidModel::energy_gained() const {
   double gained = energy() - start_energy_ - state_.work_of_gravity_change;
   for (const Boundary& boundary : state_.boundaries) gained -= boundary.work;
@@ -159,7 +166,7 @@ RunFigures FluidModel::run_figures(double time) const {
   std::nth_element(speed.begin(), fast, speed.end());
   return {.time = time,
           .fast = *fast,
-          .mean_density = mean_density(),
+          .mean_density = parameters_.held_volume ? density_of_packing() : mean_density(),
           .count = fluid.count,
           .penetration = state_.penetration,
           .gained = energy_gained() + stored,

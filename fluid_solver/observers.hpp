@@ -2,11 +2,11 @@
 #pragma once
 
 #include "common/run/solver.hpp"
+#include "common/scene/period.hpp"
 #include "common/sph/kernel.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/particles.hpp"
-#include "fluid_solver/period.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 
 namespace toryu::fluid {

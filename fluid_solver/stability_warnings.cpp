@@ -8,6 +8,7 @@
 
 #include "common/error/counted.hpp"
 #include "common/scene/occupancy_index.hpp"
+#include "common/scene/period.hpp"
 #include "fluid_solver/passage_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
 
@@ -28,13 +29,14 @@ std::vector<Vec> places_of(const auto& particles) {
   return places;
 }
 
-/// Particles of one body, and what else fills the space around it.
+/// Particles of one body, and what else fills the space around it, which repeats itself by `shifts` (Period).
 class Bodies {
  public:
-  Bodies(std::vector<Vec> places, const std::vector<Boundary>& others, double spacing)
+  Bodies(std::vector<Vec> places, const std::vector<Boundary>& others, double spacing,
+         const std::vector<Vec>& shifts)
       : places_(std::move(places)), spacing_(spacing) {
-    take(places_);
-    for (const auto& other : others) take(places_of(other));
+    take(with_images(places_, shifts));
+    for (const auto& other : others) take(with_images(places_of(other), shifts));
   }
 
   /// The least thickness along x or y [m], if enough particles have one below `least` [m].
@@ -100,8 +102,9 @@ double thinnest_wall(const Parameters& p) {
   return 2.0 * p.h() - p.spacing;
 }
 
-std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing, const Parameters& p) {
-  const Bodies bodies(places_of(body), {}, spacing);
+std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing, const Parameters& p,
+                                           const std::vector<Vec>& shifts) {
+  const Bodies bodies(places_of(body), {}, spacing, shifts);
   const double least = thinnest_wall(p);
   if (const auto found = bodies.thinnest(least))
     return fmt::format(
@@ -116,8 +119,8 @@ std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
 }
 
 std::optional<std::string> beyond_thinnest_jet(const Particles& fluid, const std::vector<Boundary>& walls,
-                                               double spacing) {
-  const Bodies bodies(places_of(fluid), walls, spacing);
+                                               double spacing, const std::vector<Vec>& shifts) {
+  const Bodies bodies(places_of(fluid), walls, spacing, shifts);
   if (const auto found = bodies.thinnest(3 * spacing))
     return fmt::format(
         "the fluid is {} wide in places: a jet so narrow bounces off a wall with up to half "

@@ -23,15 +23,17 @@ double time_step_edge(const Parameters& parameters);
 double thinnest_wall(const Parameters& parameters);
 
 /// A sentence if the body, of particles `spacing` [m] apart, is thinner than that along x or y. A few
-/// particles are not enough: the poles of a round body are single ones.
-std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing,
-                                           const Parameters& parameters);
+/// particles are not enough: the poles of a round body are single ones. Space repeats itself by `shifts`
+/// (Period).
+std::optional<std::string> beyond_thinnest(const Boundary& body, double spacing, const Parameters& parameters,
+                                           const std::vector<Vec>& shifts = {Vec::Zero()});
 
 /// A sentence if the fluid is narrower than 3 spacings along x or y in so many places, walls beside it
 /// counted as fluid: a jet of 1 or 2 particles bounces with 11 to 46 % of its momentum, and one of 3 with 10
 /// to 16 % (cases/thin_jet/near_singular_map.toml).
 std::optional<std::string> beyond_thinnest_jet(const Particles& fluid, const std::vector<Boundary>& walls,
-                                               double spacing);
+                                               double spacing,
+                                               const std::vector<Vec>& shifts = {Vec::Zero()});
 
 /// A sentence if the particles of an elastic work piece stand `spacing` [m], farther apart than the fluid's:
 /// a medium that finds gaps in the surface sticks to it, and what friction and removal give is far too small.

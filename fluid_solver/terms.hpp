@@ -14,6 +14,7 @@
 #include "fluid_solver/terms/enclosed_medium.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/friction.hpp"
+#include "fluid_solver/terms/held_volume.hpp"
 #include "fluid_solver/terms/laminar_viscosity.hpp"
 #include "fluid_solver/terms/particle_shifting.hpp"
 #include "fluid_solver/terms/removal.hpp"
@@ -31,6 +32,7 @@ struct OptionalTerms {
   std::optional<CentralForce> central_force;
   std::optional<BackgroundPressure> background_pressure;
   std::optional<EnclosedMedium> enclosed_medium;
+  std::optional<HeldVolume> held_volume;
   std::optional<DensityDiffusion> density_diffusion;
   std::optional<ParticleShifting> particle_shifting;
   std::optional<TensileControl> tensile_control;
@@ -77,15 +79,15 @@ constexpr Absence absence_of() {
 template <class Terms, class Visit>
 void for_each_term(Terms& terms, Visit&& visit) {
   using Base = std::conditional_t<std::is_const_v<Terms>, const OptionalTerms, OptionalTerms>;
-  auto& [central_force, background_pressure, enclosed_medium, density_diffusion, particle_shifting,
-         tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity, power_law,
-         herschel_bulkley, carreau, viscoelasticity, wall_slip, friction, wall_repulsion, surface_tension,
-         removal] = static_cast<Base&>(terms);
+  auto& [central_force, background_pressure, enclosed_medium, held_volume, density_diffusion,
+         particle_shifting, tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity,
+         power_law, herschel_bulkley, carreau, viscoelasticity, wall_slip, friction, wall_repulsion,
+         surface_tension, removal] = static_cast<Base&>(terms);
   const auto visit_each = [&](auto&... term) { (visit(term), ...); };
-  visit_each(central_force, background_pressure, enclosed_medium, density_diffusion, particle_shifting,
-             tensile_control, consistent_gradients, artificial_viscosity, laminar_viscosity, power_law,
-             herschel_bulkley, carreau, viscoelasticity, wall_slip, friction, wall_repulsion, surface_tension,
-             removal);
+  visit_each(central_force, background_pressure, enclosed_medium, held_volume, density_diffusion,
+             particle_shifting, tensile_control, consistent_gradients, artificial_viscosity,
+             laminar_viscosity, power_law, herschel_bulkley, carreau, viscoelasticity, wall_slip, friction,
+             wall_repulsion, surface_tension, removal);
 }
 
 }  // namespace toryu::fluid

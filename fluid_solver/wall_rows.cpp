@@ -100,6 +100,11 @@ void leave_out(const std::vector<Box>& bodies, Parameters& p) {
   for (const Box& body : bodies) static_cast<Box&>(p.holes.emplace_back()) = body;
 }
 
+void repeat_holes(const Period& period, Parameters& p) {
+  const Blocks fluid = blocks_of(p);
+  leave_out(images_in(fluid.boxes, fluid.holes, period, row_tolerance * p.spacing), p);
+}
+
 Filling fill_wall(const Wall& wall, const Parameters& p, const Vec& gravity) {
   if (wall.box.outline || takes_rows_of_fluid(wall, p, gravity))
     return fill_to_faces({{wall.box}, {}}, p.spacing, blocks_of(p));

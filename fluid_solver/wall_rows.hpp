@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/scene/fill.hpp"
+#include "common/scene/period.hpp"
 #include "fluid_solver/parameters.hpp"
 
 namespace toryu::fluid {
@@ -14,6 +15,10 @@ Blocks blocks_of(const Parameters& parameters);
 
 /// Cuts these bodies out of the fluid, besides its holes.
 void leave_out(const std::vector<Box>& bodies, Parameters& parameters);
+
+/// Cuts the images of its holes out of the fluid as well, where holes go beyond a side at which space repeats
+/// itself.
+void repeat_holes(const Period& period, Parameters& parameters);
 
 /// Particles of a wall: those that fit its outline; of a box on the lattice through its smallest corner. In
 /// rows between its faces, in line with the fluid's, where fluid at rest on the wall would find those off by

@@ -72,7 +72,7 @@ bool same_motion(const Boundary& work_piece, const Boundary& wall) {
 }  // namespace
 
 void cover_faces(Boundary& work_piece, double spacing, const std::vector<Boundary>& boundaries,
-                 double wall_spacing) {
+                 double wall_spacing, const std::vector<Vec>& shifts) {
   // Lattices that meet need not match: a little beyond the face is far enough.
   const double distance = 0.5 * spacing + 0.25 * wall_spacing;
   for (const Boundary& wall : boundaries) {
@@ -81,8 +81,8 @@ void cover_faces(Boundary& work_piece, double spacing, const std::vector<Boundar
       for (int axis = 0; axis < dim; ++axis)
         for (const double side : {-1.0, 1.0}) {
           double& face = (side < 0 ? work_piece.lower_face : work_piece.upper_face)[axis][k];
-          if (face != 0 && wall.covers(at(work_piece.x, k) + side * distance * Vec::Unit(axis), wall_spacing))
-            face = 0;
+          const Vec before = at(work_piece.x, k) + side * distance * Vec::Unit(axis);
+          if (face != 0 && wall.covers(before, wall_spacing, shifts)) face = 0;
         }
   }
 }

@@ -19,9 +19,9 @@ std::vector<Faces> faces_of(const Wall& wall, const std::vector<Vec>& points, do
 
 /// Where a work piece stands on a wall no fluid comes: closes the faces of its cells, `spacing` [m] wide,
 /// that border on a cell of those `boundaries`, `wall_spacing` [m] wide, that stand still as it does or move
-/// as it does. A solid's interface counts as still: what borders on a wall is held.
+/// as it does, be it across a period. A solid's interface counts as still: what borders on a wall is held.
 void cover_faces(Boundary& work_piece, double spacing, const std::vector<Boundary>& boundaries,
-                 double wall_spacing);
+                 double wall_spacing, const std::vector<Vec>& shifts = {Vec::Zero()});
 
 /// A place where a particle of a work piece is touched.
 struct SurfacePoint {

@@ -11,6 +11,7 @@
 #include "common/scene/fill.hpp"
 #include "common/scene/fill_outline.hpp"
 #include "common/scene/occupancy_index.hpp"
+#include "common/scene/period.hpp"
 #include "common/scene/worn_box.hpp"
 
 namespace toryu::solid {
@@ -145,11 +146,16 @@ bool overlap(const Parameters& parameters, const Body& body, std::size_t a, std:
   const Box &A = parameters.regions[a].box, &B = parameters.regions[b].box;
   if (A.is_rectangle() && B.is_rectangle()) {
     const double tolerance = 1e-6 * parameters.spacing;
-    return ((A.max - B.min).array() > tolerance).all() && ((B.max - A.min).array() > tolerance).all();
+    return std::any_of(body.shifts.begin(), body.shifts.end(), [&](const Vec& shift) {
+      return ((A.max + shift - B.min).array() > tolerance).all() &&
+             ((B.max - A.min - shift).array() > tolerance).all();
+    });
   }
-  for (std::size_t i = 0; i < body.size(); ++i)
-    if ((body.region[i] == a && B.contains(body.X[i])) || (body.region[i] == b && A.contains(body.X[i])))
-      return true;
+  for (const Vec& shift : body.shifts)
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if ((body.region[i] == a && B.contains(body.X[i] + shift)) ||
+          (body.region[i] == b && A.contains(body.X[i] - shift)))
+        return true;
   return false;
 }
 
@@ -176,7 +182,7 @@ void check_load(const BoxLoad& load, const Body& body, double h, const TellFault
   if (surface.empty())
     tell_fault("solid.load", fmt::format("load '{}' acts on no surface of the solid", load.name));
   for (const SurfacePiece& piece : surface) try {
-      MaterialPoint(piece.place, body.X, 2.0 * h, body.shape);
+      MaterialPoint(piece.place, body.X, 2.0 * h, body.shape, body.shifts);
     } catch (const std::invalid_argument& error) {
       return tell_fault("solid.load", fmt::format("load '{}': {}", load.name, error.what()));
     }
@@ -187,7 +193,7 @@ void find_surface(Body& body) {
   if (body.has_outline()) return find_outlined_surface(body);
   // Half a spacing and a little: where regions meet, their columns need not face each other.
   OccupancyIndex places(0.6 * body.spacing);
-  places.take(body.X, "");
+  places.take(with_images(body.X, body.shifts), "");
   for (std::size_t i = 0; i < body.size(); ++i)
     for (int axis = 0; axis < dim; ++axis)
       for (const double side : {-1.0, 1.0}) {
@@ -208,17 +214,21 @@ double Body::total_volume() const {
 }
 
 bool Body::contains(const Vec& x) const {
-  return std::any_of(outlines.begin(), outlines.end(),
-                     [&](const Outline& outline) { return outline.contains(x); });
+  return std::any_of(shifts.begin(), shifts.end(), [&](const Vec& shift) {
+    return std::any_of(outlines.begin(), outlines.end(),
+                       [&](const Outline& outline) { return outline.contains(x + shift); });
+  });
 }
 
 std::optional<Outline::Foot> Body::foot(const Vec& x) const {
   std::optional<Outline::Foot> nearest;
-  for (const Outline& outline : outlines) {
-    const auto found = outline.nearest(x);
-    const bool surface = !contains(found.place + beside * spacing * found.normal);
-    if (surface && (!nearest || std::abs(found.distance) < std::abs(nearest->distance))) nearest = found;
-  }
+  for (const Vec& shift : shifts)
+    for (const Outline& outline : outlines) {
+      auto found = outline.nearest(x + shift);
+      found.place -= shift;
+      const bool surface = !contains(found.place + beside * spacing * found.normal);
+      if (surface && (!nearest || std::abs(found.distance) < std::abs(nearest->distance))) nearest = found;
+    }
   return nearest;
 }
 
@@ -242,15 +252,16 @@ std::vector<std::uint32_t> Body::near_surface(double reach) const {
   // A hair more: where a row lies at the reach itself, rounding must not choose among its particles. A layer
   // that is pushed against water would turn aside.
   OccupancyIndex sites(reach * (1 + 1e-9));
-  sites.take(outside, "");
+  sites.take(with_images(outside, shifts), "");
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < size(); ++i)
     if (sites.taken(X[i])) found.push_back(static_cast<std::uint32_t>(i));
   return found;
 }
 
-Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
+Body build_body(const Parameters& parameters, const TellFault& tell_fault, const std::vector<Vec>& shifts) {
   Body body;
+  body.shifts = shifts;
   body.spacing = parameters.spacing;
   const auto& regions = parameters.regions;
   std::vector<Box> boxes;
@@ -259,7 +270,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
   check_size(boxes, parameters.spacing);
   std::vector<Box> holes;
   for (const auto& hole : parameters.holes) holes.push_back(hole.box);
-  body.shape = Shape(boxes, holes, parameters.spacing);
+  body.shape = Shape(with_images(boxes, shifts), with_images(holes, shifts), parameters.spacing);
   const bool has_outline =
       std::any_of(regions.begin(), regions.end(),
                   [&](const Region& region) { return is_fitted(region, parameters.holes); }) ||
@@ -297,7 +308,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault) {
   if (body.size() > 0) find_surface(body);
   for (const auto& load : parameters.loads) check_load(load, body, parameters.h(), tell_fault);
   for (const auto& observer : parameters.observers) try {
-      MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape);
+      MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape, body.shifts);
     } catch (const std::invalid_argument& error) {
       tell_fault("solid.observer", fmt::format("observer '{}': {}", observer.name, error.what()));
     }

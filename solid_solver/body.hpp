@@ -36,15 +36,16 @@ struct Body {
   std::vector<Vec> outside;           ///< empty lattice sites, or places as far beyond the surface [m]
   /// Of all regions without the holes, if one is fitted or a pressure acts on the body; else none.
   std::vector<Outline> outlines;
-  double spacing = 0;  ///< as stated [m]
-  double spread = 0;   ///< of the density of fitted particles: see fill_outline.hpp
+  std::vector<Vec> shifts{Vec::Zero()};  ///< by which it repeats itself (Period) [m]
+  double spacing = 0;                    ///< as stated [m]
+  double spread = 0;                     ///< of the density of fitted particles: see fill_outline.hpp
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log
 
   std::size_t size() const { return X.size(); }
   double volume(std::size_t i) const { return cell[i].prod(); }  ///< [m2 per metre depth]
   double total_volume() const;
   bool has_outline() const { return !outlines.empty(); }
-  /// Whether `x` [m] lies in one of the outlines.
+  /// Whether `x` [m] lies in one of the outlines or of their images.
   bool contains(const Vec& x) const;
   /// The point of the surface that is nearest to `x` [m]: none in a body without an outline.
   std::optional<Outline::Foot> foot(const Vec& x) const;
@@ -60,7 +61,9 @@ struct Body {
 using TellFault = std::function<void(const std::string& key, const std::string& message)>;
 
 /// Tells as faults: a region that cannot be filled (a side shorter than a spacing, or not near a whole number
-/// of them), regions that overlap, a clamp or a load that holds no particle.
-Body build_body(const Parameters& parameters, const TellFault& tell_fault);
+/// of them), regions that overlap, a clamp or a load that holds no particle. Where space repeats itself by
+/// `shifts`, regions that touch across a period are one as any others that touch.
+Body build_body(const Parameters& parameters, const TellFault& tell_fault,
+                const std::vector<Vec>& shifts = {Vec::Zero()});
 
 }  // namespace toryu::solid

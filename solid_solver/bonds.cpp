@@ -25,10 +25,12 @@ Bonds::Bonds(const Body& body, const BondLimits& limits) : limits_(limits) {
   const double reach = reach_of_adjacent * body.spacing;
   const SortedPoints points(body.X, reach);
   for (std::uint32_t i = 0; i < body.size(); ++i)
-    points.near(body.X[i], reach, [&](std::uint32_t j) {
-      const Vec first = body.X[j] - body.X[i];
-      if (i < j && body.shape.joins(body.X[i], body.X[j])) bonds_.push_back({i, j, first, first.norm()});
-    });
+    for (const Vec& shift : body.shifts)
+      points.near(body.X[i] - shift, reach, [&](std::uint32_t j) {
+        const Vec first = body.X[j] + shift - body.X[i];
+        if (i < j && body.shape.joins(body.X[i], body.X[j] + shift))
+          bonds_.push_back({i, j, shift, first, first.norm()});
+      });
   inverse_moment_.assign(body.size(), Mat::Zero());
   for (const auto& bond : bonds_)
     for (const std::uint32_t k : {bond.i, bond.j}) inverse_moment_[k] += bond.first * bond.first.transpose();
@@ -41,7 +43,7 @@ Bonds::Bonds(const Body& body, const BondLimits& limits) : limits_(limits) {
 std::vector<Mat> Bonds::deformations(const std::vector<Vec>& x) const {
   std::vector<Mat> F(x.size(), Mat::Zero());
   for (const auto& bond : bonds_) {
-    const Mat product = (x[bond.j] - x[bond.i]) * bond.first.transpose();  // the same from either side
+    const Mat product = bond.now(x) * bond.first.transpose();  // the same from either side
     F[bond.i] += product;
     F[bond.j] += product;
   }
@@ -70,7 +72,7 @@ Stretches Bonds::stretches(const std::vector<Vec>& x) const {
   const std::vector<Mat> F = deformations(x);
   found.turn = largest_turn(F);
   for (const auto& bond : bonds_) {
-    const Vec now = x[bond.j] - x[bond.i];
+    const Vec now = bond.now(x);
     const double stretch = now.norm() / bond.length;
     const Vec deformed = 0.5 * (F[bond.i] + F[bond.j]) * bond.first;
     if (const double rest = (now - deformed).norm() / bond.length; rest > found.rearranged) {

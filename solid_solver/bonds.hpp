@@ -56,8 +56,10 @@ class Bonds {
  private:
   struct Bond {
     std::uint32_t i, j;
+    Vec shift;      ///< of j: a period, where the body repeats itself, else zero [m]
     Vec first;      ///< from i to j in the unloaded body [m]
     double length;  ///< of `first` [m]
+    Vec now(const std::vector<Vec>& x) const { return x[j] + shift - x[i]; }
   };
   /// F of each particle, of one without bonds in two directions the unit matrix.
   std::vector<Mat> deformations(const std::vector<Vec>& x) const;

@@ -44,7 +44,7 @@ void Drive::bear_pressures(const Parameters& parameters, const Body& body) {
   for (const BoxLoad& load : parameters.loads) {
     if (load.pressure == 0) continue;
     for (const SurfacePiece& piece : body.surface(load.box)) {
-      const MaterialPoint point(piece.place, body.X, 2.0 * parameters.h(), body.shape);
+      const MaterialPoint point(piece.place, body.X, 2.0 * parameters.h(), body.shape, body.shifts);
       point.share([&](std::uint32_t i, double weight) {
         steady_[i] -= weight * load.pressure / (parameters.material.density * body.volume(i)) * piece.area;
       });

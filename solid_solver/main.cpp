@@ -19,6 +19,7 @@
 #include "solid_solver/detached_list.hpp"
 #include "solid_solver/drive.hpp"
 #include "solid_solver/make_model.hpp"
+#include "solid_solver/periodic_space.hpp"
 #include "solid_solver/stability_warnings.hpp"
 
 namespace {
@@ -128,8 +129,13 @@ ExitCode solve(const Options& options) {
   check_folder(file, options.out);
   file.throw_if_faulty();
   take_motions(file, scene, parameters);
+  for (const auto& [key, message] : periodic_faults(parameters, scene)) file.fault(key, message);
+  file.throw_if_faulty();
+  const Period period(scene);
+  repeat_holes(period, parameters);
   const Body body = build_body(
-      parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); });
+      parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); },
+      period.shifts());
   file.throw_if_faulty();
   omp_set_num_threads(thread_count(options, body.size(), particles_per_thread));
   const auto model = make_model(parameters, body, scene);

@@ -143,7 +143,7 @@ Frame SolidModel::frame() const {
   };
   for (std::size_t i = 0; i < particle_count(); ++i) {
     const Stress sigma = recovered_stress(i);
-    append(frame.positions, body_.X[i] + displacement(i));
+    append(frame.positions, period_.inside(body_.X[i] + displacement(i)));
     append(displacement_field.values, displacement(i));
     append(velocity_field.values, velocity(i));
     stress_field.values.insert(stress_field.values.end(), {sigma.xx, sigma.xy, sigma.xy, sigma.yy});

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/error/counted.hpp"
+#include "common/scene/period.hpp"
 #include "common/sph/kernel.hpp"
 
 namespace toryu::solid {
@@ -36,7 +37,9 @@ void describe(ParameterTable& table, BondLimits& p) {
   table.flag("stop", p.stop, "whether a bond that is torn or clumped ends the run as a failure of physics");
 }
 
-MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach, const Shape& shape) {
+MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& of_body, double reach,
+                             const Shape& shape, const std::vector<Vec>& shifts) {
+  const std::vector<Vec> X = with_images(of_body, shifts);
   using Basis = Eigen::Matrix<double, dim + 1, 1>;
   const CubicSpline W(0.5 * reach);
   Eigen::Matrix<double, dim + 1, dim + 1> moments = Eigen::Matrix<double, dim + 1, dim + 1>::Zero();
@@ -51,7 +54,7 @@ MaterialPoint::MaterialPoint(const Vec& point, const std::vector<Vec>& X, double
     basis << 1.0, r;
     const double weight = W.value(r.norm() * reach) / W.value(0.0);
     moments += weight * basis * basis.transpose();
-    particles_.push_back(static_cast<std::uint32_t>(j));
+    particles_.push_back(static_cast<std::uint32_t>(j % of_body.size()));
     bases.push_back(basis);
     weights_.push_back(weight);
   }

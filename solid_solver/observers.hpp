@@ -43,8 +43,10 @@ class MaterialPoint {
  public:
   /// `X` [m] are the reference positions of the first `count` particles, numbered as they shall be asked for;
   /// `reach` [m] is 2h. Throws std::invalid_argument if fewer than three particles, or only a row of them,
-  /// lie within reach. Those beyond empty space, of another body or behind a slot, have no part in it.
-  MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach, const Shape& shape = {});
+  /// lie within reach. Those beyond empty space, of another body or behind a slot, have no part in it. The
+  /// body repeats itself by `shifts` [m] (Period).
+  MaterialPoint(const Vec& point, const std::vector<Vec>& X, double reach, const Shape& shape = {},
+                const std::vector<Vec>& shifts = {Vec::Zero()});
 
   /// Value at the point of a field given per particle number.
   template <class FieldOfParticle>

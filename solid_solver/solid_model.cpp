@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "common/error/failure.hpp"
@@ -26,7 +27,10 @@ double Stress::von_mises() const {
 }
 
 SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Scene& scene)
-    : parameters_(parameters), body_(body), gravity_(scene.gravity), domain_(scene.domain) {
+    : parameters_(parameters), body_(body), gravity_(scene.gravity), domain_(scene.domain), period_(scene) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < dim; ++axis)
+    if (period_.along(axis)) domain_.min[axis] = -infinity, domain_.max[axis] = infinity;
   const std::size_t count = body_.size(), size = padded(count);
   VecField X;
   resize(X, size);
@@ -46,11 +50,11 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
   find_external();
   state_.load_sum = sum_of_loads();
   for (const auto& observer : parameters_.observers)
-    observers_.emplace_back(observer,
-                            MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h(), body_.shape));
+    observers_.emplace_back(
+        observer, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h(), body_.shape, body_.shifts));
   if (parameters_.wall_contact) {
     walls_.emplace(scene.walls, *parameters_.wall_contact, parameters_.material, body_.spacing,
-                   parameters_.h());
+                   parameters_.h(), period_);
     state_.walls = walls_->start();
     resize(state_.push, size);
   }
@@ -257,6 +261,13 @@ double SolidModel::interface_work() const {
   return work;
 }
 
+void SolidModel::place_in_domain(VecField& x, std::size_t cluster) const {
+  const std::size_t first = cluster * lane_count;
+  for (int a = 0; a < dim; ++a) store(load(X_[a], first) + load(state_.u[a], first), x[a], first);
+  for (std::size_t k = first; period_.any() && k < first + lane_count; ++k)
+    set(x, k, period_.inside(at(x, k)));
+}
+
 void SolidModel::add_wall_contact(const VecField& x) {
 #pragma omp single
   walls_->prepare(state_.walls, x, particle_count(), state_.time);
@@ -273,9 +284,8 @@ double SolidModel::contact_energy() const {
   double sum = bodies_ ? bodies_->energy(state_.bodies) : 0.0;
   if (!walls_) return sum;
   VecField x = X_;
-  for (int a = 0; a < dim; ++a)
-    for (std::size_t k = 0; k < x[a].size(); ++k) x[a][k] += state_.u[a][k];
   for (std::size_t c = 0; c < clusters(); ++c) {
+    place_in_domain(x, c);
     const Lanes density = walls_->energy_density(state_.walls, x, c);
     for (std::size_t k = c * lane_count; k < std::min((c + 1) * lane_count, particle_count()); ++k)
       sum += body_.volume(state_.number[k]) * density[k - c * lane_count];

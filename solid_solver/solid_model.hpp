@@ -11,6 +11,7 @@
 #include "common/link/participant.hpp"
 #include "common/run/solver.hpp"
 #include "common/run/timers.hpp"
+#include "common/scene/period.hpp"
 #include "common/sph/points.hpp"
 #include "common/state/field.hpp"
 #include "solid_solver/body.hpp"
@@ -170,6 +171,8 @@ class SolidModel : public Solver {
   double strip_width() const { return std::sqrt(static_cast<double>(lane_count)) * body_.spacing; }  ///< [m]
   /// Adds the walls' push on the particles at x [m] and the present time to `a`, within a parallel region.
   void add_wall_contact(const VecField& x);
+  /// Sets the present positions of a cluster, where they lie in the domain [m].
+  void place_in_domain(VecField& x, std::size_t cluster) const;
   /// Counts what acts at present for a time `dt` [s].
   void count_impulses(double dt);
   /// Finds what drives a step of `dt` [s] that begins, in its middle, and notes what it begins from.
@@ -188,7 +191,8 @@ class SolidModel : public Solver {
   Parameters parameters_;
   Body body_;
   Vec gravity_;
-  Box domain_;
+  Box domain_;  ///< without end where space repeats itself
+  Period period_;
   State state_, saved_;
   // What follows from the numbers of the particles:
   std::vector<std::uint32_t> slot_;  ///< of a particle

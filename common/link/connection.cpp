@@ -249,6 +249,9 @@ bool Connection::take_checkpoint(Turn& turn) {
     turn.task = Task::checkpoint;
     turn.checkpoint = settings_.out / request.folder;
   });
+  // The coupler made it where it is. What fails here fails again, in words, where the part is written.
+  std::error_code ignored;
+  if (asked && settings_.network.collected) std::filesystem::create_directories(turn.checkpoint, ignored);
   return asked;
 }
 

@@ -74,6 +74,7 @@ struct CouplerLink::Connection {
   template <class Message, class Use>
   void await(dds::Reader<Message>& reader, const Participant& sender, const Window& window, const char* what,
              const Use& use);
+  std::vector<std::string> await_parts(const std::filesystem::path& folder);
 };
 
 /// Hears the participants, looks after them and after interruptions, and gives a sign of life.
@@ -120,6 +121,21 @@ void CouplerLink::Connection::await(dds::Reader<Message>& reader, const Particip
     });
     return ours;
   });
+}
+
+/// Waits until the parts that the participants wrote have been brought into `folder`; returns which were not.
+std::vector<std::string> CouplerLink::Connection::await_parts(const std::filesystem::path& folder) {
+  const auto start = Clock::now();
+  for (;;) {
+    std::vector<std::string> missing;
+    for (const char* part : {"fluid", "solid"})
+      if (const auto path = folder / fmt::format("{}.state", part); !std::filesystem::exists(path))
+        missing.push_back(fmt::format("'{}' was not brought here within {} s, the time_limit of [coupling]",
+                                      path.string(), settings.time_limit));
+    if (missing.empty() || Clock::now() - start > Seconds(settings.time_limit)) return missing;
+    poll();
+    node.wait(longest_sleep);
+  }
 }
 
 CouplerLink::CouplerLink(const LinkSettings& settings) : connection_(std::make_unique<Connection>(settings)) {
@@ -219,6 +235,7 @@ std::vector<std::string> CouplerLink::write_checkpoint(const Window& window, con
   };
   await(c.turns.checkpoint_from_fluid, c.roster.fluid());
   await(c.turns.checkpoint_from_solid, c.roster.solid());
+  if (failures.empty() && c.settings.network.collected) failures = c.await_parts(c.settings.out / folder);
   return failures;
 }
 

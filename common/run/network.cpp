@@ -50,6 +50,7 @@ Network read_network(const TypedNetwork& typed, std::vector<InputError>& faults)
   if (!typed.domain.empty() && !(network.domain = number_within(typed.domain, 1, last_domain)))
     faults.push_back({.place = "--domain " + typed.domain,
                       .message = fmt::format("must be an integer of 1 to {}", last_domain)});
+  network.collected = typed.collected;
   if (typed.lost_after.empty()) return network;
   if (const auto limit = number_within(typed.lost_after, shortest_silence, longest_silence))
     network.lost_after = *limit;

@@ -17,11 +17,13 @@ struct Network {
   std::string interface = {};           ///< name or address; empty: the one that leads to the peers
   std::optional<int> domain = {};       ///< sets the ports; nothing: it follows from the run's secret
   double lost_after = 3;                ///< silence after which a process that is not seen to run is lost [s]
+  bool collected = false;               ///< whether what each host writes is brought to the coupler's results
 };
 
 /// The options as they were typed, empty where not given.
 struct TypedNetwork {
   std::string peers, interface, domain, lost_after;
+  bool collected = false;
 };
 
 /// Adds what is wrong to `faults`.

@@ -7,6 +7,7 @@
 
 #include "common/scene/case_bodies.hpp"
 #include "common/scene/outline.hpp"
+#include "common/scene/period.hpp"
 #include "common/scene/turning_meeting.hpp"
 
 namespace toryu {
@@ -84,11 +85,9 @@ class Bodies {
       : file_(file),
         end_time_(scene.end_time),
         bodies_(file, scene),
-        tolerance_(touching * finest_spacing(file)) {
-    const Vec side = (scene.domain.max - scene.domain.min).cwiseMax(0.0);
-    origin_ = scene.domain.min;
-    if (scene.periodic == Periodic::x || scene.periodic == Periodic::xy) period_[0] = side[0];
-    if (scene.periodic == Periodic::y || scene.periodic == Periodic::xy) period_[1] = side[1];
+        tolerance_(touching * finest_spacing(file)),
+        domain_(scene.domain),
+        period_(scene) {
     for (Held& part : bodies_.held)
       if (!part.motion) part.motion = motion_of_holder(part);
   }
@@ -112,6 +111,8 @@ class Bodies {
         keep_apart(bodies_.swept[i], bodies_.swept[k], end_time_,
                    by_travel ? ", with the travel of what is pressed" : "", found);
       }
+    for (const auto* bodies : {&bodies_.swept, &bodies_.solid})
+      for (const Body& body : *bodies) keep_off_itself(body, found);
     for (const Body& region : bodies_.fluid)
       for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
         for (const Body& other : *bodies)
@@ -208,19 +209,35 @@ class Bodies {
       for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
         for (const Body& other : *bodies)
           if (const auto gap = gap_between(region.part.within[0], other.part.within[0], touching * spacing))
-            if (gap->width() < apart * spacing) said.push_back(gap_text(region, other, *gap, spacing));
+            if (gap->width() < apart * spacing && !is_at_seam(*gap))
+              said.push_back(gap_text(region, other, *gap, spacing));
     return said;
   }
 
  private:
+  /// Whether the fluid's face is none, since space repeats itself there.
+  bool is_at_seam(const Gap& gap) const {
+    return period_.along(gap.axis) && std::min(std::abs(gap.face - domain_.min[gap.axis]),
+                                               std::abs(gap.face - domain_.max[gap.axis])) < tolerance_;
+  }
+
   std::optional<Meeting> meeting(const Body& a, const Body& b, double end_time) const {
     const Pair pair{a.part, b.part, end_time > 0 ? a.motion : nullptr, end_time > 0 ? b.motion : nullptr};
-    auto found = first_meeting(pair, tolerance_, end_time, period_);
-    for (int axis = 0; found && axis < dim; ++axis)
-      if (period_[axis] > 0)
-        found->place[axis] -=
-            period_[axis] * std::floor((found->place[axis] - origin_[axis]) / period_[axis]);
+    auto found = first_meeting(pair, tolerance_, end_time, period_.length());
+    if (found) found->place = period_.inside(found->place);
     return found;
+  }
+
+  void keep_off_itself(const Body& body, Faults& faults) const {
+    const Box box = bounds_of(body.part);
+    if (!box.is_sound()) return;
+    for (int axis = 0; axis < dim; ++axis)
+      if (period_.along(axis) && box.max[axis] - box.min[axis] > period_.length()[axis] + tolerance_)
+        faults.emplace_back(
+            body.key,
+            fmt::format("{} is {:.6g} m long along {}, in which space repeats itself after {:.6g} m: "
+                        "it overlaps itself",
+                        body.name, box.max[axis] - box.min[axis], "xy"[axis], period_.length()[axis]));
   }
 
   void keep_apart(const Body& a, const Body& b, double end_time, const std::string& hint,
@@ -235,7 +252,10 @@ class Bodies {
   }
 
   bool holds(const Body& wall, const Held& part) const {
-    return meeting(wall, part, 0) || is_fixed_on(part.part, wall.part.within[0], tolerance_);
+    const auto& shifts = period_.shifts();
+    return meeting(wall, part, 0) || std::any_of(shifts.begin(), shifts.end(), [&](const Vec& shift) {
+             return is_fixed_on(part.part, wall.part.within[0].moved(shift), tolerance_);
+           });
   }
 
   /// None if nothing holds it, or if anything at rest does.
@@ -282,8 +302,8 @@ class Bodies {
   double end_time_;
   CaseBodies bodies_;
   double tolerance_;
-  Vec origin_;  ///< of the domain [m]
-  Vec period_ = Vec::Zero();
+  Box domain_;
+  Period period_;
 };
 
 }  // namespace

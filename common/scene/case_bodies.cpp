@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/period.hpp"
+
 namespace toryu {
 
 namespace {
@@ -56,8 +58,8 @@ std::vector<Body> walls_of(const Scene& scene, bool swept) {
 }
 
 /// The regions of `participant` less its holes.
-std::vector<Body> regions_of(const CaseFile& file, const std::string& participant) {
-  const auto holes = boxes_of(items(file, participant + ".hole"));
+std::vector<Body> regions_of(const CaseFile& file, const Scene& scene, const std::string& participant) {
+  const auto holes = with_images(boxes_of(items(file, participant + ".hole")), Period(scene).shifts());
   std::vector<Body> regions;
   for (const auto& region : items(file, participant + ".region"))
     regions.push_back(
@@ -92,8 +94,8 @@ std::vector<Body> free_parts(const std::vector<Item>& clamps, std::vector<Body> 
 CaseBodies::CaseBodies(const CaseFile& file, const Scene& scene)
     : walls(walls_of(scene, false)),
       swept(walls_of(scene, true)),
-      fluid(regions_of(file, "fluid")),
-      solid(regions_of(file, "solid")) {
+      fluid(regions_of(file, scene, "fluid")),
+      solid(regions_of(file, scene, "solid")) {
   const auto clamps = items(file, "solid.clamp");
   free = free_parts(clamps, solid);
   held = held_parts(clamps, scene, solid);

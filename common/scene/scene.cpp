@@ -11,6 +11,7 @@
 #include "common/case/text_file.hpp"
 #include "common/scene/bodies.hpp"
 #include "common/scene/outline.hpp"
+#include "common/scene/period.hpp"
 #include "common/scene/rows.hpp"
 #include "common/scene/worn_box.hpp"
 
@@ -22,12 +23,25 @@ bool box_in_box(const Box& inner, const Box& outer) {
   return (inner.min.array() >= outer.min.array()).all() && (inner.max.array() <= outer.max.array()).all();
 }
 
+/// Where bodies may be: in the domain or, where that repeats itself, beyond its sides by so much that a part
+/// of them is in it.
+bool is_within_domain(const Box& box, const Scene& scene) {
+  Box domain = scene.domain;
+  const Period period(scene);
+  for (int axis = 0; axis < dim; ++axis)
+    if (period.along(axis) && box.min[axis] < domain.max[axis] && box.max[axis] > domain.min[axis]) {
+      domain.min[axis] = std::min(domain.min[axis], box.min[axis]);
+      domain.max[axis] = std::max(domain.max[axis], box.max[axis]);
+    }
+  return box_in_box(box, domain);
+}
+
 /// A box whose own faults have been reported is left alone.
 void check_walls(CaseFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const Wall& wall = scene.walls[i];
     const std::string key = fmt::format("wall.{}", i);
-    if (wall.box.is_sound() && scene.domain.is_sound() && !box_in_box(wall.box, scene.domain))
+    if (wall.box.is_sound() && scene.domain.is_sound() && !is_within_domain(wall.box, scene))
       file.fault(key + "." + wall.shape.place(),
                  fmt::format("the {} of wall '{}' is not within [case.domain]",
                              wall.box.outline ? "outline" : "box", wall.name));
@@ -35,6 +49,8 @@ void check_walls(CaseFile& file, const Scene& scene) {
              !box_in_box(swept_box(wall), scene.domain))
       file.fault(key + ".press.travel",
                  fmt::format("the wall '{}' leaves [case.domain] by its travel", wall.name));
+    if (!wall.worn.empty() && is_within_domain(wall.box, scene) && !box_in_box(wall.box, scene.domain))
+      file.fault(key + ".worn", "a wall with worn faces cannot cross a side of [case.domain]");
     if (wall.press && file.has("solid"))
       file.fault(key + ".press", "a solid knows of no walls that the fluid moves: prescribe a 'motion'");
     if (wall.press && scene.periodic != Periodic::none)
@@ -229,7 +245,7 @@ void describe(ParameterTable& table, Scene& scene) {
   table.group("domain", scene.domain, "a particle that leaves it stops the run");
   table.require(!scene.domain.round, "domain.round", "the domain is a box: it cannot be round");
   table.choice("periodic", scene.periodic, {"none", "x", "y", "xy"},
-               {.help = "directions in which the domain repeats itself; of a fluid without a solid"});
+               {.help = "directions in which the domain repeats itself"});
   table.choice("geometry", scene.geometry, {"plane", "axisymmetric"},
                {.help = "plane, or x along an axis and y the distance from it; of a fluid without a solid"});
 }
@@ -278,8 +294,6 @@ Scene read_scene(CaseFile& file) {
   check_motions(file, scene);
   check_shares(file, scene);
   check_names(file, scene);
-  if (scene.periodic != Periodic::none && file.has("solid"))
-    file.fault("case.periodic", "a scene with a solid cannot be periodic: solids know no periods");
   for (std::size_t i = 0; i < scene.walls.size() && file.has("solid"); ++i)
     if (!scene.walls[i].worn.empty())
       file.fault(fmt::format("wall.{}.worn", i),

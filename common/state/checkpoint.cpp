@@ -175,10 +175,11 @@ Checkpoint checkpoint_to_restart(const fs::path& out) {
   refuse("--restart", fmt::format("{} holds no checkpoint", out.string()));
 }
 
-fs::path open_checkpoint(const fs::path& out) {
+fs::path open_checkpoint(const fs::path& out, const fs::path& last) {
   const auto present = checkpoints(out, false);
-  const long number = present.empty() ? 1 : present.back().first + 1;
-  fs::path folder = out / folder_name / fmt::format("{:06}", number);
+  const long newest = present.empty() ? 0 : present.back().first;
+  const long tried = last.empty() ? 0 : std::stol(last.filename().string());
+  fs::path folder = out / folder_name / fmt::format("{:06}", std::max(newest, tried) + 1);
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw MachineFailure(fmt::format("cannot make '{}'", folder.string()), failure.value());

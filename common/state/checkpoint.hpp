@@ -43,8 +43,10 @@ std::optional<Checkpoint> newest_checkpoint(const std::filesystem::path& out);
 /// The same, or BadInput that says what there is instead.
 Checkpoint checkpoint_to_restart(const std::filesystem::path& out);
 
-/// Makes the folder of the next checkpoint in `out`. Throws MachineFailure if that fails.
-std::filesystem::path open_checkpoint(const std::filesystem::path& out);
+/// Makes the folder of the next checkpoint in `out`, with a number beyond that of the folder `last`, which
+/// may be gone: what others wrote for that one may come late. Throws MachineFailure if that fails.
+std::filesystem::path open_checkpoint(const std::filesystem::path& out,
+                                      const std::filesystem::path& last = {});
 /// Writes the case and the manifest, which makes the checkpoint whole, and removes all but the newest two.
 /// `case_text` is the used case (CaseFile::used). Throws MachineFailure, naming the file, if that fails.
 void complete_checkpoint(const std::filesystem::path& folder, double time, const std::string& case_text,

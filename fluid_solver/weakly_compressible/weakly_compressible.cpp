@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/sph/skin.hpp"
+#include "fluid_solver/held_volume.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/weakly_compressible/polymer.hpp"
 
@@ -117,6 +118,7 @@ WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene
   dynamics_.allocate(state_.fluid);
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
+  start_volume_ = volume(state_.fluid);
   state_.balance = EnergyBalance(powers());
   state_.largest.viscosity = dynamics_.viscosity_at_rest();
   note_extremes();
@@ -159,6 +161,7 @@ void WeaklyCompressible::advance(double dt) {
   else
     step_midpoint(dt);
   if (shifting_) shift(dt);
+  if (parameters_.held_volume) hold_volume(state_.fluid, start_volume_);
   note_extremes();
 }
 

@@ -53,6 +53,7 @@ class WeaklyCompressible final : public FluidModel {
   Dynamics dynamics_;
   Start start_;  ///< kept from step to step for its memory
   std::optional<Shifting> shifting_;
+  double start_volume_ = 0;  ///< sum_i m_i/rho_i
 };
 
 }  // namespace toryu::fluid

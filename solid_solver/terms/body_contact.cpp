@@ -9,9 +9,11 @@
 namespace toryu::solid {
 
 TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
-                               const ElasticMaterial& material, double spacing, double h, const Shape& shape)
+                               const ElasticMaterial& material, double spacing, double h, const Shape& shape,
+                               const std::vector<Vec>& shifts)
     : V_(volume),
       count_(count),
+      shifts_(shifts),
       W_(h),
       pressure_scale_(term.stiffness * material.bulk_modulus()),
       inverse_rho_(1.0 / material.density),
@@ -41,11 +43,12 @@ void TouchingBodies::find_bodies(const std::vector<Vec>& X, const Shape& shape) 
     while (!front.empty()) {
       const std::uint32_t i = front.back();
       front.pop_back();
-      sorted.near(X[i], W_.support(), [&](std::uint32_t j) {
-        if (body_[j] != none || !shape.joins(X[i], X[j])) return;
-        body_[j] = body;
-        front.push_back(j);
-      });
+      for (const Vec& shift : shifts_)
+        sorted.near(X[i] + shift, W_.support(), [&](std::uint32_t j) {
+          if (body_[j] != none || !shape.joins(X[i] + shift, X[j])) return;
+          body_[j] = body;
+          front.push_back(j);
+        });
     }
   }
 }
@@ -65,9 +68,10 @@ void TouchingBodies::find_pairs(State& state) const {
   const std::vector<Vec> listed = points(state.x_listed);
   const SortedPoints sorted(listed, reach);
   for (std::uint32_t i = 0; i < count_; ++i)
-    sorted.near(listed[i], reach, [&](std::uint32_t j) {
-      if (i < j && body_[i] != body_[j]) state.pairs.push_back({i, j});
-    });
+    for (const Vec& shift : shifts_)
+      sorted.near(listed[i] + shift, reach, [&](std::uint32_t j) {
+        if (i < j && body_[i] != body_[j]) state.pairs.push_back({i, j, shift});
+      });
 }
 
 double TouchingBodies::pressure(const State& state, std::size_t i) const {
@@ -77,15 +81,16 @@ double TouchingBodies::pressure(const State& state, std::size_t i) const {
 void TouchingBodies::push(State& state, const VecField& x, VecField& a) const {
   find_pairs_if_moved(state, x);
   state.S.assign(count_, 0.0);
-  for (const auto& [i, j] : state.pairs) {
-    const double W = W_.value((at(x, i) - at(x, j)).norm());
-    state.S[i] += V_[j] * W;
-    state.S[j] += V_[i] * W;
+  for (const Pair& pair : state.pairs) {
+    const double W = W_.value(pair.between(x).norm());
+    state.S[pair.i] += V_[pair.j] * W;
+    state.S[pair.j] += V_[pair.i] * W;
   }
-  for (const auto& [i, j] : state.pairs) {
+  for (const Pair& pair : state.pairs) {
+    const auto [i, j, shift] = pair;
     const double p = pressure(state, i) + pressure(state, j);
     if (p == 0.0) continue;
-    const Vec x_ij = at(x, i) - at(x, j);
+    const Vec x_ij = pair.between(x);
     const double r = std::max(x_ij.norm(), 1e-8 * W_.h());
     const Vec f = -inverse_rho_ * p * W_.gradient_over_r(r, 1.0 / r) * x_ij;
     set(a, i, at(a, i) + V_[j] * f);

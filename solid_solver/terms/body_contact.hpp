@@ -7,7 +7,7 @@
 ///
 /// S_0 is the sum of a particle whose body touches another with plane faces. The force is the gradient of the
 /// energy sum_i V_i stiffness K S_0/2 max(0, S_i/S_0 - 1)^2, so momentum and energy are kept. There is no
-/// friction, and a body does not touch itself.
+/// friction, and a body does not touch itself, nor its images where space repeats itself.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,8 @@ class TouchingBodies {
  public:
   struct Pair {
     std::uint32_t i, j;
+    Vec shift;  ///< of i: a period, or zero [m]
+    Vec between(const VecField& x) const { return at(x, i) + shift - at(x, j); }
   };
   struct State {
     VecField x_listed;        ///< positions at the last search [m]
@@ -33,9 +35,12 @@ class TouchingBodies {
   };
 
   /// `X` [m] and `volume` [m2] of the first `count` particles in storage order, which must not change.
-  /// `spacing` and `h` [m] are the solid's. Bodies are what a chain of neighbours joins within `shape`.
+  /// `spacing` and `h` [m] are the solid's. Bodies are what a chain of neighbours joins within `shape`. Where
+  /// space repeats itself by `shifts` (Period), the positions that `push` takes are those in the domain; who
+  /// crosses a side jumps, which makes the pairs anew.
   TouchingBodies(const VecField& X, const Field& volume, std::size_t count, const Contact& term,
-                 const ElasticMaterial& material, double spacing, double h, const Shape& shape = {});
+                 const ElasticMaterial& material, double spacing, double h, const Shape& shape = {},
+                 const std::vector<Vec>& shifts = {Vec::Zero()});
 
   /// Adds the push at positions x [m] to the accelerations a [m/s2].
   void push(State& state, const VecField& x, VecField& a) const;
@@ -57,6 +62,7 @@ class TouchingBodies {
 
   Field V_;
   std::size_t count_;
+  std::vector<Vec> shifts_;
   CubicSpline W_;
   double pressure_scale_, inverse_rho_, skin_;
   double S_0_ = 0, highest_frequency_ = 0;

@@ -18,8 +18,9 @@ StripOrder strips_of(double spacing) {
 }  // namespace
 
 ContactWalls::ContactWalls(const std::vector<Wall>& walls, const Contact& term,
-                           const ElasticMaterial& material, double spacing, double h)
+                           const ElasticMaterial& material, double spacing, double h, const Period& period)
     : walls_(walls),
+      period_(period),
       W_(h),
       spacing_(spacing),
       pressure_scale_(term.stiffness * material.bulk_modulus()),
@@ -48,7 +49,7 @@ void ContactWalls::place(State& state, double time) const {
     if (walls_[w].motion) poses[w] = walls_[w].motion->pose_at(time);
   resize(state.x, padded(X_.size()));
   for (std::size_t k = 0; k < X_.size(); ++k)
-    set(state.x, k, poses[wall_of_[state.number[k]]].place(X_[state.number[k]]));
+    set(state.x, k, period_.inside(poses[wall_of_[state.number[k]]].place(X_[state.number[k]])));
   state.time_placed = time;
 }
 
@@ -57,7 +58,7 @@ void ContactWalls::list(State& state, std::size_t count) const {
   state.x_listed = state.x;
   StripOrder strips = strips_of(spacing_);
   strips.index(state.x[0], X_.size());
-  state.list.build(state.solid_listed, count, state.x, strips, W_.support() + skin_);
+  state.list.build(state.solid_listed, count, state.x, strips, W_.support() + skin_, period_.shifts());
 }
 
 void ContactWalls::prepare(State& state, const VecField& x, std::size_t count, double time) const {
@@ -85,13 +86,13 @@ Lanes ContactWalls::overlap(const State& state, const VecField& x, std::size_t c
   const double V = spacing_ * spacing_, tiny = 1e-16 * W_.h() * W_.h();
   Lanes S = 0.0;
   gradient = zero_vector();
-  over_sources(state.list.sources(cluster), load(x, cluster * lane_count), pointers(state.x),
-               [&](std::uint32_t, const VecLanes& x_iw) TORYU_INLINE_LAMBDA {
-                 const Lanes r_squared = dot(x_iw, x_iw) + tiny, inverse_r = inverse_sqrt(r_squared),
-                             r = r_squared * inverse_r;
-                 S += V * W_.value(r);
-                 add_product(gradient, V * W_.gradient_over_r(r, inverse_r), x_iw);
-               });
+  over_places(state.list.near(cluster), load(x, cluster * lane_count), pointers(state.x),
+              [&](std::uint32_t, const VecLanes& x_iw) TORYU_INLINE_LAMBDA {
+                const Lanes r_squared = dot(x_iw, x_iw) + tiny, inverse_r = inverse_sqrt(r_squared),
+                            r = r_squared * inverse_r;
+                S += V * W_.value(r);
+                add_product(gradient, V * W_.gradient_over_r(r, inverse_r), x_iw);
+              });
   return S;
 }
 

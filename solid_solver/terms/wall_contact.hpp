@@ -11,7 +11,7 @@
 /// S_0/2 max(0, S_i/S_0 - 1)^2. A body pressed by p enters the wall by about 0.4 h p/(stiffness K).
 #pragma once
 
-#include "common/scene/scene.hpp"
+#include "common/scene/period.hpp"
 #include "common/sph/cluster_list.hpp"
 #include "common/sph/kernel.hpp"
 #include "common/sph/points.hpp"
@@ -34,9 +34,10 @@ class ContactWalls {
     ClusterList list;
   };
 
-  /// `spacing` and `h` [m] are the solid's.
+  /// `spacing` and `h` [m] are the solid's. Where space repeats itself the positions x of the solid that the
+  /// functions below take are those in the domain; who crosses a side jumps, which makes the lists anew.
   ContactWalls(const std::vector<Wall>& walls, const Contact& term, const ElasticMaterial& material,
-               double spacing, double h);
+               double spacing, double h, const Period& period = {});
 
   State start() const;
   /// Puts the walls where they are at `time` [s] and finds what they may touch among the first `count`
@@ -62,6 +63,7 @@ class ContactWalls {
   Lanes overlap(const State& state, const VecField& x, std::size_t cluster, VecLanes& gradient) const;
 
   std::vector<Wall> walls_;
+  Period period_;
   CubicSpline W_;
   double spacing_, pressure_scale_, inverse_rho_, skin_;
   double S_0_ = 0, highest_frequency_ = 0;

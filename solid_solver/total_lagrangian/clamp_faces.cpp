@@ -54,24 +54,31 @@ ClampFaces::ClampFaces(const VecField& X, std::size_t count, const Held& held, c
                        double reach)
     : held_(held) {
   for (std::size_t i = 0; i < count; ++i)
-    if (!holds(i)) find_shares(X, i, neighbours.sources(i / lane_count), reach);
+    if (!holds(i)) find_shares(X, i, neighbours.near(i / lane_count), reach);
 }
 
-void ClampFaces::find_shares(const VecField& X, std::size_t i, std::span<const std::uint32_t> sources,
+void ClampFaces::find_shares(const VecField& X, std::size_t i, std::span<const ShiftedNeighbours> neighbours,
                              double reach) {
   const Vec X_i = at(X, i);
-  std::vector<std::uint32_t> near;  // of i itself: the same whichever cluster it is in
-  for (const std::uint32_t j : sources)
-    if (holds(j) && (at(X, j) - X_i).norm() < reach) near.push_back(j);
-  std::vector<Vec> free;  // of those about it, where cells follow from them
-  for (const std::uint32_t j : sources)
-    if (held_.fitted && !near.empty() && !holds(j) && (at(X, j) - X_i).norm() < reach)
-      free.push_back(at(X, j));
-  for (const std::uint32_t j : near) {
+  struct Place {
+    std::uint32_t j;
+    Vec X;
+  };
+  std::vector<Place> near;  // of i itself: the same whichever cluster it is in
+  std::vector<Vec> free;    // of those about it, where cells follow from them
+  for (const auto& [shift, sources] : neighbours)
+    for (const std::uint32_t j : sources) {
+      const Vec X_j = at(X, j) - shift;
+      if (!((X_j - X_i).norm() < reach)) continue;
+      if (holds(j))
+        near.push_back({j, X_j});
+      else if (held_.fitted)
+        free.push_back(X_j);
+    }
+  for (const auto& [j, X_j] : near) {
     double s = 1;
-    for (const std::uint32_t k : near)
-      s = std::min(s, held_.fitted ? entry(X_i, at(X, j), at(X, k), free)
-                                   : entry(X_i, at(X, j), at(X, k), at(held_.cells, k)));
+    for (const auto& [k, X_k] : near)
+      s = std::min(s, held_.fitted ? entry(X_i, X_j, X_k, free) : entry(X_i, X_j, X_k, at(held_.cells, k)));
     shares_[key(i, j)] = s;
   }
 }

@@ -44,7 +44,8 @@ class ClampFaces {
   bool holds(std::size_t i) const { return held_.mobile[i] == 0; }
 
  private:
-  void find_shares(const VecField& X, std::size_t i, std::span<const std::uint32_t> sources, double reach);
+  void find_shares(const VecField& X, std::size_t i, std::span<const ShiftedNeighbours> neighbours,
+                   double reach);
 
   Held held_;
   std::unordered_map<std::uint64_t, double> shares_;  ///< by slots, the free particle's first

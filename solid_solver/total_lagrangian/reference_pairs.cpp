@@ -30,20 +30,23 @@ Tensor<double> pseudo_inverse(const Tensor<Lanes>& adjugate, std::size_t lane) {
 }  // namespace
 
 ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h,
-                               double strip_width, const std::optional<Held>& held, const Shape& shape)
+                               double strip_width, const std::optional<Held>& held, const Shape& shape,
+                               const std::vector<Vec>& shifts)
     : X_(X) {
   StripOrder strips(strip_width);
   strips.index(X[0], count);
   const CubicSpline W(h);
-  list_.build(X, count, X, strips, W.support());
+  list_.build(X, count, X, strips, W.support(), shifts);
   share_start_.assign(list_.clusters(), none);
   std::optional<ClampFaces> faces;
   if (held) faces.emplace(X, count, *held, list_, W.support());
   resize(L_, X[0].size());
 
   weight_.resize(list_.pairs() * lane_count);
+  std::size_t next = 0;
   for (std::size_t c = 0; c < list_.clusters(); ++c) {
-    start_.push_back(c == 0 ? 0 : start_.back() + lane_count * list_.sources(c - 1).size());
+    start_.push_back(next);
+    for (const ShiftedNeighbours& near : list_.near(c)) next += lane_count * near.sources.size();
     if (faces) find_shares(*faces, c, count);
     const Moment moment = find_weights(volume, W, shape, c);
     const Lanes inverse_determinant = 1.0 / moment.determinant();
@@ -62,12 +65,13 @@ ReferencePairs::ReferencePairs(const VecField& X, const Field& volume, std::size
 void ReferencePairs::find_shares(const ClampFaces& faces, std::size_t cluster, std::size_t count) {
   std::vector<double> shares;
   bool beside_held = false;
-  for (const std::uint32_t j : list_.sources(cluster))
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const auto s = faces.share(std::min(cluster * lane_count + lane, count - 1), j);
-      beside_held |= s.has_value();
-      shares.push_back(s.value_or(1.0));
-    }
+  for (const ShiftedNeighbours& near : list_.near(cluster))
+    for (const std::uint32_t j : near.sources)
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const auto s = faces.share(std::min(cluster * lane_count + lane, count - 1), j);
+        beside_held |= s.has_value();
+        shares.push_back(s.value_or(1.0));
+      }
   if (!beside_held) return;
   share_start_[cluster] = share_.size();
   share_.insert(share_.end(), shares.begin(), shares.end());
@@ -79,22 +83,26 @@ Moment ReferencePairs::find_weights(const Field& volume, const CubicSpline& W, c
   double* w = weight_.data() + start_[cluster];
   const double* s = share_start_[cluster] == none ? nullptr : share_.data() + share_start_[cluster];
   const double smallest = 1e-6 * W.h();
-  over_sources(list_.sources(cluster), load(X_, cluster * lane_count), pointers(X_),
-               [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
-                 const Lanes R = square_root(dot(X_ij, X_ij)), share = s ? load(s) : Lanes(1.0);
-                 Lanes weight = volume[j] * W.gradient_over_r(R, inverse(max(R, smallest)));
-                 weight = select(R < smallest, 0.0, weight);
-                 weight = select(share > 0.0, weight / max(share * share, 1e-12), 0.0);
-                 store(weight, w);
-                 for (std::size_t lane = 0; lane < lane_count && !shape.is_convex(); ++lane)
-                   if (w[lane] != 0 && !shape.joins(at(X_, cluster * lane_count + lane), at(X_, j)))
-                     w[lane] = 0;
-                 weight = load(w);
-                 w += lane_count;
-                 if (s) s += lane_count;
-                 const VecLanes sX_ij = product(share, X_ij);
-                 moment.add(product(weight, sX_ij), sX_ij);  // (w X) X rather than X (w X): other last bits
-               });
+  for (const auto& [shift, sources] : list_.near(cluster)) {
+    const Vec images = shift;
+    over_sources(
+        sources, shifted(load(X_, cluster * lane_count), shift), pointers(X_),
+        [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
+          const Lanes R = square_root(dot(X_ij, X_ij)), share = s ? load(s) : Lanes(1.0);
+          Lanes weight = volume[j] * W.gradient_over_r(R, inverse(max(R, smallest)));
+          weight = select(R < smallest, 0.0, weight);
+          weight = select(share > 0.0, weight / max(share * share, 1e-12), 0.0);
+          store(weight, w);
+          for (std::size_t lane = 0; lane < lane_count && !shape.is_convex(); ++lane)
+            if (w[lane] != 0 && !shape.joins(at(X_, cluster * lane_count + lane) + images, at(X_, j)))
+              w[lane] = 0;
+          weight = load(w);
+          w += lane_count;
+          if (s) s += lane_count;
+          const VecLanes sX_ij = product(share, X_ij);
+          moment.add(product(weight, sX_ij), sX_ij);  // (w X) X rather than X (w X): other last bits
+        });
+  }
   return moment;
 }
 

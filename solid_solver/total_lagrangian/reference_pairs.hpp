@@ -19,9 +19,11 @@ class ReferencePairs {
  public:
   /// X [m] in strip order of strips `strip_width` [m] wide, volume [m2]; both padded to whole lanes, as is
   /// what is `held`: clamp_faces.hpp says how that changes X_ij and gradW_ij of its pairs. Pairs between
-  /// which `shape` has no material have no weight.
+  /// which `shape` has no material have no weight. A body that repeats itself by `shifts` (Period) has pairs
+  /// across the period, whose displacements are those of the particles themselves.
   ReferencePairs(const VecField& X, const Field& volume, std::size_t count, double h, double strip_width,
-                 const std::optional<Held>& held = std::nullopt, const Shape& shape = {});
+                 const std::optional<Held>& held = std::nullopt, const Shape& shape = {},
+                 const std::vector<Vec>& shifts = {Vec::Zero()});
 
   /// Displacement gradient, renormalised, so that it is exact for linear u (Randles & Libersky 1996):
   ///
@@ -53,16 +55,12 @@ class ReferencePairs {
       return lanes;
     };
     const VecLanes X_i = load(X_, cluster * lane_count);
-    const auto& sources = list_.sources(cluster);
-    if (share_start_[cluster] == none)
-      over_sources(sources, X_i, pointers(X_),
-                   [&](std::uint32_t j, const VecLanes& X_ij) TORYU_INLINE_LAMBDA { add(j, next(w), X_ij); });
-    else {
-      const double* s = share_.data() + share_start_[cluster];
-      over_sources(sources, X_i, pointers(X_),
+    const bool shared = share_start_[cluster] != none;
+    const double* s = shared ? share_.data() + share_start_[cluster] : nullptr;
+    for (const ShiftedNeighbours& near : list_.near(cluster))
+      over_sources(near.sources, shifted(X_i, near.shift), pointers(X_),
                    [&](std::uint32_t j, const VecLanes& X_ij)
-                       TORYU_INLINE_LAMBDA { add(j, next(w), product(next(s), X_ij)); });
-    }
+                       TORYU_INLINE_LAMBDA { add(j, next(w), shared ? product(next(s), X_ij) : X_ij); });
   }
   /// Puts the shares of X_ij into `share_` where a particle of the cluster, or a source, is held.
   void find_shares(const ClampFaces& faces, std::size_t cluster, std::size_t count);

@@ -22,8 +22,9 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
     volume_[k] = body_.volume(i);
     set(cells, k, body_.cell[i]);
   }
-  pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
-                                            Held{mobile_, cells, body_.has_outline()}, body_.shape);
+  pairs_ =
+      std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
+                                       Held{mobile_, cells, body_.has_outline()}, body_.shape, body_.shifts);
   resize_fields(form_, size);
   resize(T_, size);
   if (drive_.turns()) resize(turned_back_, size);
@@ -31,7 +32,7 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
     bodies_.emplace(X_, volume_, particle_count(), *parameters_.body_contact, parameters_.material,
-                    body_.spacing, parameters_.h(), body_.shape);
+                    body_.spacing, parameters_.h(), body_.shape, body_.shifts);
   if (!walls_ && !bodies_) return;
   resize(x_, size);
 #pragma omp parallel
@@ -119,11 +120,7 @@ void TotalLagrangian::evaluate() {
 
 void TotalLagrangian::touch() {
 #pragma omp for schedule(static)
-  for (std::size_t c = 0; c < clusters(); ++c)
-    for (int a = 0; a < dim; ++a) {
-      const std::size_t i = c * lane_count;
-      store(load(X_[a], i) + load(state_.u[a], i), x_[a], i);
-    }
+  for (std::size_t c = 0; c < clusters(); ++c) place_in_domain(x_, c);
   if (walls_) add_wall_contact(x_);
 #pragma omp single
   if (bodies_) bodies_->push(state_.bodies, x_, state_.a);

@@ -11,20 +11,9 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
-from browser import start_browser
+from browser import picture_of, start_browser
 from toryu_testing import made_up_channel, made_up_run
 
-# Opaque pixels of the canvas, and a sum over them that changes with any pixel.
-PICTURE = """
-const canvas = document.getElementById(arguments[0]);
-const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-let opaque = 0, sum = 0;
-for (let i = 0; i < pixels.length; i += 4) {
-  if (pixels[i + 3] > 200) ++opaque;
-  sum = (sum * 31 + pixels[i] + 3 * pixels[i + 1] + 7 * pixels[i + 2] + pixels[i + 3]) % 2147483647;
-}
-return {opaque: opaque / (canvas.width * canvas.height), sum};
-"""
 PEAK = 4  # the frame in which the made-up tip is farthest, of 11
 # Keeps what would be saved: the size and kind of each file, and its name.
 KEEP = """
@@ -76,7 +65,7 @@ class ReportInBrowser(unittest.TestCase):
         self.wait_for_frame(index)
 
     def picture(self, canvas="particles"):
-        return self.browser.execute_script(PICTURE, canvas)
+        return picture_of(self.browser, canvas)
 
     def attribute(self, selector, name):
         return self.browser.find_element(By.CSS_SELECTOR, selector).get_attribute(name)

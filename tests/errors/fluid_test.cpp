@@ -117,6 +117,14 @@ INSTANTIATE_TEST_SUITE_P(
               "[fluid.enclosed_medium]: error: the fluid has a free surface at the start, where its pressure "
               "is "
               "0: give no mean pressure"},
+        Fault{"VolumeUnderAFreeSurface", "fluid.held_volume={}",
+              "[fluid.held_volume]: error: the fluid has a free surface at the start: nothing holds its "
+              "volume"},
+        Fault{"VolumeBesidePresses",
+              "fluid.held_volume={}' --set 'wall.0.press={force=[[0,1]], direction=\"+y\", travel=[0,1e-9]}",
+              "--set fluid.held_volume={}: error: pressed walls, an elastic solid and open ends leave the "
+              "medium no "
+              "volume of its own: leave it out"},
         Fault{"EnclosedByNothing", "fluid.enclosed_medium={}",
               "--set fluid.enclosed_medium={}: error: without a pressed wall the medium needs a "
               "'mean_pressure' above 0"},

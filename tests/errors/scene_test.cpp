@@ -104,8 +104,29 @@ TEST(SceneFaults, AboutAnAxis) {
       "case.toml:4:1: error: a scene with a solid cannot be axisymmetric: solids know no axis\n"
       "case.toml:6:1: error: about an axis space repeats itself along it alone: \"x\", or leave 'periodic' "
       "out\n"
-      "case.toml:6:1: error: a scene with a solid cannot be periodic: solids know no periods\n"
       "case.toml:7:1: error: gravity across the axis is not axisymmetric: give it along x alone");
+}
+
+TEST(SceneFaults, WhereSpaceRepeatsItself) {
+  const std::string scene =
+      "[case]\ntitle = 'A'\nend_time = 1\nperiodic = 'x'\ndomain = {min=[0,0], max=[2,2]}\n"
+      "[fluid]\nspacing = 0.1\n[[fluid.region]]\nname = 'medium'\nbox = {min=[0,0], max=[2,2]}\n"
+      "[[fluid.hole]]\nmin = [-0.5, 0]\nmax = [0.5, 1]\n";
+  const auto with = [&](const std::string& body, const std::string& box) {
+    return CaseText(scene + body + "\nname = 'block'\nbox = " + box + "\n").scene_faults();
+  };
+  for (const std::string body : {"[[wall]]", "[[solid.region]]"}) {
+    EXPECT_EQ(with(body, "{min=[-0.5,0], max=[0.5,1]}"), "") << "it may cross a side";
+    EXPECT_EQ(with(body, "{min=[1.5,0], max=[2.5,1]}"), "") << "the hole has images";
+    EXPECT_NE(with(body, "{min=[1.4,0], max=[2.5,1]}").find("overlaps"), std::string::npos);
+  }
+  EXPECT_EQ(with("[[wall]]", "{min=[-1.5,-1], max=[-0.5,0]}"),
+            "case.toml:16:1: error: the box of wall 'block' is not within [case.domain]");
+  EXPECT_EQ(with("[[wall]]", "{min=[-0.5,0], max=[0.5,1]}\nworn = [{ face = 'upper', depth = [[0, 0.1]] }]"),
+            "case.toml:17:1: error: a wall with worn faces cannot cross a side of [case.domain]");
+  EXPECT_EQ(with("[[solid.region]]", "{min=[-0.5,-1], max=[1.6,0]}"),
+            "case.toml:16:1: error: the solid's region 'block' is 2.1 m long along x, in which space repeats "
+            "itself after 2 m: it overlaps itself");
 }
 
 TEST(SceneFaults, MotionWithoutRows) {

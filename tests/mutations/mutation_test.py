@@ -7,6 +7,7 @@ Programs under the address sanitizer want more address space than there is memor
 """
 
 import argparse
+import ast
 import contextlib
 import io
 import json
@@ -24,7 +25,9 @@ import mutate
 
 from toryu import PROGRAMS, case, results, summary_text
 from toryu.processes import BAD_INPUT, DONE, MACHINE
-from toryu.report.__main__ import page
+from toryu.compare import motion, runs
+from toryu.report import data
+from toryu.report.__main__ import files
 from toryu.study import __main__ as study_main
 from toryu.study import runner, settings, study_file
 from toryu.study.document import BadStudy
@@ -169,11 +172,20 @@ class DamagedResults(Mutations):
             case.resolve.cache_clear()
             try:
                 with contextlib.redirect_stderr(io.StringIO()):
-                    text = page(self.folder / "gate", out, options.bin / "coupler", None, "")
+                    report = files(self.folder / "gate", out, options.bin / "coupler", None, "")
                 summary_text.of_run([], out)
+                pair = self.folder / "whole", out
+                self.compare(*pair[::generator.choice((1, -1))])
             except Exception as error:
                 raise AssertionError(what) from error
-            json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)[1])
+            json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', report["report.html"], re.S)[1])
+            for line in re.findall(r"^(?:VIEW|BODIES) = (.*)$", report.get("frames.py", ""), re.MULTILINE):
+                ast.literal_eval(line)  # all numbers are finite
+
+    def compare(self, *outs):
+        runs.compare(*outs)
+        used = [data.used_case(out / "used_case.toml", out, options.bin / "coupler")[0] for out in outs]
+        json.dumps(data.finite(motion.collect([(out, case, []) for out, case in zip(outs, used)], ("a", "b"))), allow_nan=False)
 
     def damage(self, out, generator, n):
         """Damages one file, or several."""

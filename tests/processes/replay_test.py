@@ -19,6 +19,7 @@ RECORD = "coupling.record='every_window'"
 
 
 class Replay(unittest.TestCase):
+    case = "elastic_gate"  # in the folder of cases
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="toryu_replay_"))
         self.addCleanup(shutil.rmtree, self.folder)
@@ -26,7 +27,7 @@ class Replay(unittest.TestCase):
     def launch(self, *arguments):
         package = pathlib.Path(__file__).resolve().parents[2] / "tools/toryu"
         return subprocess.run([sys.executable, "-I", "-X", "utf8", package, "launch", f"--bin={BIN}",
-                               CASES / "elastic_gate", "--no-report", *map(str, arguments)], capture_output=True, text=True,
+                               CASES / self.case, "--no-report", *map(str, arguments)], capture_output=True, text=True,
                               cwd=self.folder, timeout=120)
 
     def record(self, *settings, end_time=END_TIME):
@@ -51,6 +52,14 @@ class Replay(unittest.TestCase):
         self.record()
         self.assert_same("solid")
         self.assert_same("fluid")
+
+    def test_of_a_piece_that_crosses_the_side_of_the_domain_is_bitwise(self):
+        self.case = pathlib.Path(__file__).resolve().parents[1] / "participants/flaps"
+        places = ["--set=fluid.hole.1.min=[0.21875,0.109375]", "--set=fluid.hole.1.max=[0.25,0.140625]",
+                  "--set=solid.region.1.box.min=[0.21875,0.109375]", "--set=solid.region.1.box.max=[0.25,0.140625]"]
+        self.record(*places)
+        self.assert_same("solid", *places)
+        self.assert_same("fluid", *places)
 
     def test_of_sides_that_compute_at_once_is_bitwise(self):
         scheme = "--set=coupling.scheme=parallel_explicit"

@@ -125,11 +125,12 @@ class Alone(RestartCase):
 class Solvers(RestartCase):
     """The strip's case with the real solvers, from a checkpoint in the middle."""
 
-    def check(self, settings):
+    def check(self, settings, case=trio.CASE):
         settings = [*settings, "case.frame_interval=0.004"]
-        expected = self.undisturbed(settings, **SOLVERS, end_time="0.02")
+        expected = self.undisturbed(settings, **SOLVERS, case=case, end_time="0.02")
         self.assertIn("solid_000005.hdf:VTKHDF/Points", expected)
-        run = self.run_of_three(**SOLVERS, end_time="0.02", settings=[*settings, "case.checkpoint_interval=0.011"])
+        run = self.run_of_three(**SOLVERS, case=case, end_time="0.02",
+                                settings=[*settings, "case.checkpoint_interval=0.011"])
         run.start_all()
         self.assert_all_end(run, DONE)
         self.assertEqual(run.results(), expected, "checkpoints change nothing")
@@ -139,6 +140,12 @@ class Solvers(RestartCase):
 
     def test_serial(self):
         self.check([])
+
+    def test_in_space_that_repeats_itself(self):
+        """The piece goes through the side of the domain from 7 to 17 ms."""
+        places = ["fluid.hole.1.min=[0.203125,0.109375]", "fluid.hole.1.max=[0.234375,0.140625]",
+                  "solid.region.1.box.min=[0.203125,0.109375]", "solid.region.1.box.max=[0.234375,0.140625]"]
+        self.check(places, case=trio.CASE.parent / "flaps")
 
     def test_parallel(self):
         self.check(["coupling.scheme=parallel_explicit"])

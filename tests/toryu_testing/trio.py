@@ -18,6 +18,22 @@ WALL_TIMES = {"round_trip[s]", "fluid_compute[s]", "solid_compute[s]"}  # column
 FOREVER = "1e6"  # seconds of simulated time: the test ends such a run
 
 
+def results_of(out):
+    """All that a run has left of its interface, series and frames, but for wall times: name -> content."""
+    found = {}
+    for path in out.glob("*.csv"):
+        with open(path, encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        found[path.name] = [[value for key, value in row.items() if key not in WALL_TIMES] for row in rows]
+    for path in [*out.glob("*.h5"), *out.glob("frames/*.hdf")]:
+        with h5py.File(path) as file:
+            datasets = []
+            file.visititems(lambda name, node: datasets.append(name) if isinstance(node, h5py.Dataset) else None)
+            for name in datasets:
+                found[f"{path.name}:{name}"] = (file[name].shape, file[name][()].tobytes())
+    return found
+
+
 class Trio:
     """A coupled run in a results folder of its own. `programs` maps a role to an executable."""
 
@@ -103,19 +119,7 @@ class Trio:
             time.sleep(0.01)
 
     def results(self):
-        """All that the run has left of its interface, series and frames, but for wall times: name -> content."""
-        found = {}
-        for path in self.out.glob("*.csv"):
-            with open(path, encoding="utf-8") as file:
-                rows = list(csv.DictReader(file))
-            found[path.name] = [[value for key, value in row.items() if key not in WALL_TIMES] for row in rows]
-        for path in [*self.out.glob("*.h5"), *self.out.glob("frames/*.hdf")]:
-            with h5py.File(path) as file:
-                datasets = []
-                file.visititems(lambda name, node: datasets.append(name) if isinstance(node, h5py.Dataset) else None)
-                for name in datasets:
-                    found[f"{path.name}:{name}"] = (file[name].shape, file[name][()].tobytes())
-        return found
+        return results_of(self.out)
 
     def wait_until_running(self, beyond=0, limit=30):
         """Returns when windows beyond the given one have passed."""

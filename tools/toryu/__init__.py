@@ -1,10 +1,22 @@
 """Runs cases and studies of toryu, and reads what they leave."""
 
+import difflib
+
 from toryu.installation import folder_of_programs
 
 PROGRAMS = folder_of_programs()
 
 
+def nearest(word, words):
+    near = difflib.get_close_matches(word, words, n=1)
+    return f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(map(repr, words))}" if words else ""
+
+
 def counted(count, thing):
     """"1 run", "2 runs": `thing` takes an s unless there is one."""
     return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def printable(text):
+    """The text on one line, what a terminal would obey as an escape."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)

@@ -43,3 +43,9 @@ def folder_of_programs():
     if (INSTALLED / "coupler").exists():  # built for one processor
         return INSTALLED
     return INSTALLED / best_level(flags_of_processor())
+
+
+def on_other_hosts(program):
+    """Where other hosts have a program of this one, of the same sources or installation: there the command chooses."""
+    command = ROOT.parents[1] / "bin" / program.name
+    return command if INSTALLED.is_dir() and program.parent == folder_of_programs() and command.exists() else program

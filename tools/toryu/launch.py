@@ -20,7 +20,8 @@ from toryu import PROGRAMS, program, replay, summary_text
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.installation import COMMAND, ROOT
-from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED, Run, says_yes
+from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED, says_yes
+from toryu.remote.placement import Placement, add_options
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
 MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
@@ -50,6 +51,7 @@ def parse(arguments):
     parser.add_argument("--end-time", metavar="SECONDS")
     parser.add_argument("--threads", metavar="N")
     parser.add_argument("--log-level", metavar="LEVEL")
+    parser.add_argument("--lost-after", metavar="SECONDS", help=argparse.SUPPRESS)
     parser.add_argument("--check", action="store_true", help="only check the case file")
     parser.add_argument("--picture", metavar="FILE", nargs="?", const="", help="with --check: draw the scene as an SVG or, by "
                         "the ending of FILE, a PNG; default out/<case name>_scene.svg")
@@ -64,7 +66,8 @@ def parse(arguments):
     parser.add_argument("--only", choices=["fluid", "solid"], help="the side of a replay that runs")
     parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
     parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
-    parser.add_argument("--no-report", action="store_true", help="leave report.html out")
+    add_options(parser)
+    parser.add_argument("--no-report", action="store_true", help="leave report.html and frames.py out")
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
                         help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
@@ -74,7 +77,7 @@ def parse(arguments):
     if options.case is None:
         parser.error("the following arguments are required: CASE")
     options.passed_on = [f"--set={pair}" for pair in options.set] + unknown
-    for name in ("end_time", "threads", "log_level"):
+    for name in ("end_time", "threads", "log_level", "lost_after"):
         if (value := getattr(options, name)) is not None:
             options.passed_on.append(f"--{name.replace('_', '-')}={value}")
     return options
@@ -160,8 +163,10 @@ def programs(options, case):
     if case.kind not in PROGRAMS_OF:
         raise SystemExit(complain(f"{case.file}: error: no section [fluid] and no section [solid]: nothing to compute"))
     names = PROGRAMS_OF[case.kind]
+    guests_elsewhere = [f"{side}_solver" for side in ("fluid", "solid")
+                        if getattr(options, side) and any(text.startswith(f"{side}=") for text in options.host)]
     for name in names:
-        if not shutil.which(executables[name]):
+        if name not in guests_elsewhere and not shutil.which(executables[name]):
             raise SystemExit(complain(f"{executables[name]}: error: no such program, needed as {name}"))
     return {name: executables[name] for name in names}
 
@@ -341,8 +346,9 @@ def main(arguments):
     install_for_drawings(case)
     settle_replay(options, case)
     settle_folder(options, case)
+    executables = programs(options, case)
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
-                for name, executable in programs(options, case).items()}
+                for name, executable in executables.items()}
     if options.replay is not None:
         commands[f"{replay.OTHER[options.only]}_solver"].append(f"--record={options.replay}")
     if options.print_case:
@@ -350,22 +356,29 @@ def main(arguments):
     if options.describe:
         return describe(commands)
     # A program that takes a solver's place checks its own input when it starts.
-    own = {name: command for name, command in commands.items() if pathlib.Path(command[0]).parent == options.bin}
-    guests = [command[0] for name, command in commands.items() if name not in own]
+    own = [name for name, executable in executables.items() if pathlib.Path(executable).parent == options.bin]
+    placement = Placement(options, case, executables, own)
+    commands = {name: command + placement.network for name, command in commands.items()}
+    own = {name: commands[name] for name in own}
+    guests = [command[0] for name, command in commands.items() if name not in {**own, **placement.jobs}]
     if options.check:
-        return check_alone(options, case, own, guests)
-    if code := check(own):
+        return placement.check() or check_alone(options, case, own, guests)
+    if code := check(own) or placement.check():
         return code
     warn_without_checkpoints(options, guests)
 
     # what the user has set, stays
     environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ
     with hold(options.out, "launch.lock"):
-        (options.out / "run.secret").unlink(missing_ok=True)  # of a run that was killed
+        placement.forget_secret()  # of a run that was killed
         if options.restart is None:
             set_former_aside(options)
+        placement.make_secret()
         before = age_of_used_case(options.out)
-        code, words = Run(commands, next(iter(commands)), environment, lambda: age_of_used_case(options.out) != before)()
+        try:
+            code, words = placement.run_of(commands, environment, lambda: age_of_used_case(options.out) != before)()
+        finally:
+            placement.forget_secret()
         if words:
             print(words, file=sys.stderr)
         if options.replay is not None and code == DONE:

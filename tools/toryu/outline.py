@@ -8,11 +8,10 @@ tab; the program ends with 2 then.
 """
 
 import argparse
-import difflib
 import pathlib
 import sys
 
-from toryu import program
+from toryu import nearest, program
 from toryu.installation import INSTALLER
 from toryu.processes import BAD_INPUT, DONE, MACHINE
 
@@ -56,11 +55,6 @@ def distance_to_chord(p, a, b):
     length = x * x + y * y
     share = min(1.0, max(0.0, ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / length)) if length > 0 else 0.0
     return ((a[0] + share * x - p[0]) ** 2 + (a[1] + share * y - p[1]) ** 2) ** 0.5
-
-
-def nearest(word, words):
-    near = difflib.get_close_matches(word, words, n=1)
-    return f"; did you mean '{near[0]}'?" if near else f"; there are {', '.join(map(repr, words))}" if words else ""
 
 
 def unit_of(stated, told, words):

@@ -4,6 +4,7 @@ import contextlib
 import ctypes
 import os
 import re
+import select
 import selectors
 import signal
 import subprocess
@@ -29,6 +30,9 @@ MEANING = {
 }
 FAULTS = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}  # a process's own doing
 
+# What a stand is sent in the place of a signal that would leave it no choice.
+ASKS = {signal.SIGKILL: signal.SIGQUIT, signal.SIGSTOP: signal.SIGTSTP}
+
 PR_SET_PDEATHSIG = 1
 libc = ctypes.CDLL(None, use_errno=True)
 
@@ -47,12 +51,12 @@ def pauses():
 def own_pause():
     """Stops this process, as Ctrl-Z would; returns for how long [s] it was."""
     start = time.monotonic()
-    os.kill(os.getpid(), signal.SIGSTOP)
+    signal.raise_signal(signal.SIGSTOP)  # to this thread: one to the process may find another, and this one goes on a while
     return time.monotonic() - start
 
 
-def start(command, stream, environment=None):
-    """Starts a process in a group of its own that is asked to end if this one dies. `stream` takes what it says."""
+def ends_with_this_process():
+    """What a new process does first, so that it is asked to end if this one dies."""
     parent = os.getpid()
 
     def end_with_the_parent():
@@ -62,9 +66,15 @@ def start(command, stream, environment=None):
         if os.getppid() != parent:
             os._exit(INTERRUPTED)
 
+    return end_with_the_parent
+
+
+def start(command, stream, environment=None, descriptors=()):
+    """Starts a process in a group of its own that is asked to end if this one dies. `stream` takes what it says; it has
+    those `descriptors` of this process."""
     return subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=stream,
-                            stderr=subprocess.STDOUT if stream else None, process_group=0,
-                            preexec_fn=end_with_the_parent)
+                            stderr=subprocess.STDOUT if stream else None, process_group=0, pass_fds=descriptors,
+                            preexec_fn=ends_with_this_process())
 
 
 def says_yes(command, limit):
@@ -93,6 +103,8 @@ class Process:
     ended: bool = False
     asked_to_end: bool = False  # by us, so how it ended says nothing
     left_early: bool = False  # it ended as if all were done before the programs had met
+    is_stand: bool = False  # for a program on another host: asked to pause and to end, not made to
+    running: int = -1  # of a stand: readable when its program has ended, and it only brings here what that wrote
     unread: bytes = b""
     held_lines: list[str] = field(default_factory=list)  # its errors, shown if it is the cause
 
@@ -107,6 +119,17 @@ class Process:
         if self.status >= 0:
             return self.status if self.status in MEANING else BUG
         return BUG if -self.status in FAULTS else PEER_LOST
+
+    def ask(self, number):
+        """Sends a signal to its group."""
+        if self.is_stand:
+            number = ASKS.get(number, number)
+        with contextlib.suppress(ProcessLookupError):  # it ended just now
+            os.killpg(self.popen.pid, number)
+
+    def is_over(self):
+        """Whether the program has ended, here or where it is."""
+        return self.ended or self.running >= 0 and bool(select.select([self.running], [], [], 0)[0])
 
     def reasons(self):
         """What it gives as reasons: its errors without its name and the kind of failure."""
@@ -123,13 +146,6 @@ class Process:
 def tell(line):
     """On standard error, over the progress line if there is one."""
     print(f"\r\x1b[K{line}" if sys.stderr.isatty() else line, file=sys.stderr, flush=True)
-
-
-def send(processes, number):
-    """Sends a signal to the groups of those processes."""
-    for process in processes:
-        with contextlib.suppress(ProcessLookupError):  # it ended just now
-            os.killpg(process.popen.pid, number)
 
 
 def weight(process):
@@ -165,10 +181,11 @@ def without_kind(line):
 
 class Run:
     """Starts `commands` (name -> command line). `lead` keeps the terminal, for its progress line; the others' lines
-    are passed on, errors only of the one that caused the end. `have_met` tells whether the run of several has begun."""
+    are passed on, errors only of the one that caused the end. Those of `stands` stand for programs on other hosts.
+    `have_met` tells whether the run of several has begun."""
 
-    def __init__(self, commands, lead, environment, have_met=lambda: True):
-        self.processes = [Process(name, command) for name, command in commands.items()]
+    def __init__(self, commands, lead, environment, stands=(), have_met=lambda: True):
+        self.processes = [Process(name, command, is_stand=name in stands) for name, command in commands.items()]
         self.lead = lead
         self.environment = environment
         self.have_met = have_met
@@ -194,7 +211,12 @@ class Run:
 
     def _start(self, process):
         stream = None if process.name == self.lead else subprocess.PIPE
-        process.popen = start(process.command, stream, self.environment)
+        if process.is_stand:
+            process.running, end = os.pipe()
+            process.popen = start([*process.command, str(end)], stream, self.environment, [end])
+            os.close(end)
+        else:
+            process.popen = start(process.command, stream, self.environment)
         process.pidfd = os.pidfd_open(process.popen.pid)
         self.selector.register(process.pidfd, selectors.EVENT_READ, lambda: self._ended(process))
         if stream:
@@ -219,6 +241,8 @@ class Run:
         process.ended = True
         self.selector.unregister(process.pidfd)
         os.close(process.pidfd)
+        if process.is_stand:
+            os.close(process.running)
         if process.popen.stdout and process.popen.stdout.fileno() in self.selector.get_map():
             self._pass_on(process)
         if process.status == 0 and self.doubt is None:
@@ -257,7 +281,7 @@ class Run:
     def _look_for_absent(self):
         """A program that is done before the programs have met leaves the others to wait in vain."""
         self.doubt = None
-        if self.deadline is not None or self.have_met() or any(p.ended for p in self.processes if p.name == self.lead):
+        if self.deadline is not None or self.have_met() or any(p.is_over() for p in self.processes if p.name == self.lead):
             return
         for process in (p for p in self.processes if p.ended):
             process.left_early = True
@@ -265,8 +289,8 @@ class Run:
         self.deadline = time.monotonic()
 
     def _end_the_rest(self):
-        rest = [p for p in self.processes if not p.ended]
-        if any(p.asked_to_end for p in rest):
+        rest = [p for p in self.processes if not p.is_over()]
+        if not rest or any(p.asked_to_end for p in rest):
             self._signal(rest, signal.SIGKILL)
             self.deadline = None
         else:
@@ -275,12 +299,14 @@ class Run:
 
     def _signal(self, processes, number):
         for process in processes:
-            process.asked_to_end = True
-        send(processes, number)
+            process.asked_to_end = process.asked_to_end or not process.is_over()
+            process.ask(number)
 
     def _kill_all(self):
         started = [p for p in self.processes if p.popen and not p.ended]
-        self._signal(started, signal.SIGKILL)
+        for process in started:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.popen.pid, signal.SIGKILL)
         for process in started:
             process.popen.wait()
 
@@ -313,9 +339,11 @@ class Run:
     def _pause(self):
         """Ctrl-Z stops all, and all go on together."""
         rest = [p for p in self.processes if not p.ended]
-        send(rest, signal.SIGSTOP)
+        for process in rest:
+            process.ask(signal.SIGSTOP)
         away = own_pause()
-        send(rest, signal.SIGCONT)
+        for process in rest:
+            process.ask(signal.SIGCONT)
         self.deadline, self.notice, self.doubt = (limit and limit + away for limit in (self.deadline, self.notice, self.doubt))
 
     def _interrupted(self, numbers):
@@ -325,8 +353,10 @@ class Run:
             self._signal(rest, signal.SIGINT)
             self.deadline = time.monotonic() + PATIENCE
             self.notice = time.monotonic() + QUIET
-        elif signal.SIGINT in numbers:  # the user insists
+        elif signal.SIGINT in numbers and self.interruptions == 2:  # the user insists
             self._signal(rest, signal.SIGKILL)
+        elif signal.SIGINT in numbers:  # what hosts wrote is given up
+            self._kill_all()
 
     def _verdict(self):
         if self.interruptions and self.failed:

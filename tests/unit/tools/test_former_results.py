@@ -11,8 +11,8 @@ from launch_case import Launch
 
 from toryu import PROGRAMS, launch, results_folder
 
-OURS = ["fluid.csv", "solid.csv.part", "frames/fluid_000003.hdf", "fluid.hdf.series", "report.html", "log.txt",
-        "coupler_summary.toml", "interface.h5.rows.part", "checkpoint/000001/fluid.h5",
+OURS = ["fluid.csv", "solid.csv.part", "frames/fluid_000003.hdf", "fluid.hdf.series", "report.html", "frames.py", "log.txt",
+        "walls.hdf.series", "frames/walls_000000.hdf", "exchange.h5", "coupler_summary.toml", "interface.h5.rows.part", "checkpoint/000001/fluid.h5",
         "checkpoint/000001/manifest.toml"]
 OTHERS = ["notes.txt", "measured.csv", "frames/picture.png"]
 
@@ -36,7 +36,7 @@ class FormerResults(Launch):
         for name in OTHERS:
             self.assertEqual((self.out / name).read_text(), "old")
             self.assertFalse((self.former(1) / name).exists(), name)
-        self.assertEqual(done.stderr.splitlines()[0], f"kept the former results in {self.former(1)} (30 B)")
+        self.assertEqual(done.stderr.splitlines()[0], f"kept the former results in {self.former(1)} (42 B)")
 
     def test_they_are_numbered_and_their_room_is_told(self):
         for number, size in ((2, 5_000_000), (10, 20_000_000)):

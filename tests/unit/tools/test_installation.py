@@ -4,6 +4,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from types import SimpleNamespace
@@ -70,6 +71,16 @@ class Command(unittest.TestCase):
             self.put_program(self.programs / level)
         best = best_level(flags_of_processor())
         self.assertEqual(self.started(), f"{self.programs / best / 'coupler'} a case --check")
+
+    def test_other_hosts_are_given_the_command(self):
+        for level in LEVELS:
+            self.put_program(self.programs / level)
+        program = ("from toryu import PROGRAMS; from toryu.installation import on_other_hosts\n"
+                   "print(on_other_hosts(PROGRAMS / 'coupler'), on_other_hosts(PROGRAMS / 'replayed_fluid') == "
+                   "PROGRAMS / 'replayed_fluid', on_other_hosts(PROGRAMS.parent / 'coupler') == PROGRAMS.parent / 'coupler')")
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                              env={"PYTHONPATH": str(self.prefix / "lib/toryu/tools")})
+        self.assertEqual(done.stdout.split(), [str(self.prefix / "bin/coupler"), "True", "True"], done.stderr)
 
     def test_a_build_for_one_processor_has_no_levels(self):
         self.put_program(self.programs)

@@ -18,7 +18,7 @@ from toryu import PROGRAMS
 from toryu.case import resolve
 from toryu.folder_lock import lock_folder
 from toryu.report import data, frames, scene, tables
-from toryu.report.__main__ import page as make_page
+from toryu.report.__main__ import files
 from toryu_testing import made_up_run
 
 
@@ -222,7 +222,7 @@ class Page(unittest.TestCase):
     def test_too_many_particles_are_shown_in_fewer_frames(self):
         self.make(frames=9)
         with unittest.mock.patch.object(frames, "SIZE_LIMIT", 1.2e5):
-            page = make_page(self.case, self.out, coupler=PROGRAMS / "coupler", exit_code=None, words="")
+            page = files(self.case, self.out, coupler=PROGRAMS / "coupler", exit_code=None, words="")["report.html"]
         times = self.content(page)["bodies"][0]["times"]
         self.assertLess(len(times), 9)
         self.assertEqual((times[0], times[-1]), (0, 0.4))

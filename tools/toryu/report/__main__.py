@@ -1,11 +1,10 @@
-"""Makes `report.html` in a results folder: one page that needs no network and no other file.
+"""Makes `report.html` in a results folder, one page that needs no network and no other file, and `frames.py` for ParaView.
 
     python3 -I -X utf8 tools/toryu report OUT --case CASE
 """
 
 import argparse
 import html
-import json
 import os
 import pathlib
 import string
@@ -13,10 +12,11 @@ import sys
 
 from toryu import PROGRAMS, program, results, surface
 from toryu.case import BadCase, resolve
-from toryu.report import along, data, frames, scene, tables, telling
+from toryu.report import along, data, frames, paraview, player, scene, tables, telling
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCRIPTS = ("chart.js", "particles.js", "stage.js", "along.js", "save.js", "page.js")  # in this order
+SCRIPTS = ("chart.js", *player.SCRIPTS, "along.js", "page.js")  # in this order
+EXAGGERATION = '<label id="exaggeration" hidden>displacement of the solid, enlarged <select id="factor"></select></label>'
 
 
 def name_of(path, out, coupler):
@@ -27,7 +27,8 @@ def name_of(path, out, coupler):
         return pathlib.Path(os.path.abspath(out)).name
 
 
-def page(case_path, out, coupler, exit_code, words):
+def files(case_path, out, coupler, exit_code, words):
+    """The text of each file of the report."""
     faults = []  # of the files: those that are damaged are left out, and the page says so
     used, case_text = data.used_case(case_path, out, coupler)
     case, name = used.content, name_of(case_path, out, coupler)
@@ -53,18 +54,17 @@ def page(case_path, out, coupler, exit_code, words):
         "compared": compared, "others": others, "telling": telling.moment(out, case, comparisons, found, state),
     }
     title = data.table(case, "case").get("title") or name
-    return string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
+    page = string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html.escape(str(title)), name=html.escape(name),
-        style=(HERE / "style.css").read_text(encoding="utf-8"),
-        script="\n".join((HERE / f).read_text(encoding="utf-8") for f in SCRIPTS),
-        # no < in it: a name may not end the script, nor begin a comment in it
-        data=json.dumps(data.finite(content), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        style=(HERE / "style.css").read_text(encoding="utf-8"), script=player.script(HERE / f for f in SCRIPTS),
+        data=player.embedded(content), player=player.markup(EXAGGERATION),
         state=tables.state(state) + tables.damage(faults) + tables.warnings(out),
         figures=tables.figures(out, summaries, comparisons, state),
-        frames_note=f"every {step}th frame is shown" if step > 1 else "",
+        frames_note=player.left_out(step),
         times=tables.times(summaries), terms=tables.terms(summaries), particles=tables.particles(summaries),
         numbers=tables.numbers(summaries), provenance=tables.provenance(summaries), case=html.escape(case_text),
         log=html.escape(tables.log_tail(out)))
+    return {"report.html": page} | ({"frames.py": paraview.script(out, case, found, view)} if found else {})
 
 
 def main(arguments):
@@ -75,8 +75,8 @@ def main(arguments):
     parser.add_argument("--exit-code", type=int, help="of the run; default: as the participants left it")
     parser.add_argument("--words", default="", help="why the run ended")
     options = parser.parse_args(arguments)
-    text = page(options.case, options.out, options.bin / "coupler", options.exit_code, options.words)
-    program.write_whole(options.out / "report.html", text)
+    for name, text in files(options.case, options.out, options.bin / "coupler", options.exit_code, options.words).items():
+        program.write_whole(options.out / name, text)
     print(options.out / "report.html")
 
 

@@ -31,10 +31,21 @@ class Quantity:
     low: float = 0.0
     high: float = 1.0
 
+    @property
+    def signed(self):
+        """Whether the values are of either sign, so that the colours must show where they are zero."""
+        return self.low < 0 < self.high and min(-self.low, self.high) > 0.1 * max(-self.low, self.high)
+
+    @property
+    def span(self):
+        """The range of the colours."""
+        largest = max(-self.low, self.high)
+        return (-largest, largest) if self.signed else (self.low, self.high)
+
     def described(self):
         """Range and unit for the page, with a prefix: kPa."""
         factor, unit = data.scaled(self.unit, max(abs(self.low), abs(self.high)))
-        return {"label": self.label, "unit": unit, "low": self.low * factor, "high": self.high * factor}
+        return {"label": self.label, "unit": unit, "low": self.low * factor, "high": self.high * factor, "signed": self.signed}
 
     def values(self, point_data):
         field = point_data[self.field][:]
@@ -154,8 +165,8 @@ def measure(body, domain):
         if quantity.high <= quantity.low:
             quantity.high = quantity.low + (abs(quantity.low) * 1e-3 or 1.0)
     boxes = [box for box in boxes if box] or [domain]
-    low, high = np.min([b[0] for b in boxes], axis=0), np.max([b[1] for b in boxes], axis=0)
-    return np.maximum(low, domain[0]), np.minimum(high, domain[1])
+    low = np.maximum(np.min([b[0] for b in boxes], axis=0), domain[0])
+    return low, np.maximum(np.minimum(np.max([b[1] for b in boxes], axis=0), domain[1]), low + 1e-9)
 
 
 def codes(values, low, high):
@@ -180,8 +191,14 @@ def packed(columns):
     return base64.b64encode(zlib.compress(np.ascontiguousarray(planes).tobytes(), 6)).decode()
 
 
-def spacing_of(points):
-    """Typical distance of neighbours: the side of the square that a particle fills, if they filled their box."""
+def spacing(case, body):
+    """Typical distance of neighbours [m], as the case says, else the side of the square that a particle fills, if they
+    filled their box."""
+    told = data.table(case, body.name).get("spacing")
+    if data.is_number(told) and told > 0:
+        return told
+    with h5py.File(body.files[0][1]) as file:
+        points = file["VTKHDF/Points"][:, :2]
     box = finite_box(points)
     return float(np.sqrt(np.prod(np.maximum(box[1] - box[0], 1e-9)) / len(points))) if box else 1.0
 
@@ -203,26 +220,27 @@ def start_of(bodies, name):
         return points - file["VTKHDF/PointData/displacement"][:, :2]
 
 
+def domain_of(case):
+    """((x, y) min, (x, y) max) of the domain, boundless if the case has none."""
+    domain = data.box_of(data.table(data.table(case, "case"), "domain")) or [-1e9, -1e9, 1e9, 1e9]
+    return np.array(domain[:2]), np.array(domain[2:])
+
+
 def collect(bodies, case):
     """All that the page's player needs: (bodies, view box, every how many frames)."""
-    domain = data.box_of(data.table(data.table(case, "case"), "domain")) or [-1e9, -1e9, 1e9, 1e9]
-    domain = (np.array(domain[:2]), np.array(domain[2:]))
     step = chosen_frames(bodies) if bodies else 1
-    collected, boxes = [], []
-    for body in bodies:
-        box = measure(body, domain)
-        box = (box[0], np.maximum(box[1], box[0] + 1e-9))
-        boxes.append(box)
-        with h5py.File(body.files[0][1]) as file:
-            points = file["VTKHDF/Points"][:, :2]
-        spacing = data.table(case, body.name).get("spacing")
-        collected.append({
-            "name": body.name,
-            "spacing": spacing if data.is_number(spacing) and spacing > 0 else spacing_of(points),
-            "box": [*map(float, box[0]), *map(float, box[1])],
-            "times": [time for time, _ in body.files],
-            "quantities": [q.described() for q in body.quantities],
-            "displacement": displacement_of(body),
-            "frames": [encode(path, body, box) for _, path in body.files],
-        })
-    return collected, boxes, step
+    boxes = [measure(body, domain_of(case)) for body in bodies]
+    return [content_of(body, box, case) for body, box in zip(bodies, boxes)], boxes, step
+
+
+def content_of(body, box, case):
+    """What the player needs of a measured body."""
+    return {
+        "name": body.name,
+        "spacing": spacing(case, body),
+        "box": [*map(float, box[0]), *map(float, box[1])],
+        "times": [time for time, _ in body.files],
+        "quantities": [q.described() for q in body.quantities],
+        "displacement": displacement_of(body),
+        "frames": [encode(path, body, box) for _, path in body.files],
+    }

@@ -5,11 +5,14 @@ const MAPS = {
   solid: ["#1b0c41", "#4a0c6b", "#781c6d", "#a52c60", "#cf4446", "#ed6925", "#fb9b06", "#f7d13d", "#fcffa4"],
   signed: ["#1f4e9c", "#3f7fc4", "#7fb2de", "#bcd6ea", "#dedede", "#f2c4ae", "#e58a6b", "#cc4b3b", "#96172b"],
 };
-const NOT_FINITE = [255, 0, 255];
+const NOT_FINITE = [255, 0, 255], WITHOUT_VALUES = [128, 128, 128];
+
+const nearestTo = (time, times) => times.reduce((best, t, k) => Math.abs(t - time) < Math.abs(times[best] - time) ? k : best, 0);
+const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.trim().slice(i, i + 2), 16));
 
 // 256 colours, linear between those of the map.
 function colourTable(name) {
-  const anchors = MAPS[name].map((hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)));
+  const anchors = MAPS[name].map(channels);
   return Array.from({length: 256}, (_, i) => {
     const at = i / 255 * (anchors.length - 1), k = Math.min(Math.floor(at), anchors.length - 2);
     return anchors[k].map((c, j) => Math.round(c + (at - k) * (anchors[k + 1][j] - c)));
@@ -33,6 +36,7 @@ class Body {
   constructor(content) {
     Object.assign(this, content);
     this.decoded = new Map();
+    this.style = "coloured";  // or "outlined", or "hidden"
     this.fitted = false;  // the colours span the values of the frame, not of the run
     this.choose(0);
   }
@@ -77,8 +81,7 @@ class Body {
     this.chosen = quantity;
     const q = this.quantities[quantity];
     if (!q) return;
-    // A quantity of either sign gets colours that show where it is zero.
-    this.signed = q.low < 0 && q.high > 0 && Math.min(-q.low, q.high) > 0.1 * Math.max(-q.low, q.high);
+    this.signed = q.signed;
     this.table = colourTable(this.signed ? "signed" : MAPS[this.name] ? this.name : "fluid");
     this.span(q.low, q.high);
   }
@@ -104,6 +107,7 @@ class Body {
 
   // Colour of each code, in steps of 256 codes.
   palette() {
+    if (!this.quantities.length) return [WITHOUT_VALUES];
     return Array.from({length: 257}, (_, i) => {
       const share = (this.value(Math.min(i * 256, NO_VALUE - 1)) - this.low) / (this.high - this.low);
       return this.table[Math.max(0, Math.min(255, Math.round(share * 255)))];
@@ -112,6 +116,7 @@ class Body {
 }
 
 // Discs of `radius` pixels as lists of (dx, dy, cover), one for each quarter-pixel position of the centre.
+const CENTRED = 10;
 function discs(radius) {
   return Array.from({length: 16}, (_, k) => {
     const cx = (k % 4 + 0.5) / 4, cy = (Math.floor(k / 4) + 0.5) / 4, reach = Math.ceil(radius) + 1, pixels = [];

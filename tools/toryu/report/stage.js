@@ -1,5 +1,7 @@
 // A canvas that shows a part of the scene: walls, particles, what is drawn over them; zoom and pan.
 const MOST_HEIGHT = 0.68;  // of the window, of a picture that takes the page's width
+const OUTLINE = 1.5;  // [pixels of the page]
+const GAP = 0.4;  // in spacings: an outline closes what is twice as wide, as between particles in disorder
 const cssColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name);
 
 class Stage {
@@ -48,16 +50,19 @@ class Stage {
   }
 
   async draw(time) {
-    const frames = await Promise.all(this.bodies.map((body) => body.frame(body.indexAt(time))));
+    const bodies = this.bodies.filter(({style}) => style !== "hidden");
+    const frames = await Promise.all(bodies.map((body) => body.frame(body.indexAt(time))));
     const {width, height} = this.canvas;
     this.context.clearRect(0, 0, width, height);
     this.drawWalls(time);
     const image = this.context.getImageData(0, 0, width, height);
-    this.shown = this.bodies.map((body, i) => {
+    this.shown = [];
+    bodies.forEach((body, i) => {
       body.adapt(frames[i]);
-      const places = body.places(frames[i], this.factor);
-      this.drawBody(image, body, places, frames[i][2 + body.chosen]);
-      return {body, places, field: frames[i][2 + body.chosen]};
+      const places = body.places(frames[i], this.factor), field = frames[i][2 + body.chosen];
+      if (body.style === "outlined") return this.drawOutline(image, body, places);
+      this.drawBody(image, body, places, field);
+      this.shown.push({body, places, field});
     });
     this.context.putImageData(image, 0, 0);
     for (const draw of this.over) draw(this, time);
@@ -66,34 +71,78 @@ class Stage {
 
   drawWalls(time) {
     for (const wall of this.walls) {
-      const place = placing(wall, time);
       this.context.fillStyle = cssColour(wall.poses.length ? "--moving" : wall.work_piece ? "--piece" : "--wall");
-      this.context.beginPath();
-      for (const ring of wall.rings.length ? wall.rings : [cornersOf(wall)]) {
-        ring.forEach((corner, k) => this.context[k ? "lineTo" : "moveTo"](...this.toPixel(...place(corner))));
-        this.context.closePath();
-      }
+      this.trace(wall, time);
       this.context.fill("evenodd");
     }
   }
 
+  outlineWalls(walls, time) {
+    this.context.strokeStyle = cssColour("--second");
+    this.context.lineWidth = OUTLINE * this.ratio;
+    for (const wall of walls) {
+      this.trace(wall, time);
+      this.context.stroke();
+    }
+  }
+
+  // The rings of a wall as the context's path.
+  trace(wall, time) {
+    const place = placing(wall, time);
+    this.context.beginPath();
+    for (const ring of wall.rings.length ? wall.rings : [cornersOf(wall)]) {
+      ring.forEach((corner, k) => this.context[k ? "lineTo" : "moveTo"](...this.toPixel(...place(corner))));
+      this.context.closePath();
+    }
+  }
+
   drawBody(image, body, places, field) {
-    const palette = body.palette(), {width, height} = this.canvas, pixels = image.data;
-    const radius = Math.max(0.7, this.disc * body.spacing * this.scale), masks = discs(radius);
+    const palette = body.palette(), pixels = image.data;
+    this.coverBy(body, places, (i, pixel, cover) => {
+      const colour = !field ? palette[0] : field[i] === NO_VALUE ? NOT_FINITE : palette[field[i] >> 8], at = 4 * pixel;
+      // Over what is there; an empty pixel takes the colour and is as opaque as it is covered.
+      const below = pixels[at + 3] / 255 * (1 - cover), alpha = cover + below;
+      for (let c = 0; c < 3; ++c) pixels[at + c] = (colour[c] * cover + pixels[at + c] * below) / alpha;
+      pixels[at + 3] = 255 * alpha;
+    });
+  }
+
+  // The edge of what drawBody would fill, without the gaps between neighbours.
+  drawOutline(image, body, places) {
+    const colour = channels(cssColour("--second")), pixels = image.data;
+    for (const pixel of edgeOf(this.areaOf(body, places), this.canvas.width, Math.max(1, Math.round(OUTLINE * this.ratio)))) {
+      for (let c = 0; c < 3; ++c) pixels[4 * pixel + c] = colour[c];
+      pixels[4 * pixel + 3] = 255;
+    }
+  }
+
+  // 1 for each pixel that a body covers: its discs are drawn larger, which closes gaps, and what that adds is taken off.
+  areaOf(body, places) {
+    const {width, height} = this.canvas, more = GAP * body.spacing * this.scale, area = new Uint8Array(width * height);
+    this.coverBy(body, places, (_, pixel, cover) => { if (cover > 0.5) area[pixel] = 1; }, more);
+    const disc = discs(more)[CENTRED], taken = area.slice();
+    for (const pixel of edgeOf(area, width, 1)) {
+      const x = pixel % width, y = Math.floor(pixel / width);
+      for (let k = 0; k < disc.length; k += 3) {
+        const px = x + disc[k], py = y + disc[k + 1];
+        if (disc[k + 2] > 0.5 && px >= 0 && px < width && py >= 0 && py < height) taken[py * width + px] = 0;
+      }
+    }
+    return taken;
+  }
+
+  // Tells `paint` every pixel of each particle's disc, `more` pixels wider: (number of the particle, pixel, cover).
+  coverBy(body, places, paint, more = 0) {
+    const {width, height} = this.canvas;
+    const radius = Math.max(0.7, this.disc * body.spacing * this.scale) + more, masks = discs(radius);
     for (let i = 0; 2 * i < places.length; ++i) {
       const [px, py] = this.toPixel(places[2 * i], places[2 * i + 1]);
       const left = Math.floor(px), top = Math.floor(py);
       if (!(px > -radius && px < width + radius && py > -radius && py < height + radius)) continue;
       const mask = masks[Math.floor((px - left) * 4) + 4 * Math.floor((py - top) * 4)];
-      const colour = !field ? palette[0] : field[i] === NO_VALUE ? NOT_FINITE : palette[field[i] >> 8];
       for (let k = 0; k < mask.length; k += 3) {
         const x = left + mask[k], y = top + mask[k + 1];
-        if (x < 0 || x >= width || y < 0 || y >= height) continue;
-        const at = 4 * (y * width + x), cover = mask[k + 2];
-        // Over what is there; an empty pixel takes the colour and is as opaque as it is covered.
-        const below = pixels[at + 3] / 255 * (1 - cover), alpha = cover + below;
-        for (let c = 0; c < 3; ++c) pixels[at + c] = (colour[c] * cover + pixels[at + c] * below) / alpha;
-        pixels[at + 3] = 255 * alpha;
+        if (x >= 0 && x < width && y >= 0 && y < height) paint(i, y * width + x, mask[k + 2]);
       }
     }
   }
@@ -152,6 +201,18 @@ class Stage {
     }
     return found;
   }
+}
+
+// The covered pixels of an area that lie within `wide` of one that is not.
+function edgeOf(area, width, wide) {
+  const height = area.length / width, found = [];
+  for (let y = wide; y < height - wide; ++y)
+    for (let x = wide; x < width - wide; ++x) {
+      const pixel = y * width + x;
+      if (area[pixel] && !(area[pixel - wide] && area[pixel + wide] && area[pixel - wide * width] && area[pixel + wide * width]))
+        found.push(pixel);
+    }
+  return found;
 }
 
 // Corners of a wall that is a box, or the ellipse in it.

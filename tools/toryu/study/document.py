@@ -3,6 +3,7 @@
 import difflib
 import math
 
+from toryu import printable
 from toryu.case import BadCase, resolve
 
 REQUIRED = object()
@@ -29,11 +30,6 @@ def is_number(value):
 def found(value):
     text = f"'{value}'" if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
     return text if len(text) <= 100 else f"{text[:97]}..."
-
-
-def printable(text):
-    """The text on one line, what a terminal would obey as an escape."""
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 def is_label(value):

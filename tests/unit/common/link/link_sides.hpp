@@ -142,9 +142,12 @@ class LinkTest : public testing::Test {
     settings.out =
         std::filesystem::temp_directory_path() / fmt::format("toryu_{}_{}", test->name(), getpid());
     settings.case_hash = 42;
-    settings.time_limit = time_limit;
+    settings.time_limit = collected ? 2 : time_limit;
+    settings.network.collected = collected;
     return settings;
   }
+
+  static inline bool collected = false;  ///< whether parts of checkpoints are brought to the coupler
 
   /// Where nobody else is. The domain is another than the coupler's, since a process makes each only once:
   /// one secret in 100 has the same, and there a test would find the coupler.

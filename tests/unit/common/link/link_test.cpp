@@ -2,6 +2,8 @@
 #include <arpa/inet.h>
 #include <sys/socket.h>
 
+#include <fstream>
+
 #include "common/error/machine.hpp"
 #include "link_sides.hpp"
 
@@ -71,6 +73,53 @@ TEST_F(LinkTest, ACheckpointIsATurnOfBothAndSaysWhoCouldNot) {
   EXPECT_THAT(coupler_.write_checkpoint(window_, "checkpoint/000004"),
               testing::ElementsAre("raw_fluid: no space"));
   EXPECT_EQ(checkpoint_of_solid_, settings_.out / "checkpoint/000004");
+  window_.number = 2;
+  EXPECT_NO_THROW(coupler_.ask_solid(window_, load_)) << "the run goes on";
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+/// Sets what the link takes before it is made.
+struct Collecting {
+  explicit Collecting(bool& collected) : collected_(collected) { collected = true; }
+  ~Collecting() { collected_ = false; }
+  bool& collected_;
+};
+
+class CollectedLinkTest : Collecting, public LinkTest {
+ protected:
+  CollectedLinkTest() : Collecting(LinkTest::collected) {}
+
+  void bring(const std::string& part) {
+    std::ofstream(settings_.out / "checkpoint/000004" / (part + ".state")) << "state";
+  }
+};
+
+TEST_F(CollectedLinkTest, ACheckpointWaitsForThePartsThatAreBrought) {
+  auto solid = run_one_window();
+  const auto fluid = std::async(std::launch::async, [this] {
+    fluid_->fail_checkpoint("");
+    std::this_thread::sleep_for(300ms);
+    bring("fluid");
+    bring("solid");
+  });
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THAT(coupler_.write_checkpoint(window_, "checkpoint/000004"), testing::IsEmpty());
+  EXPECT_GT(std::chrono::steady_clock::now() - start, 300ms);
+  EXPECT_TRUE(std::filesystem::exists(settings_.out / "checkpoint/000004")) << "the solid made it";
+  end(ExitCode::done, "");
+  solid.get();
+}
+
+TEST_F(CollectedLinkTest, ACheckpointWithoutAPartCostsTheCheckpointAlone) {
+  auto solid = run_one_window();
+  const auto fluid = std::async(std::launch::async, [this] { fluid_->fail_checkpoint(""); });
+  std::filesystem::create_directories(settings_.out / "checkpoint/000004");
+  bring("fluid");
+  EXPECT_THAT(
+      coupler_.write_checkpoint(window_, "checkpoint/000004"),
+      testing::ElementsAre(testing::EndsWith("/checkpoint/000004/solid.state' was not brought here within "
+                                             "2 s, the time_limit of [coupling]")));
   window_.number = 2;
   EXPECT_NO_THROW(coupler_.ask_solid(window_, load_)) << "the run goes on";
   end(ExitCode::done, "");

@@ -46,6 +46,12 @@ class CheckpointFiles : public testing::Test {
   fs::path out_ = fs::path(testing::TempDir()) / ("checkpoint_" + std::to_string(getpid()));
 };
 
+TEST_F(CheckpointFiles, ANumberThatWasBegunIsNotTakenAgain) {
+  const fs::path first = open_checkpoint(out_);
+  abandon_checkpoint(first);
+  EXPECT_EQ(open_checkpoint(out_, first).filename(), "000002") << "a part of the first may come late";
+}
+
 TEST_F(CheckpointFiles, AManifestOfAnotherKindIsRefused) {
   const fs::path folder = write_one();
   for (const char* text :

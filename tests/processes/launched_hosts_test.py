@@ -1,0 +1,203 @@
+"""A run over hosts by one command: the same bits as on one host, hosts that cannot be used, and what is left when a run, a
+connection or a host's disk ends.
+
+    launched_hosts_test.py BIN [GROUP]"""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import unittest
+
+from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, MACHINE, PEER_LOST
+from toryu_testing import three_hosts
+from toryu_testing.launched_hosts import Launched
+from toryu_testing.three_hosts import INSIDE
+from toryu_testing.trio import ROLES, results_of
+
+SKIPPED = 77  # exit code by which CTest knows that a test cannot run here
+ON_ONE, ON_THREE = (), ("fluid", "solid")  # the launcher is on the coupler's host
+SHORT, LONG = "--end-time=0.004", "--end-time=1000"
+
+
+class HostsCase(unittest.TestCase):
+    bin = pathlib.Path()
+
+    def hosts(self):
+        return self.enterContext(Launched(self.bin))
+
+    def assert_end(self, run, code, *words, without=()):
+        found, said = run.end()
+        self.assertEqual(found, code, said)
+        for word in words:
+            self.assertIn(word, said)
+        for word in ("Traceback", *without):
+            self.assertNotIn(word, said)
+        self.assertEqual(run.left_behind(), [])
+
+    def assert_same(self, out, reference):
+        found, wanted = results_of(out), results_of(reference)
+        self.assertIn("interface.h5:position", wanted)
+        self.assertEqual(found.keys(), wanted.keys())
+        for name, content in wanted.items():
+            self.assertEqual(found[name], content, name)
+
+    def names(self, folder):
+        """Of its files and folders, but for the coupler's lock, which stays on its host."""
+        return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.name != "run.lock")
+
+
+class Results(HostsCase):
+    def test_are_in_one_folder_and_bit_for_bit_those_of_one_host(self):
+        run = self.hosts()
+        one = run.base / "one"
+        self.assert_end(run.start(ON_ONE, SHORT, out=one), DONE)
+        for roles, *network in ((ON_THREE,), (("coupler", "fluid"), "--interface=eth0", "--domain=7", "--lost-after=4")):
+            with self.subTest(roles=roles):
+                self.assert_end(run.start(roles, SHORT, "--overwrite", *network), DONE, "round trip")
+                self.assert_same(run.out, one)
+                self.assertEqual(self.names(run.out), self.names(one))
+                for part in ("fluid", "solid"):
+                    name = f"checkpoint/000001/{part}.state"
+                    self.assertEqual((run.out / name).stat().st_size, (one / name).stat().st_size)
+                log = (run.out / "log.txt").read_text()
+                for name in ("coupler", "fluid_solver", "solid_solver"):
+                    self.assertIn(f" {name} info: toryu ", log)
+
+    def test_of_a_fluid_alone_come_from_its_host(self):
+        run = self.hosts()
+        file = run.case / "case.toml"
+        text = file.read_text()
+        file.write_text(text[:text.index("[solid]")])
+        self.assert_end(run.start(("fluid",), SHORT), DONE)
+        self.assertTrue((run.out / "fluid.csv").exists())
+        self.assertTrue((run.out / "checkpoint/000001/manifest.toml").exists())
+
+
+class Restart(HostsCase):
+    def test_goes_on_over_hosts_from_what_was_interrupted_there(self):
+        run = self.hosts()
+        every = "--set=case.checkpoint_interval=0.001"
+        one = run.base / "one"
+        for roles in (ON_THREE, ("coupler", "solid")):
+            with self.subTest(roles=roles):
+                run.start(roles, LONG, every, "--overwrite").wait_for("checkpoint/000003/manifest.toml")
+                if "coupler" in roles:
+                    (run.out / "stop").touch()
+                else:
+                    run.interrupt()
+                self.assert_end(run, INTERRUPTED, "go on with: ./run.sh")
+                newest = max(run.out.glob("checkpoint/*/manifest.toml")).parent
+                self.assertEqual(self.names(newest),
+                                 ["case.toml", "coupler.state", "fluid.state", "manifest.toml", "solid.state"])
+                self.assertEqual(len(list((run.out / "checkpoint").iterdir())), 2)
+                for part in ("fluid", "solid"):
+                    self.add_frames_beyond(run.out, part)
+                time = float((newest / "manifest.toml").read_text().split()[2])
+                self.assert_end(run.start(roles, f"--end-time={time + 0.002}", every, "--restart"), DONE)
+                self.assert_end(run.start(ON_ONE, f"--end-time={time + 0.002}", every, "--overwrite", out=one), DONE)
+                self.assert_same(run.out, one)
+
+    def add_frames_beyond(self, out, part):
+        """As of a run that was killed well after its last checkpoint."""
+        last = max(out.glob(f"frames/{part}_*.hdf"))
+        for beyond in range(1, 5):
+            shutil.copy(last, last.with_name(f"{part}_{int(last.stem[-6:]) + beyond:06}.hdf"))
+
+
+class Refusal(HostsCase):
+    def test_of_a_host_that_is_not_there(self):
+        run = self.hosts()
+        self.assert_end(run.start((), SHORT, "--host=fluid=10.77.0.99", f"--peers=10.77.0.1,10.77.0.99",
+                                  f"--launcher={run.launcher}"), MACHINE,
+                        "fluid_solver: error: the machine: 10.77.0.99 cannot be reached: it ended: connect to host 10.77.0.99 "
+                        f"port 22: No route to host; '{run.launcher} 10.77.0.99 /usr/bin/python3 --version' must work")
+        self.assertFalse(run.out.exists())
+
+    def test_of_a_host_without_the_programs_and_of_another_version(self):
+        run = self.hosts()
+        self.assert_end(run.start(ON_THREE, SHORT, "--remote-bin=/nowhere"), BAD_INPUT,
+                        "fluid_solver: error: 10.77.0.2: has no program /nowhere/fluid_solver",
+                        "solid_solver: error: 10.77.0.3: has no program /nowhere/solid_solver")
+        other = run.disk("fluid") / "fluid_solver"
+        other.write_text("#!/bin/sh\necho 'fluid_solver of toryu 0.0.1 (commit 1234567, GCC 1)'\n")
+        other.chmod(0o755)
+        code, said = run.start(("fluid",), SHORT, "--remote-bin=/tmp").end()
+        self.assertEqual(code, BAD_INPUT, said)
+        self.assertIn("10.77.0.2: /tmp/fluid_solver is another version (fluid_solver of toryu 0.0.1 (commit 1234567, GCC 1)) "
+                      "than here (fluid_solver of toryu ", said)
+        self.assertIn("build the same commit there", said)
+        self.assertFalse(run.out.exists())
+
+    def test_of_what_is_no_host_of_the_case(self):
+        run = self.hosts()
+        for option, words in (
+                ("--host=flud=10.77.0.2", "--host flud=10.77.0.2: error: must begin with the program and '=', as "
+                 "fluid=ADDRESS; did you mean 'fluid'?"),
+                ("--host=fluid", "--host fluid: error: must have the name or address of a host after '='"),
+                ("--host=fluid=-oProxyCommand=x", "must have the name or address of a host"),
+                ("--launcher=ssh", "--launcher ssh: error: goes with --host"),
+                ("--remote-bin=x", "--remote-bin x: error: goes with --host")):
+            self.assert_end(run.start((), SHORT, option), BAD_INPUT, words)
+        self.assert_end(run.start(("fluid",), SHORT, "--launcher=no_such_launcher"), BAD_INPUT,
+                        "--launcher no_such_launcher: error: no such program")
+        self.assert_end(run.start(("fluid",), SHORT, "--host=fluid=10.77.0.3"), BAD_INPUT,
+                        "--host fluid=10.77.0.3: error: fluid has a host already: 10.77.0.2")
+
+
+class Failure(HostsCase):
+    def test_of_the_connection_leaves_nothing_there(self):
+        run = self.hosts()
+        run.start(ON_THREE, LONG).wait_for("coupler.csv.part")
+        run.wait_for("fluid.csv.part")  # copied as the run goes on
+        there = run.processes_on("fluid")
+        os.kill(there["fluid_solver"], signal.SIGSTOP)  # it cannot end by itself
+        os.kill(there["agent"], signal.SIGKILL)
+        code, said = run.end()
+        self.assertEqual(code, PEER_LOST, said)
+        self.assertIn("fluid_solver: error: peer lost: the connection to 10.77.0.2 is gone: it was closed", said)
+        self.assertEqual([words for words in run.left_behind() if "/disk/fluid/" not in words], [])
+
+    def test_of_the_launcher_ends_the_programs_there(self):
+        run = self.hosts()
+        run.start(ON_THREE, LONG).wait_for("coupler.csv.part")
+        run.run.kill()
+        run.run.wait()
+        self.assertEqual(run.left_behind(10), [])
+
+    def test_of_what_stands_for_a_program_ends_it(self):
+        run = self.hosts()
+        run.start(ON_THREE, LONG).wait_for("coupler.csv.part")
+        stands = subprocess.run(["pgrep", "-f", 'toryu remote .*"address": "10.77.0.3"'], capture_output=True, text=True)
+        os.kill(int(stands.stdout), signal.SIGKILL)
+        self.assert_end(run, PEER_LOST, "solid_solver on 10.77.0.3 was killed by signal 9")
+
+    def test_of_a_program_is_told_with_its_host(self):
+        run = self.hosts()
+        run.start(ON_THREE, LONG).wait_for("coupler.csv.part")
+        os.kill(run.processes_on("fluid")["fluid_solver"], signal.SIGKILL)
+        self.assert_end(run, PEER_LOST, "fluid_solver on 10.77.0.2 was killed by signal 9")
+
+    def test_of_physics_is_told_once(self):
+        run = self.hosts()
+        self.assert_end(run.start(ON_THREE, LONG, "--set=fluid.sound_speed=0.3"), 3, "fluid_solver on 10.77.0.2 ended with "
+                        "exit code 3 (physics failed)")
+
+    def test_of_a_disk_there_is_told(self):
+        run = self.hosts()
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "none", run.disk("fluid")], check=True)
+        self.addCleanup(subprocess.run, ["umount", run.disk("fluid")])
+        self.assert_end(run.start(ON_THREE, LONG), MACHINE, "No space left on device", "10.77.0.2")
+
+
+if __name__ == "__main__":
+    if INSIDE not in sys.argv:
+        if reason := three_hosts.why_not():
+            print(f"skipped: no hosts can be made of namespaces here: {reason}", file=sys.stderr)
+            sys.exit(SKIPPED)
+        sys.exit(three_hosts.go_inside())
+    sys.argv.remove(INSIDE)
+    HostsCase.bin = pathlib.Path(sys.argv.pop(1)).resolve()
+    three_hosts.lay_cables()
+    unittest.main()
