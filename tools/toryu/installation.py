@@ -45,7 +45,8 @@ def folder_of_programs():
     return INSTALLED / best_level(flags_of_processor())
 
 
-def on_other_hosts(program):
-    """Where other hosts have a program of this one, of the same sources or installation: there the command chooses."""
+def on_other_hosts(path):
+    """Where other hosts of the same sources or installation have the program at `path`: there the command chooses."""
+    program = pathlib.Path(path)
     command = ROOT.parents[1] / "bin" / program.name
     return command if INSTALLED.is_dir() and program.parent == folder_of_programs() and command.exists() else program

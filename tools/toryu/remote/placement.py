@@ -124,7 +124,7 @@ class Placement:
         for name, address in hosts.items():
             path, is_own = str(executables[name]), name in own
             if is_own:
-                path = os.path.join(options.remote_bin, name) if options.remote_bin else str(on_other_hosts(executables[name]))
+                path = os.path.join(options.remote_bin, name) if options.remote_bin else str(on_other_hosts(path))
             self.jobs[name] = Job(
                 name, address, launcher, os.path.abspath(path) if os.sep in path else path, folder=options.remote_folder,
                 version=version_of(executables[name]) if is_own else "", lost_after=silence_of(options), case=options.case,
