@@ -12,5 +12,14 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 "$root/tools/install.sh" run
 toryu=(/usr/bin/python3 -I -X utf8 "$root/tools/toryu")
 case ${1---help} in -h | --help) exec "${toryu[@]}" launch --help ;; esac
-"$root/tools/build.sh" release -DTORYU_TESTS?=OFF fluid_solver solid_solver coupler replayed_fluid replayed_solid reference_loop
+targets=(fluid_solver solid_solver coupler replayed_fluid replayed_solid reference_loop)
+for word in "$@"; do # a participant in Python
+  [[ $word == *.py ]] || continue
+  "$root/tools/install.sh" python
+  modules=("$root"/build/release/bin/toryu_participant.*.so)
+  [ -e "${modules[0]}" ] || targets=(-DTORYU_PYTHON=ON "${targets[@]}")
+  targets+=(toryu_participant)
+  break
+done
+"$root/tools/build.sh" release -DTORYU_TESTS?=OFF "${targets[@]}"
 exec "${toryu[@]}" launch "$@"

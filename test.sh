@@ -10,7 +10,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 without=(long benchmark browser)
 all=
-groups=(run study import test)
+groups=(run study import python test)
 case ${1-} in
   "") ;;
   --browser) without=(long benchmark) groups+=(browser) ;;
@@ -30,7 +30,7 @@ run_tests() { # FOLDER CTEST-OPTIONS...
 }
 
 tools/install.sh "${groups[@]}"
-tools/build.sh release -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON
+tools/build.sh release -DTORYU_TESTS=ON -DTORYU_PYTHON=ON -DTORYU_WARNINGS_AS_ERRORS=ON
 run_tests build/release --label-exclude "^($(IFS='|' && echo "${without[*]}"))\$"
 tools/build.sh debug -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON unit_tests
 run_tests build/debug --label-regex '^unit$'

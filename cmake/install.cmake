@@ -5,7 +5,7 @@
 #     lib/toryu/programs           the programs; of a portable build a folder for each level of x86-64
 #     lib/toryu/tools/toryu        the Python parts; lib/python3/dist-packages/toryu is a link to them
 #     include/toryu, libtoryu_participant.a, cmake/toryu     for `find_package(toryu)`: toryu::participant
-#     share/toryu/cases, share/doc/toryu, share/man, share/bash-completion
+#     share/toryu/cases, share/toryu/examples, share/doc/toryu, share/man, share/bash-completion
 #
 # Component `programs` is all that runs cases; `development` is what another fluid or solid is built with.
 include(GNUInstallDirs)
@@ -14,11 +14,18 @@ include(CMakePackageConfigHelpers)
 set(root lib/toryu)
 set(commands fluid_solver solid_solver coupler) # what is started by hand too
 set(programs ${commands} replayed_fluid replayed_solid reference_loop)
+set(modules)
+if(TORYU_PYTHON)
+  set(modules toryu_participant)
+endif()
 
 function(toryu_install_programs from to)
   list(TRANSFORM programs PREPEND ${from}/ OUTPUT_VARIABLE files)
   install(PROGRAMS ${files} DESTINATION ${root}/programs/${to} COMPONENT programs)
   install(FILES ${from}/commit.txt DESTINATION ${root}/programs/${to} COMPONENT programs OPTIONAL)
+  foreach(module ${modules})
+    install(DIRECTORY ${from}/ DESTINATION ${root}/programs/${to} COMPONENT programs FILES_MATCHING PATTERN ${module}.*)
+  endforeach()
 endfunction()
 
 # The levels are those of tools/toryu/installation.py. This build is for the oldest; the others are builds of their own.
@@ -28,7 +35,7 @@ if(TORYU_PORTABLE)
   endif()
   include(ExternalProject)
   foreach(setting CMAKE_BUILD_TYPE CMAKE_C_COMPILER CMAKE_CXX_COMPILER CMAKE_EXE_LINKER_FLAGS CMAKE_SKIP_RPATH
-      TORYU_WARNINGS_AS_ERRORS)
+      TORYU_PYTHON TORYU_WARNINGS_AS_ERRORS)
     list(APPEND same -D${setting}=${${setting}})
   endforeach()
   foreach(level x86-64-v3 x86-64-v4)
@@ -36,7 +43,7 @@ if(TORYU_PORTABLE)
       SOURCE_DIR ${PROJECT_SOURCE_DIR}
       BINARY_DIR ${CMAKE_BINARY_DIR}/${level}
       CMAKE_ARGS ${same} -DTORYU_CPU=${level} -DTORYU_TESTS=OFF
-      BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target ${programs} toryu_commit
+      BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target ${programs} ${modules} toryu_commit
       BUILD_ALWAYS ON
       INSTALL_COMMAND ""
       USES_TERMINAL_BUILD ON) # one after the other
@@ -54,6 +61,8 @@ install(PROGRAMS tools/install.sh DESTINATION ${root}/tools COMPONENT programs)
 install(FILES tools/packages.txt DESTINATION ${root}/tools COMPONENT programs)
 install(FILES common/scene/results_files.inc DESTINATION ${root}/common/scene COMPONENT programs)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/toryu COMPONENT programs PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/toryu COMPONENT programs USE_SOURCE_PERMISSIONS
+  PATTERN __pycache__ EXCLUDE)
 install(FILES tools/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME toryu
   COMPONENT programs)
 function(toryu_install_link target link)

@@ -1,6 +1,6 @@
 # Debian packages by CPack: toryu (all that runs cases) and toryu-dev (what another fluid or solid is built with).
 #
-#     tools/install.sh run package && tools/build.sh package && cpack --preset package
+#     tools/install.sh run python package && tools/build.sh package && cpack --preset package
 set(CPACK_PACKAGE_CONTACT "The toryu authors" CACHE STRING "Who answers for the packages: name and address of mail")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -17,7 +17,7 @@ A weakly compressible fluid (delta-SPH) against an elastic solid, in two
 dimensions, as processes that are coupled over DDS. Cases and studies are
 text files; a run ends in a report. The programs are built for every level
 of x86-64, and the processor decides which of them runs.")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy, python3-h5py")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-matplotlib, python3-svgelements, python3-ezdxf")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME toryu-dev)

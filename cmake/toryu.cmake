@@ -5,6 +5,9 @@ target_include_directories(toryu_settings INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(toryu_settings INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual>
   -march=${TORYU_CPU} -fno-math-errno)
+# All code can be part of a module of Python. GCC would then take every function for one that others may replace, and
+# inline none.
+target_compile_options(toryu_settings INTERFACE -fPIC -fno-semantic-interposition)
 # GCC 12 sees overlapping and endless copies in std::string where there are none (GCC bugs 105651, 105329), and the lanes
 # that AVX-512's own headers leave undefined as values that are used (105593). Clang 14 takes a friend that is defined in
 # its class for a member, whose names would shadow the class's own. Files that are compiled several at once see each

@@ -72,7 +72,8 @@ std::vector<std::string> stability_warnings(const CaseFile& file, const Paramete
         "fluid_steps_per_window = {}: above {} the force on the interface may ring and the motion be wrong "
         "without a failure; compare with 1, see cases/pushed_column/window_map.toml",
         coupling.fluid_steps_per_window, largest_calm_window));
-  if (lags && !file.has("solid.artificial_viscosity") && !file.has("solid.damping"))
+  const bool rigid = file.value<std::string>("solid.formulation").value_or("") == "rigid";
+  if (lags && !rigid && !file.has("solid.artificial_viscosity") && !file.has("solid.damping"))
     said.emplace_back(
         "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
         "it; take scheme = 'serial_robin', or give it [solid.artificial_viscosity]");
@@ -83,7 +84,8 @@ std::vector<std::string> stability_warnings(const CaseFile& file, const Paramete
   if (!(fluid.density > 0 && fluid.sound_speed > 0 && fluid.spacing > 0)) return said;
   fluid.reach =
       2 * file.value<double>("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
-  const double depth = std::min(thickness(file), layer_depth(fluid));  // no deeper than the kernel sees
+  // No deeper than the kernel sees, but for a rigid body, which moves as a whole.
+  const double depth = rigid ? thickness(file) : std::min(thickness(file), layer_depth(fluid));
   const double ratio = number("solid.density") * depth / (fluid.density * fluid.spacing);
   const double least =
       least_mass_ratio(coupling.scheme, fluid, foreseen_window(file, fluid, coupling.fluid_steps_per_window));

@@ -28,6 +28,12 @@ Vec InitialVelocity::at(const Vec& X) const {
   return velocity * (F(x) / F(length));
 }
 
+bool InitialVelocity::is_rigid() const {
+  if (profile != VelocityProfile::linear) return profile == VelocityProfile::uniform;
+  return gradient.size() == dim && gradient[0][0] == 0 && gradient[1][1] == 0 &&
+         gradient[0][1] == -gradient[1][0];
+}
+
 void describe(ParameterTable& table, InitialVelocity& v) {
   table.choice(
       "profile", v.profile, {"uniform", "cantilever_mode_1", "linear", "bar_mode_1", "alternating"},

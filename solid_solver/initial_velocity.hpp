@@ -28,6 +28,7 @@ struct InitialVelocity {
   std::vector<std::vector<double>> gradient = {};  ///< dv_x/dx, dv_x/dy and dv_y/dx, dv_y/dy [1/s]
 
   Vec at(const Vec& X) const;
+  bool is_rigid() const;  ///< whether no distance changes by it
 };
 void describe(ParameterTable& table, InitialVelocity& v);
 

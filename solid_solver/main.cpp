@@ -120,7 +120,7 @@ ExitCode solve(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
   const Scene scene = read_scene(file);
   Parameters parameters;
-  file.read("solid", parameters, "an elastic body in plane strain");
+  file.read("solid", parameters, "an elastic body in plane strain, or a rigid one");
   file.ignore_sections({"fluid", "coupling"});
   if (options.describe) {
     print(file.description());
@@ -151,6 +151,9 @@ ExitCode solve(const Options& options) {
     write_start(options.start_frames, "solid", *model);
     if (!file.has("fluid"))  // whose program tells them
       for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
+    if (parameters.formulation == Formulation::rigid)  // whose mass and frequencies are known beforehand
+      for (const auto& term : model->active_terms())
+        print(fmt::format("[solid]: {}: {}\n", term.name, term.parameters));
     if (options.outlook) print(outlook("[solid]", *model, scene.end_time).text);
     return ExitCode::done;
   }

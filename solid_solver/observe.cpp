@@ -130,29 +130,36 @@ std::vector<Observation> SolidModel::observe() const {
   return row;
 }
 
+void SolidModel::append_stress(std::vector<FrameField>& fields) const {
+  FrameField stress_field{"stress", "Pa", "Cauchy stress in the plane", dim * dim, {}};
+  FrameField von_mises_field{"von_mises_stress", "Pa", "sqrt(3/2 s:s), s the deviatoric stress", 1, {}};
+  FrameField pressure_field{"pressure", "Pa", "minus a third of the trace of the stress", 1, {}};
+  for (std::size_t i = 0; i < particle_count(); ++i) {
+    const Stress sigma = recovered_stress(i);
+    stress_field.values.insert(stress_field.values.end(), {sigma.xx, sigma.xy, sigma.xy, sigma.yy});
+    von_mises_field.values.push_back(sigma.von_mises());
+    pressure_field.values.push_back(sigma.pressure());
+  }
+  for (auto* field : {&stress_field, &von_mises_field, &pressure_field}) fields.push_back(std::move(*field));
+}
+
 Frame SolidModel::frame() const {
   Frame frame;
   FrameField displacement_field{"displacement", "m", "from the unloaded position", dim, {}};
   FrameField velocity_field{"velocity", "m/s", "of the particle", dim, {}};
-  FrameField stress_field{"stress", "Pa", "Cauchy stress in the plane", dim * dim, {}};
-  FrameField von_mises_field{"von_mises_stress", "Pa", "sqrt(3/2 s:s), s the deviatoric stress", 1, {}};
-  FrameField pressure_field{"pressure", "Pa", "minus a third of the trace of the stress", 1, {}};
   FrameField held_field{"held", "1", "1 where a clamp holds the particle", 1, {}};
   const auto append = [](std::vector<double>& values, const Vec& value) {
     values.insert(values.end(), value.begin(), value.end());
   };
   for (std::size_t i = 0; i < particle_count(); ++i) {
-    const Stress sigma = recovered_stress(i);
     append(frame.positions, period_.inside(body_.X[i] + displacement(i)));
     append(displacement_field.values, displacement(i));
     append(velocity_field.values, velocity(i));
-    stress_field.values.insert(stress_field.values.end(), {sigma.xx, sigma.xy, sigma.xy, sigma.yy});
-    von_mises_field.values.push_back(sigma.von_mises());
-    pressure_field.values.push_back(sigma.pressure());
     held_field.values.push_back(body_.held[i]);
   }
-  frame.fields = {std::move(velocity_field),  std::move(displacement_field), std::move(stress_field),
-                  std::move(von_mises_field), std::move(pressure_field),     std::move(held_field)};
+  frame.fields = {std::move(velocity_field), std::move(displacement_field)};
+  if (has_stress()) append_stress(frame.fields);
+  frame.fields.push_back(std::move(held_field));
   if (detachment_) {
     const auto& detached = state_.detachment.detached;
     frame.fields.push_back({"detached",

@@ -1,6 +1,9 @@
 #include "solid_solver/parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/scene/worn_box.hpp"
@@ -67,10 +70,17 @@ void describe(ParameterTable& table, BoxLoad& load) {
                 "a 'pressure' is constant: 'factor' and 'sine' go with a 'force'");
 }
 
+double Parameters::largest_speed() const {
+  if (limits.speed > 0) return limits.speed;
+  return formulation == Formulation::rigid ? std::numeric_limits<double>::infinity()
+                                           : material.longitudinal_sound_speed();
+}
+
 void describe(ParameterTable& table, SolidLimits& limits) {
-  table.number(
-      "speed", limits.speed,
-      {.unit = "m/s", .minimum = 0, .help = "largest speed of a particle; 0: the longitudinal sound speed"});
+  table.number("speed", limits.speed,
+               {.unit = "m/s",
+                .minimum = 0,
+                .help = "largest speed of a particle; 0: the longitudinal sound speed, of a rigid body any"});
   table.number("strain", limits.strain,
                {.minimum = 0,
                 .above_minimum = true,
@@ -87,19 +97,22 @@ void describe_material(ParameterTable& table, Parameters& p) {
                  "rubber (total Lagrangian); takes the place of law, youngs_modulus and poissons_ratio");
   constexpr double not_used = std::numeric_limits<double>::quiet_NaN();
   ElasticMaterial given = p.material;
-  if (p.yeoh) given.youngs_modulus = given.poissons_ratio = not_used;
+  const bool rigid = p.formulation == Formulation::rigid, elastic = !rigid && !p.yeoh;
+  if (!elastic) given.youngs_modulus = given.poissons_ratio = not_used;
   table.number("density", given.density,
                {.unit = "kg/m3",
                 .minimum = 0,
                 .above_minimum = true,
                 .required = true,
                 .help = "of the unloaded solid"});
-  table.number(
-      "youngs_modulus", given.youngs_modulus,
-      {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = !p.yeoh.has_value(), .help = "E"});
-  table.number(
-      "poissons_ratio", given.poissons_ratio,
-      {.minimum = -0.9, .maximum = 0.499, .required = !p.yeoh.has_value(), .help = "nu; plane strain"});
+  table.number("youngs_modulus", given.youngs_modulus,
+               {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = elastic, .help = "E"});
+  table.number("poissons_ratio", given.poissons_ratio,
+               {.minimum = -0.9, .maximum = 0.499, .required = elastic, .help = "nu; plane strain"});
+  const std::string no_use = "a rigid body has a density alone: formulation = \"rigid\" takes no '";
+  table.require(!rigid || std::isnan(given.youngs_modulus), "youngs_modulus", no_use + "youngs_modulus'");
+  table.require(!rigid || std::isnan(given.poissons_ratio), "poissons_ratio", no_use + "poissons_ratio'");
+  if (rigid) given.youngs_modulus = given.poissons_ratio = 0;
   p.material = p.yeoh ? p.yeoh->small_strain(given.density) : given;
 }
 
@@ -151,6 +164,7 @@ void describe_terms(ParameterTable& table, Parameters& p) {
   table.optional("wall_contact", p.wall_contact, "rigid walls act on the solid");
   table.optional("body_contact", p.body_contact,
                  "bodies that are not joined push each other (total Lagrangian)");
+  table.optional("mounting", p.mounting, "what holds a rigid body: fixed coordinates, springs, dampers");
   table.optional("detachment", p.detachment,
                  "looks for particles that no chain of neighbours joins to a clamp");
   table.optional(
@@ -159,9 +173,52 @@ void describe_terms(ParameterTable& table, Parameters& p) {
       "at the start");
 }
 
+/// A rigid body has neither stress nor bonds, and moves in three coordinates alone.
+void require_rigid(ParameterTable& table, const Parameters& p) {
+  table.require(p.clamps.empty(), "clamp",
+                "[[solid.clamp]] holds particles of a solid that deforms; what holds a body of formulation = "
+                "\"rigid\" is [solid.mounting]");
+  const Parameters usual;
+  const std::pair<const char*, bool> of_others[] = {
+      {"law", p.law != usual.law},
+      {"yeoh", p.yeoh.has_value()},
+      {"hourglass", p.hourglass.has_value()},
+      {"artificial_viscosity", p.artificial_viscosity.has_value()},
+      {"artificial_stress", p.artificial_stress.has_value()},
+      {"damping", p.damping.has_value()},
+      {"body_contact", p.body_contact.has_value()},
+      {"detachment", p.detachment.has_value()},
+      {"bonds", p.bonds.has_value()},
+      {"courant_number", p.courant_number != usual.courant_number},
+      {"integrator", p.integrator != usual.integrator},
+      {"gradients", p.gradients != usual.gradients},
+      {"limits.strain", p.limits.strain != usual.limits.strain}};
+  for (const auto& [key, given] : of_others)
+    table.require(
+        !given, key,
+        fmt::format("'{}' in [solid] is for a solid that deforms, not for formulation = \"rigid\"", key));
+  for (std::size_t k = 0; k < p.regions.size(); ++k)
+    table.require(!p.regions[k].initial_velocity, fmt::format("region.{}.initial_velocity", k),
+                  "all regions of a rigid body move as one: it has [solid.initial_velocity] alone");
+  for (std::size_t k = 0; k < p.observers.size(); ++k)
+    table.require(!p.observers[k].stress, fmt::format("observer.{}.stress", k),
+                  "there is no stress in a body of formulation = \"rigid\"");
+  const auto& v = p.initial_velocity;
+  table.require(
+      !v || v->is_rigid(), "initial_velocity",
+      "a rigid body starts with profile = \"uniform\", or with \"linear\" and gradient = [[0, -w], [w, "
+      "0]], a turn");
+  table.require(
+      !p.wall_contact || p.wall_contact->modulus > 0, "wall_contact",
+      "[solid.wall_contact] of a rigid body needs a 'modulus' [Pa] in the place of its bulk modulus");
+}
+
 void require_consistency(ParameterTable& table, const Parameters& p) {
+  if (p.formulation == Formulation::rigid) return require_rigid(table, p);
   const bool total = p.formulation == Formulation::total_lagrangian;
-  table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
+  table.require(
+      !p.mounting, "mounting",
+      "[solid.mounting] is for formulation = \"rigid\" only; what deforms is held by [[solid.clamp]]");
   table.require(total || (p.law == ElasticLaw::saint_venant_kirchhoff && !p.yeoh), p.yeoh ? "yeoh" : "law",
                 "'law' and [solid.yeoh] are for formulation = \"total_lagrangian\" only; the other has "
                 "Hooke's law");
@@ -191,14 +248,16 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
 }  // namespace
 
 void describe(ParameterTable& table, Parameters& p) {
-  table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian"},
+  table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian", "rigid"},
                {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
-                        "right; updated: present neighbours, can tear"});
+                        "right; updated: present neighbours, can tear; rigid: one body that floats, falls or "
+                        "hangs on springs"});
   describe_material(table, p);
   describe_discretisation(table, p);
   describe_body(table, p);
   describe_terms(table, p);
   table.group("limits", p.limits, "bounds beyond which the run stops");
+  table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
   require_consistency(table, p);
 }
 

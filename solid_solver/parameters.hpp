@@ -10,6 +10,7 @@
 #include "solid_solver/initial_velocity.hpp"
 #include "solid_solver/material.hpp"
 #include "solid_solver/observers.hpp"
+#include "solid_solver/rigid/mounting.hpp"
 #include "solid_solver/terms/artificial_stress.hpp"
 #include "solid_solver/terms/artificial_viscosity.hpp"
 #include "solid_solver/terms/body_contact.hpp"
@@ -20,7 +21,7 @@
 
 namespace toryu::solid {
 
-enum class Formulation { total_lagrangian, updated_lagrangian };
+enum class Formulation { total_lagrangian, updated_lagrangian, rigid };
 enum class ElasticLaw { saint_venant_kirchhoff, neo_hookean };
 enum class Integrator { midpoint, symplectic };
 enum class Gradients { plain, renormalised };
@@ -76,7 +77,7 @@ void describe(ParameterTable& table, BoxLoad& load);
 
 /// A value beyond these is no physics any more: the run stops.
 struct SolidLimits {
-  double speed = 0;     ///< [m/s]; 0: the longitudinal sound speed
+  double speed = 0;     ///< [m/s]; 0: the longitudinal sound speed; of a rigid body any
   double strain = 1.0;  ///< largest relative change of density (updated) or of length (total Lagrangian)
 };
 void describe(ParameterTable& table, SolidLimits& limits);
@@ -106,9 +107,11 @@ struct Parameters {
   std::optional<Contact> body_contact;
   std::optional<Detachment> detachment;
   std::optional<BondLimits> bonds;
+  std::optional<Mounting> mounting = {};  ///< of a rigid body
   SolidLimits limits;
 
   double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]
+  double largest_speed() const;                           ///< beyond which a run stops [m/s]
 };
 void describe(ParameterTable& table, Parameters& parameters);
 

@@ -135,8 +135,7 @@ void SolidModel::fail(std::size_t slot, double time, const std::string& quantity
 }
 
 void SolidModel::check(double time) const {
-  const double speed = parameters_.limits.speed > 0 ? parameters_.limits.speed
-                                                    : parameters_.material.longitudinal_sound_speed();
+  const double speed = parameters_.largest_speed();
   const Lanes speed_2 = speed * speed;
   for (std::size_t k = 0; k < particle_count(); k += lane_count) {
     const VecLanes v = load(state_.v, k), u = load(state_.u, k), X = load(X_, k);

@@ -81,7 +81,7 @@ class SolidModel : public Solver {
 
   const Body& body() const { return body_; }
   /// The particles that a fluid which sees `reach` [m] deep can touch, unloaded.
-  Interface interface(double reach) const;
+  virtual Interface interface(double reach) const;
   InterfaceMotion motion(const std::vector<std::uint32_t>& particles) const;
   /// Sets the force on the interface [N per metre depth], which holds until the next call. Returns the sum
   /// that the solid takes per second, clamps included [N per metre depth].
@@ -100,6 +100,7 @@ class SolidModel : public Solver {
   Vec acceleration(std::size_t particle) const;                                           ///< [m/s2]
   double mass(std::size_t particle) const { return parameters_.material.density * body_.volume(particle); }
   double total_mass() const { return parameters_.material.density * body_.total_volume(); }  ///< [kg/m]
+  virtual bool has_stress() const { return true; }        ///< whether the form knows any
   virtual Stress stress(std::size_t particle) const = 0;  ///< Cauchy, as it drives the particles
   /// Cauchy, as near to that of the body as the particles tell: what frames show.
   virtual Stress recovered_stress(std::size_t particle) const { return stress(particle); }
@@ -161,6 +162,8 @@ class SolidModel : public Solver {
   void brake_by_impedance(double dt, double kept = 1.0);
   /// Cauchy's at the point of an observer.
   virtual Stress stress_at(std::size_t observer) const;
+  virtual double kinetic_energy() const;  ///< [J/m]
+  Vec momentum() const;                   ///< [N.s/m]
   /// Throws if the strain of a particle is beyond its limit.
   virtual void check_strain(double time) const = 0;
   [[noreturn]] void fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
@@ -202,6 +205,7 @@ class SolidModel : public Solver {
   std::optional<ContactWalls> walls_;     ///< if walls act on the solid
   std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
   Drive drive_;
+  double first_energy_ = 0;  ///< of the start: kinetic, and of springs [J/m]
 
  private:
   void find_driven(double time);  ///< gravity and loads at `time` [s]
@@ -216,17 +220,16 @@ class SolidModel : public Solver {
   void find_slots();                         ///< and what stands in them, after the numbers have changed
   void find_external();                      ///< after the numbers or the loads have changed
   Vec initial_velocity(std::size_t particle) const;  ///< [m/s]
-  double kinetic_energy() const;
   double potential_energy() const;
   double interface_work() const;
   Vec sum_of_loads() const;
   double contact_energy() const;
-  Vec momentum() const;
   std::vector<Vec> positions() const;  ///< by number [m]
   void find_detached();
   void observe_regions(std::vector<Observation>& row) const;
   void observe_detachment(std::vector<Observation>& row) const;
   void observe_bonds(std::vector<Observation>& row) const;
+  void append_stress(std::vector<FrameField>& fields) const;
 
   std::vector<Vec> constant_;  ///< acceleration by gravity and loads, constant over a step, by number [m/s2]
   // before a step that is driven
@@ -236,7 +239,6 @@ class SolidModel : public Solver {
   };
   OnFree on_free_before_;
   std::vector<ClampedParticle> clamped_before_;  ///< those of clamps that move, in their order
-  double first_energy_ = 0;                      ///< kinetic, of the start [J/m]
   std::vector<std::pair<PointObserver, MaterialPoint>> observers_;
   std::vector<std::uint32_t> held_;  ///< numbers of the held particles
   std::optional<DetachmentObserver> detachment_;

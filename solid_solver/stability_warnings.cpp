@@ -113,6 +113,7 @@ StressEdges stress_edges(const Parameters& p) {
 
 std::vector<std::string> stability_warnings(const Parameters& p) {
   std::vector<std::string> said;
+  if (p.formulation == Formulation::rigid) return said;
   if (p.formulation == Formulation::total_lagrangian) {
     guard_thin_plates(p, said);
     guard_close_bodies(p, said);

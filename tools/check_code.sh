@@ -12,7 +12,7 @@ case ${1-} in
     ;;
 esac
 start=$SECONDS
-tools/install.sh run test ci
+tools/install.sh run python test ci
 
 git ls-files '*.hpp' '*.cpp' '*.ipp' | xargs clang-format-14 --dry-run -Werror
 
@@ -57,7 +57,7 @@ else
   files=()
 fi
 if [ ${#files[@]} -gt 0 ]; then
-  tools/build.sh clang-v3 -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON toryu_headers toryu_topics toryu_commit
+  tools/build.sh clang-v3 -DTORYU_TESTS=ON -DTORYU_PYTHON=ON -DTORYU_WARNINGS_AS_ERRORS=ON toryu_headers toryu_topics toryu_commit
   printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy-14 -p build/clang-v3 --quiet 2> >(grep -v 'warnings generated' >&2)
 fi
 echo "The format of all files and clang-tidy on ${#files[@]} of $(sources | wc -l) pass, in $((SECONDS - start)) s"

@@ -32,7 +32,7 @@ void DescribeTable::texts(const std::string& key, std::vector<std::string>& valu
 
 void DescribeTable::vector(const std::string& key, Vec& value, const NumberRule& rule) {
   const std::vector<double> numbers(value.data(), value.data() + dim);
-  add(key, rule.required, fmt::format("[{}]", fmt::join(numbers, ", ")),
+  add(key, rule.required, value.allFinite() ? fmt::format("[{}]", fmt::join(numbers, ", ")) : "none",
       number_kind(fmt::format("{} numbers", dim), rule), rule.help);
 }
 

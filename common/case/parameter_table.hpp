@@ -61,7 +61,7 @@ class ParameterTable {
   virtual void flag(const std::string& key, bool& value, const std::string& help) = 0;
   virtual void text(const std::string& key, std::string& value, const TextRule& rule) = 0;
   virtual void texts(const std::string& key, std::vector<std::string>& value, const TextRule& rule) = 0;
-  /// An array of `dim` numbers.
+  /// An array of `dim` numbers; none by default if those of `value` are no numbers (NaN).
   virtual void vector(const std::string& key, Vec& value, const NumberRule& rule) = 0;
   /// Rows of numbers, each as long as `columns` (names with units): a table of time and velocity, say. A case
   /// may name a CSV file beside it that has such columns.

@@ -54,6 +54,8 @@ class RunRecord {
   /// Throws BadInput if the part is of another program or damaged, or if results are missing.
   void read_checkpoint(const std::filesystem::path& folder);
   const std::string& participant() const { return participant_; }
+  /// Who writes the participant's part of a checkpoint, and alone can go on from it; without it, the solver.
+  void made_by(const std::string& program) { role_ = program; }
   /// Time of the state that was written last [s].
   double time() const { return state_.time; }
 
@@ -88,9 +90,8 @@ class RunRecord {
   std::vector<Timers::Part> parts() const;
   void write_row(double time);
   void write_frame(double time);
-  std::string role() const { return participant_ + "_solver"; }
 
-  std::string participant_;
+  std::string participant_, role_;
   Solver& solver_;
   const Timers& solver_timers_;
   std::filesystem::path out_;

@@ -1,5 +1,7 @@
 #include "common/run/provenance.hpp"
 
+#include <dlfcn.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -16,10 +18,18 @@ std::string cpu_model() {
   return "unknown";
 }
 
-/// What the build left beside the program.
-std::string commit_of_sources() {
+/// The program that this code is in, or the module of Python.
+std::filesystem::path own_file() {
+  Dl_info found{};
+  const bool known = dladdr(reinterpret_cast<const void*>(&own_file), &found) != 0;
+  if (known && std::filesystem::path(found.dli_fname).extension() == ".so") return found.dli_fname;
   std::error_code none;
-  std::ifstream file(std::filesystem::read_symlink("/proc/self/exe", none).replace_filename("commit.txt"));
+  return std::filesystem::read_symlink("/proc/self/exe", none);
+}
+
+/// What the build left beside it.
+std::string commit_of_sources() {
+  std::ifstream file(own_file().replace_filename("commit.txt"));
   std::string commit;
   return std::getline(file, commit) ? commit : "unknown";
 }

@@ -15,7 +15,7 @@ TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size
       count_(count),
       shifts_(shifts),
       W_(h),
-      pressure_scale_(term.stiffness * material.bulk_modulus()),
+      pressure_scale_(term.pressure_scale(material)),
       inverse_rho_(1.0 / material.density),
       skin_(0.5 * h) {
   S_0_ = half_plane(W_, spacing, spacing).sum;

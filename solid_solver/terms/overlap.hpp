@@ -7,6 +7,7 @@
 #include "common/case/parameter_table.hpp"
 #include "common/sph/kernel.hpp"
 #include "common/vector.hpp"
+#include "solid_solver/material.hpp"
 
 namespace toryu::solid {
 
@@ -14,6 +15,11 @@ static_assert(dim == 2, "the sums are over a half plane");
 
 struct Contact {
   double stiffness = 1.0;  ///< contact pressure where the overlap has doubled, over the bulk modulus
+  double modulus = 0;      ///< in the place of the bulk modulus [Pa]; 0: that of the solid
+  /// Contact pressure where the overlap has doubled [Pa].
+  double pressure_scale(const ElasticMaterial& material) const {
+    return stiffness * (modulus > 0 ? modulus : material.bulk_modulus());
+  }
 };
 inline void describe(ParameterTable& table, Contact& p) {
   table.number("stiffness", p.stiffness,
@@ -21,6 +27,10 @@ inline void describe(ParameterTable& table, Contact& p) {
                 .maximum = 10,
                 .above_minimum = true,
                 .help = "contact pressure where the overlap has doubled, over the bulk modulus"});
+  if (table.wants(p.modulus > 0))
+    table.number(
+        "modulus", p.modulus,
+        {.unit = "Pa", .minimum = 0, .help = "in the place of the bulk modulus; a rigid body needs it"});
 }
 
 /// Sum of V W over a half plane of particles whose uppermost row is `distance` [m] below, and the largest

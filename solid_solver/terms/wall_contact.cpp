@@ -23,7 +23,7 @@ ContactWalls::ContactWalls(const std::vector<Wall>& walls, const Contact& term,
       period_(period),
       W_(h),
       spacing_(spacing),
-      pressure_scale_(term.stiffness * material.bulk_modulus()),
+      pressure_scale_(term.pressure_scale(material)),
       inverse_rho_(1.0 / material.density),
       skin_(0.3 * h) {
   const double slope = half_plane(W_, spacing, 0.5 * spacing).slope;  // pressed in by half a spacing

@@ -57,6 +57,12 @@ class Installation(unittest.TestCase):
         self.assertEqual(said("/usr/bin/python3", "-c", program, env=os.environ | path).strip(),
                          str(self.prefix / "lib/toryu/programs"))
 
+    def test_a_solid_in_python_takes_part_in_a_run(self):
+        share = self.prefix / "share/toryu"
+        told = said(self.bin / "toryu", share / "cases/elastic_gate", "--solid", share / "examples/beam.py", "--end-time=0.002",
+                    "--no-report", "--out=python", cwd=self.folder)
+        self.assertIn("impulse given and taken", told)
+
     def test_every_option_is_in_the_manual_page(self):
         for name in COMMANDS:
             page = gzip.decompress((self.prefix / f"share/man/man1/{name}.1.gz").read_bytes()).decode()

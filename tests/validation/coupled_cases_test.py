@@ -12,6 +12,7 @@ import tomllib
 import unittest
 
 import array_drag
+import mounted_cylinder
 import path_difference
 import turek_hron_fsi
 
@@ -41,6 +42,13 @@ class HydrostaticPlate(unittest.TestCase):
         rows, figures, _ = run("hydrostatic_plate", **{"case.end_time": 0.085, "solid.spacing": 0.05 / 3})
         bent = [row["middle_displacement_y[m]"] for row in rows if row["time[s]"] > 0.03]
         self.assertLess(abs(sum(bent) / len(bent) / -7.063e-5 - 0.987), 0.01)  # 1.3 % short with 3 rows
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+    def test_a_rigid_flap_leans_as_far_as_its_spring_lets_it(self):
+        rows, figures, _ = run("hydrostatic_plate/flap.toml", **{"fluid.spacing": 0.02, "solid.spacing": 0.02})
+        late = [row["body_angle[rad]"] for row in rows if row["time[s]"] >= 0.6]
+        self.assertLess(abs(sum(late) / len(late) / -0.011787 - 1), 0.01)
         self.assertLess(figures["largest_impulse_error"], 1e-12)
 
 
@@ -82,6 +90,49 @@ class TurekHron(unittest.TestCase):
         self.assertLess(abs(forces.lift / 0.7638 - 1), 0.2)
         self.assertLess(abs(forces.u_x / 2.27e-5 - 1), 0.15)
         self.assertLess(abs(forces.u_y / 8.21e-4 - 1), 0.4)
+
+
+class FloatingBox(unittest.TestCase):
+    def test_a_rigid_box_floats_as_deep_as_archimedes_says(self):
+        rows, figures, _ = run("floating_box", **{"case.end_time": 2, "fluid.spacing": 0.0125, "solid.spacing": 0.0125})
+        late = [row for row in rows if row["time[s]"] >= 1.5]
+        risen = sum(row["body_displacement_y[m]"] for row in late) / len(late)
+        self.assertLess(abs((0.05 - 1.5 * risen) / 0.06 - 1), 0.025)  # -1.5 %
+        self.assertLess(max(abs(row["body_angle[rad]"]) for row in rows), 1e-3)
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+class FloatingSquare(unittest.TestCase):
+    def test_turns_until_a_corner_points_down(self):
+        rows, _, _ = run("floating_box/square.toml", **{"fluid.spacing": 0.0125, "solid.spacing": 0.0125})
+        late = [row["body_angle[rad]"] for row in rows if row["time[s]"] >= 7]
+        self.assertLess(abs(math.degrees(sum(late) / len(late)) - 45), 1)  # 44.4
+
+
+class CylinderInAStream(unittest.TestCase):
+    def test_a_spring_near_the_eddies_frequency_makes_them_follow_the_cylinder(self):
+        rows, figures, _ = run("cylinder_in_channel/mounted.toml", **{"case.end_time": 3})
+        late = [(row["time[s]"], row["body_displacement_y[m]"]) for row in rows if row["time[s]"] > 1]
+        up = [t for (t, y), (_, after) in zip(late, late[1:]) if y < 0 <= after]
+        self.assertLess(abs((len(up) - 1) / (up[-1] - up[0]) / 2.97 - 1), 0.03)
+        self.assertGreater(max(y for _, y in late), 0.02)  # pushed, it began with 0.01 m
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+class MountedCylinder(unittest.TestCase):
+    def test_a_check_tells_its_mass_and_its_frequency_without_water(self):
+        with tempfile.TemporaryDirectory() as out:
+            said = launch("mounted_cylinder", out, "--check").stdout
+        self.assertIn("[solid]: rigid body: mass 7.85", said)
+        self.assertIn("natural frequency in x 3.11", said)
+
+    def test_swings_with_its_exact_added_mass(self):
+        with tempfile.TemporaryDirectory() as out:
+            done = launch("mounted_cylinder", out, "--set=case.frame_interval=0", "--set=fluid.spacing=0.01", "--set=solid.spacing=0.01")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            swing = mounted_cylinder.of_run(pathlib.Path(out))
+        self.assertLess(abs(swing.frequency / 1.9010 - 1), 0.012)  # +0.8 % at this spacing
+        self.assertLess(abs(swing.damping), 0.015)
 
 
 class SubmergedBeam(unittest.TestCase):
@@ -173,8 +224,8 @@ class PushedColumn(unittest.TestCase):
     EXPLICIT = {"coupling.scheme": "serial_explicit", "solid.artificial_viscosity": "{alpha=0.1, beta=0.0}"}
     IMPLICIT = {"coupling.scheme": "serial_implicit", "solid.artificial_viscosity": "{alpha=0.1, beta=0.0}"}
 
-    def way_error(self, density, **settings):
-        rows, figures, said = run("pushed_column", **{"solid.density": density} | settings)
+    def way_error(self, density, case="pushed_column", **settings):
+        rows, figures, said = run(case, **{"solid.density": density} | settings)
         lag = density * 0.02 / 2e4  # m_s/(rho_f c)
         return rows[-1]["layer_displacement_y[m]"] / (0.2 * (0.04 - lag * (1 - math.exp(-0.04 / lag)))) - 1, figures, said
 
@@ -199,6 +250,13 @@ class PushedColumn(unittest.TestCase):
         error, _, said = self.way_error(1000, **parallel)
         self.assertLess(abs(error), 0.02)
         self.assertNotIn("the exchange feeds the solid", said)
+
+    def test_a_rigid_layer_of_any_weight_goes_as_far_as_theory_says(self):
+        for density in (1000, 1):  # 2 and 0.002 rows of water
+            error, figures, said = self.way_error(density, "pushed_column/rigid.toml")
+            self.assertLess(abs(error), 0.02)
+            self.assertLess(figures["largest_impulse_error"], 1e-12)
+            self.assertEqual("beyond the edge of stability" in said, density == 1)
 
     def test_a_light_layer_is_borne_by_the_robin_scheme_alone_without_iterations(self):
         for density in (50, 20):

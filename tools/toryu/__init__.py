@@ -1,6 +1,8 @@
-"""Runs cases and studies of toryu, and reads what they leave."""
+"""Runs cases and studies of toryu, and reads what they leave. For scripts: `run`, `results.read`, and `participant` for a fluid
+or a solid of one's own."""
 
 import difflib
+import importlib
 
 from toryu.installation import folder_of_programs
 
@@ -15,6 +17,15 @@ def nearest(word, words):
 def counted(count, thing):
     """"1 run", "2 runs": `thing` takes an s unless there is one."""
     return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def __getattr__(name):
+    """What is for scripts is loaded where it is asked for: the programs here do without."""
+    if name in ("participant", "results"):
+        return importlib.import_module(f"toryu.{name}")
+    if name in ("run", "RunFailed"):
+        return getattr(importlib.import_module("toryu.running"), name)
+    raise AttributeError(f"module 'toryu' has no attribute '{name}'")
 
 
 def printable(text):

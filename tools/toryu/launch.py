@@ -24,6 +24,7 @@ from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAIL
 from toryu.remote.placement import Placement, add_options
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
+PACKAGES = str(pathlib.Path(__file__).resolve().parents[1])  # where a program in Python finds toryu
 MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
 PACKAGE_FOR = {".svg": "svgelements", ".dxf": "ezdxf"}  # of Python, that reads such drawings
 ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
@@ -347,6 +348,7 @@ def main(arguments):
     settle_replay(options, case)
     settle_folder(options, case)
     executables = programs(options, case)
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [PACKAGES, os.environ.get("PYTHONPATH")]))
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
                 for name, executable in executables.items()}
     if options.replay is not None:

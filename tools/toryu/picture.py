@@ -1,7 +1,5 @@
 """Draws the scene of a case before anything runs: bodies, particles, clamps, loads, observers, and what moves."""
 
-import contextlib
-import json
 from dataclasses import dataclass
 
 import h5py
@@ -12,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
+from toryu import results
 from toryu.report import data
 from toryu.study.drawing import PALETTE
 
@@ -53,9 +52,8 @@ def particles_at_start(case, frames):
     """As the programs filled the scene and left it in the folder `frames`."""
     found = []
     for name in ("walls", "fluid", "solid"):
-        with contextlib.suppress(FileNotFoundError):
-            entry = json.loads((frames / f"{name}.hdf.series").read_text(encoding="utf-8"))["files"][0]
-            with h5py.File(frames / entry["name"]) as file:
+        for _, path in results.list_frames(frames, name)[:1]:
+            with h5py.File(path) as file:
                 points = file["VTKHDF/Points"][:, :2]
             spacing = data.table(case.content, "solid" if name == "solid" else "fluid").get("spacing")
             found.append(Particles(name, points, spacing if data.is_number(spacing) else 0.0))

@@ -1,15 +1,24 @@
-"""What a run left, read back: series, summaries, and the figures taken from them. A file that is damaged is left out, and
-said so where that is wanted."""
+"""What a run left, read back: series, summaries, frames, and the figures taken from them. A file that is damaged is left
+out, and said so where that is wanted. For scripts, `read` gives all of it as numpy arrays with units."""
 
 import bisect
 import csv
 import difflib
+import json
 import math
 import re
 import tomllib
 from dataclasses import dataclass
 
 PARTICIPANTS = ("fluid", "solid", "coupler")
+DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError, IndexError)  # of h5py and json
+
+
+def read(out):
+    """What the run left in the folder `out`, as arrays.Results."""
+    from toryu.arrays import Results  # needs numpy and h5py, which the launcher does without
+
+    return Results(out)
 
 
 def read_columns(path):
@@ -64,6 +73,21 @@ def read_series(out, name, faults=None):
         note(faults, path, "holds no time")
         return {}
     return {column: [values[i] for i in kept] for column, values in columns.items()}
+
+
+def list_frames(out, name, faults=None):
+    """(time, path) of the frames that NAME.hdf.series lists and that are there, in the order of time."""
+    path = out / f"{name}.hdf.series"
+    try:
+        entries = json.loads(path.read_text(encoding="utf-8"))["files"]
+        found = [(float(entry["time"]), out / entry["name"]) for entry in entries]
+    except (*DAMAGED, RecursionError) as error:
+        note(faults, path, f"cannot be read: {error}")
+        return []
+    missing = sum(not path.is_file() for _, path in found)
+    if missing:
+        note(faults, path, f"lists {missing} frames that are not there")
+    return sorted((time, path) for time, path in found if path.is_file() and math.isfinite(time))
 
 
 def read_summaries(out, faults=None):

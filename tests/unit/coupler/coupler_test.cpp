@@ -170,6 +170,19 @@ TEST(StabilityWarnings, SeeNoDeeperThanTheKernel) {
                   testing::HasSubstr("weighs 0.28 of a row")));  // 140 x 2 rows: from half a spacing off
 }
 
+TEST(StabilityWarnings, WeighARigidBodyAsAWhole) {
+  const std::string rigid = "formulation = \"rigid\"";
+  EXPECT_TRUE(said_of(200, serial_explicit(), "", rigid).empty()) << "it has no modes that a lag could feed";
+  EXPECT_THAT(said_of(180, serial_explicit(), "", rigid), testing::SizeIs(1));
+  const Folder folder;
+  std::ofstream(folder.path / "case.toml")
+      << "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\nsmoothing_ratio = 1.25\n"
+         "[solid]\nformulation = \"rigid\"\ndensity = 140\n"
+         "[[solid.region]]\nbox = { min = [0, 0], max = [1, 1] }\n";
+  EXPECT_TRUE(stability_warnings(CaseFile(folder.path, {}), serial_explicit()).empty())
+      << "14 rows, of which the kernel sees two";
+}
+
 TEST(StabilityWarnings, SayNothingOfWhatTheyDoNotKnow) {
   Parameters coupling = serial_explicit();
   coupling.fluid_steps_per_window = 4;

@@ -35,6 +35,7 @@ class SolidSection : public testing::Test {
     file.read("solid", parameters, "an elastic body");
     file.throw_if_faulty();
     used_ = file.used();
+    described_ = file.description();
     return parameters;
   }
   std::string faults(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -49,7 +50,7 @@ class SolidSection : public testing::Test {
     return "";
   }
   std::filesystem::path folder_;
-  std::string used_;
+  std::string used_, described_;
 };
 
 TEST_F(SolidSection, RefusesTwoObserversOfOneName) {
@@ -120,6 +121,79 @@ TEST_F(SolidSection, ARubberTakesThePlaceOfTheElasticConstants) {
       faults(plate, {"solid.law=neo_hookean", "solid.formulation=updated_lagrangian"}),
       "--set solid.law=neo_hookean: error: 'law' and [solid.yeoh] are for formulation = \"total_lagrangian\" "
       "only; the other has Hooke's law");
+}
+
+const std::string rigid_plate = R"([solid]
+formulation = "rigid"
+density = 1000.0
+spacing = 0.005
+[[solid.region]]
+name = "plate"
+box = { min = [0.0, 0.0], max = [0.2, 0.02] }
+)";
+
+TEST_F(SolidSection, ARigidBodyHasADensityAndAMounting) {
+  const Parameters p = read(rigid_plate + R"([solid.mounting]
+fixed = ["x"]
+stiffness = [0, 3]
+rest = [0, 0.1]
+angular_damping = 2
+)");
+  EXPECT_EQ(p.mounting->fixed, std::vector<std::string>{"x"});
+  EXPECT_EQ(p.mounting->stiffnesses(), Coordinates(0, 3, 0));
+  EXPECT_EQ(p.mounting->rests(), Coordinates(0, 0.1, 0));
+  EXPECT_EQ(p.mounting->dampings(), Coordinates(0, 0, 2));
+  EXPECT_FALSE(p.mounting->has_pivot());
+  EXPECT_EQ(p.largest_speed(), std::numeric_limits<double>::infinity());
+  const std::string used = used_;
+  EXPECT_EQ(used.find("youngs_modulus"), std::string::npos);
+  EXPECT_EQ(used.find("pivot"), std::string::npos);
+  EXPECT_NE(described_.find("  pivot              none "), std::string::npos);
+  read(used);
+  EXPECT_EQ(used_, used);
+}
+
+TEST_F(SolidSection, ARigidBodyRefusesWhatDeforms) {
+  EXPECT_EQ(faults("[solid]\nyoungs_modulus = 2e6\n" + rigid_plate.substr(8)),
+            "case.toml:2:1: error: a rigid body has a density alone: formulation = \"rigid\" takes no "
+            "'youngs_modulus'");
+  EXPECT_EQ(faults("[solid]\npoissons_ratio = 0.0\n" + rigid_plate.substr(8)),
+            "case.toml:2:1: error: a rigid body has a density alone: formulation = \"rigid\" takes no "
+            "'poissons_ratio'");
+  EXPECT_EQ(
+      faults(rigid_plate + "[[solid.clamp]]\nname = 'root'\nbox = { min = [0, 0], max = [0.1, 1] }\n"),
+      "case.toml:8:9: error: [[solid.clamp]] holds particles of a solid that deforms; what holds a body of "
+      "formulation = \"rigid\" is [solid.mounting]");
+  for (const std::string key : {"hourglass", "artificial_viscosity", "body_contact", "detachment", "bonds"})
+    EXPECT_EQ(faults(rigid_plate + "[solid." + key + "]\n"),
+              "case.toml:8:8: error: '" + key +
+                  "' in [solid] is for a solid that deforms, not for formulation = \"rigid\"");
+  EXPECT_EQ(faults(rigid_plate + "[solid.initial_velocity]\nprofile = 'bar_mode_1'\nvelocity = [1, 0]\n"),
+            "case.toml:8:8: error: a rigid body starts with profile = \"uniform\", or with \"linear\" and "
+            "gradient = [[0, -w], [w, 0]], a turn");
+  EXPECT_EQ(
+      faults(rigid_plate + "[solid.wall_contact]\n"),
+      "case.toml:8:8: error: [solid.wall_contact] of a rigid body needs a 'modulus' [Pa] in the place of its "
+      "bulk modulus");
+  EXPECT_EQ(faults(rigid_plate + "[[solid.observer]]\nname = 'tip'\npoint = [0.1, 0.01]\nstress = true\n"),
+            "case.toml:11:1: error: there is no stress in a body of formulation = \"rigid\"");
+  EXPECT_EQ(
+      faults(plate + "[solid.mounting]\n"),
+      "case.toml:9:8: error: [solid.mounting] is for formulation = \"rigid\" only; what deforms is held by "
+      "[[solid.clamp]]");
+}
+
+TEST_F(SolidSection, AMountingThatCannotBeIsRefused) {
+  EXPECT_EQ(faults(rigid_plate + "[solid.mounting]\nfixed = ['z']\n"),
+            "case.toml:9:10: error: 'fixed' in [solid.mounting] must be one of 'x', 'y', 'angle', found 'z'; "
+            "did you mean 'x'?");
+  EXPECT_EQ(faults(rigid_plate + "[solid.mounting]\nfixed = ['x']\npivot = [0, 0]\n"),
+            "case.toml:10:1: error: a 'pivot' in [solid.mounting] stays: it needs fixed = [\"x\", \"y\"]");
+  EXPECT_EQ(
+      faults(rigid_plate + "[solid.mounting]\nfixed = ['x']\nstiffness = [1, 0]\n"),
+      "case.toml:9:1: error: in [solid.mounting] neither a spring nor a damper acts on 'x', which is fixed");
+  EXPECT_EQ(faults(rigid_plate + "[solid.mountin]\n"),
+            "case.toml:8:8: error: unknown key 'mountin' in [solid]; did you mean 'mounting'?");
 }
 
 TEST_F(SolidSection, LooksForWhatIsDetachedFromAClampOnly) {

@@ -101,13 +101,31 @@ const std::vector<Change>& terms_of_updated_form() {
   return changes;
 }
 
+/// A rigid one with all that it may have.
+Sample rigid_block() {
+  Sample sample = moving_block("rigid", Formulation::rigid, Integrator::midpoint);
+  for (const auto& [name, change] : terms_of_both_forms())
+    if (name == "walls") change(sample);
+  sample.p.wall_contact->modulus = 1e6;
+  sample.p.hourglass.reset();
+  sample.p.clamps.clear();
+  sample.p.initial_velocity->gradient = {{0, -100}, {100, 0}};
+  sample.p.mounting = Mounting{.stiffness = Vec(1e4, 3e4), .damping = Vec(20, 50), .rest_angle = 1};
+  sample.p.loads = {{.name = "pull",
+                     .box = {Vec(0.05, 0), Vec(0.07, 0.02)},
+                     .force = Vec(3e3, 1e3),
+                     .sine = {{{.amplitude = 1, .frequency = 500}}}}};
+  sample.scene.gravity_change = GravityChange{.acceleration = {{0, 0, 0}, {1e-3, 500, -900}}};
+  return sample;
+}
+
 /// Each form with each term alone, and with all of its terms together.
 std::vector<Sample> samples() {
   const std::tuple<const char*, Formulation, Integrator> forms[] = {
       {"total", Formulation::total_lagrangian, Integrator::midpoint},
       {"midpoint", Formulation::updated_lagrangian, Integrator::midpoint},
       {"symplectic", Formulation::updated_lagrangian, Integrator::symplectic}};
-  std::vector<Sample> all;
+  std::vector<Sample> all{rigid_block()};
   for (const auto& [form, formulation, integrator] : forms) {
     auto changes = terms_of_both_forms();
     const auto& own =

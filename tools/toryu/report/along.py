@@ -29,7 +29,7 @@ def read(out, faults=None):
         file = h5py.File(path)
         surface.check(file)
         return file
-    except frames.DAMAGED as error:
+    except results.DAMAGED as error:
         results.note(faults, path, f"cannot be read: {error}")
         return None
 

@@ -1,7 +1,6 @@
 """Frames for the page: positions and fields as 16-bit codes, compressed, in as many frames as fit the size limit."""
 
 import base64
-import json
 import zlib
 from dataclasses import dataclass
 
@@ -16,7 +15,6 @@ SHARE_LEFT = 0.7  # what compression typically leaves of the codes
 NOT_SHOWN = {"particle"}  # a name, not a quantity
 NO_VALUE = 65535  # code of what is not finite; values take 0 to 65534
 SAMPLED_FRAMES = 12  # enough to find the range of a field
-DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError, IndexError)  # of h5py and json
 OUTERMOST = 1.0  # per cent of the values, at either end, that do not count for it: shocks, corners
 
 
@@ -62,7 +60,7 @@ class Body:
         self.quantities = []
         self.count = 0
         self.typical_displacement = 0.0  # [m], of 95 % of the particles, at the time when it is largest
-        self.files = [(time, path) for time, path in listed(out, name, faults) if self.takes(path, faults)]
+        self.files = [(time, path) for time, path in results.list_frames(out, name, faults) if self.takes(path, faults)]
 
     def takes(self, path, faults):
         """Whether the frame can be read; the first one that can says what there is to draw."""
@@ -73,7 +71,7 @@ class Body:
                 shapes = [np.isfinite(points[:, :2]).shape, *(np.isfinite(q.values(fields)).shape for q in found)]
             if shapes[0][1] != 2 or any(shape != (len(points),) for shape in shapes[1:]):
                 raise ValueError("its fields are of unequal sizes")
-        except DAMAGED as error:
+        except results.DAMAGED as error:
             results.note(faults, path, f"cannot be read: {error}")
             return False
         self.quantities, self.count = found, self.count or len(points)
@@ -81,21 +79,6 @@ class Body:
 
     def bytes_per_frame(self):
         return self.count * (4 + 2 * len(self.quantities)) * SHARE_LEFT * 4 / 3
-
-
-def listed(out, name, faults):
-    """(time, path) of the frames that NAME.hdf.series lists and that are there, in the order of time."""
-    path = out / f"{name}.hdf.series"
-    try:
-        entries = json.loads(path.read_text(encoding="utf-8"))["files"]
-        found = [(float(entry["time"]), out / entry["name"]) for entry in entries]
-    except (*DAMAGED, RecursionError) as error:
-        results.note(faults, path, f"cannot be read: {error}")
-        return []
-    missing = sum(not path.is_file() for _, path in found)
-    if missing:
-        results.note(faults, path, f"lists {missing} frames that are not there")
-    return sorted((time, path) for time, path in found if path.is_file() and np.isfinite(time))
 
 
 def read_bodies(out, faults=None):

@@ -3,6 +3,7 @@
 import os
 import pathlib
 
+from toryu import results
 from toryu.report import data, frames
 
 SCRIPT = pathlib.Path(__file__).resolve().parent / "frames_in_paraview.py"
@@ -12,7 +13,7 @@ COLOURS = {"fluid": "Viridis (matplotlib)", "solid": "Inferno (matplotlib)", "si
 def script(out, case, bodies, view):
     """The script of a run: of its measured bodies, in colours, and of its walls, in grey."""
     shown = [described(case, body) for body in bodies]
-    if frames.listed(out, "walls", None):
+    if results.list_frames(out, "walls"):
         spacing = data.table(case, "fluid").get("spacing")
         shown.append(plain("walls", spacing if data.is_number(spacing) else shown[0]["spacing"]))
     text = SCRIPT.read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ import numpy as np
 
 from toryu import results
 from toryu.processes import DONE, INTERRUPTED
-from toryu.report import data, frames
+from toryu.report import data
 
 FAILED = re.compile(r"\b(\w+) particle (\d+) at t = ")
 
@@ -40,7 +40,7 @@ def mark(found, words):
     """Where the particle that `words` blame was in the last frame of its body; None if that is not to be found."""
     for body_name, number in FAILED.findall(words):
         for body in found:
-            with contextlib.suppress(*frames.DAMAGED):
+            with contextlib.suppress(*results.DAMAGED):
                 if body.name != body_name:
                     continue
                 time, path = body.files[-1]

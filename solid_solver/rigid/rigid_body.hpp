@@ -1,0 +1,95 @@
+/// The solid as one rigid body: x, y and angle of its point of reference, the centre of mass or the pivot of
+/// its mounting. All its regions are one with each other, whether they touch or not.
+///
+///     m Dv/Dt = sum_i f_i + F,   I domega/dt = sum_i r_i x f_i + M
+///
+/// with f_i of gravity, loads, walls and the fluid on particle i, F and M of what holds it (mounting.hpp). In
+/// q = (x, y, angle), with the matrix A of the inertia, C of the dampers, and Z of the fluid's impedance
+/// where the load has one, a step is a leapfrog in which what resists motion is implicit, and stable for any
+/// size of it,
+///
+///     (A + dt/2 (C + Z)) w = A v_n + dt/2 (f(q_n) + Z w_c),   q_n+1 = q_n + dt w
+///     A v_n+1 = A w + dt/2 (f(q_n+1) - C w + Z (w_c - w))
+///
+/// with Z = sum_i z_i g_i g_i^T, g_i = (n_i, r_i x n_i), as SolidModel::brake_by_impedance has it for one
+/// particle. It is of second order; under a constant force it is exact, and the momentum of a free body is
+/// kept to rounding.
+///
+/// Each particle brings its mass density V and, so that a rectangle of any number of them has its exact
+/// moment of inertia, that of its cell, m (a^2 + b^2)/12.
+#pragma once
+
+#include "solid_solver/solid_model.hpp"
+
+namespace toryu::solid {
+
+class RigidBody final : public SolidModel {
+ public:
+  RigidBody(const Parameters& parameters, const Body& body, const Scene& scene);
+
+  /// A share of what resolves the motion: 1/20 radian of the fastest spring, damper or turn, and 1/20 of the
+  /// interval of frames (without frames 1/1000 of the run); walls it touches are followed stably.
+  double time_step_limit() const override;
+  std::string_view time_step_rule() const override { return "accuracy"; }
+  void advance(double dt) override;
+  void save() override;
+  void restore() override;
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
+  std::vector<ActiveTerm> active_terms() const override;
+  std::vector<Observation> observe() const override;
+  /// With the mass of the whole body, which moves with whatever the fluid touches, shared out to it.
+  Interface interface(double reach) const override;
+  bool has_stress() const override { return false; }
+  Stress stress(std::size_t /*particle*/) const override { return {}; }
+  std::vector<Observation> internal_energies() const override;
+
+  const Coordinates& coordinates() const { return form_.q; }  ///< since the start [m], [m], [rad]
+  const Coordinates& velocities() const { return form_.v; }   ///< [m/s], [m/s], [rad/s]
+  const Coordinates& inertia() const { return inertia_; }     ///< m, m [kg/m], I [kg.m2/m]
+
+ protected:
+  void check_strain(double /*time*/) const override {}
+  double kinetic_energy() const override { return 0.5 * form_.v.dot(inertia_.cwiseProduct(form_.v)); }
+
+ private:
+  struct FormState {
+    Coordinates q = Coordinates::Zero(), v = Coordinates::Zero();
+    template <class Archive>
+    friend void serialize(Archive& archive, FormState& state) {
+      auto& [q, v] = state;
+      archive(q, v);
+    }
+  };
+  /// What resists the motion in a step.
+  struct Resistance {
+    Coordinates drift;  ///< w
+    Coordinates force;  ///< - C w + Z (w_c - w)
+  };
+
+  void find_inertia();
+  void find_start();
+  Pose pose() const;
+  Vec arm(const Pose& pose, std::size_t particle) const {
+    return pose.turned(body_.X[particle] - pose.about);
+  }
+  Coordinates force() const;  ///< at the present place [N/m], [N.m/m]
+  /// Finds w and what goes with it; counts what the impedance takes.
+  Resistance resist(double dt);
+  void place_particles();
+  double spring_energy() const;
+  Coordinates natural_frequencies() const;  ///< by the springs, undamped [rad/s]
+  /// How fast the angle would swing by the moments of gravity and loads alone, at most [rad/s].
+  double frequency_of_loads() const;
+
+  Mounting mounting_;
+  Coordinates free_;             ///< 0 where fixed, else 1
+  Vec reference_ = Vec::Zero();  ///< in the unloaded body [m]
+  Coordinates inertia_ = Coordinates::Zero();
+  double longest_step_;               ///< [s]
+  Vec first_momentum_ = Vec::Zero();  ///< [N.s/m]
+  VecField x_;                        ///< present positions, if walls act on the solid [m]
+  FormState form_, saved_form_;
+};
+
+}  // namespace toryu::solid
