@@ -1,6 +1,5 @@
 """Going on with a run: from which checkpoint, with which options, and what is said at the end of one that can go on."""
 
-import pathlib
 import shlex
 import signal
 import subprocess
