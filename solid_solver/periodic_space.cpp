@@ -10,6 +10,7 @@ namespace {
 
 std::vector<Box> boxes_of(const auto& shapes) {
   std::vector<Box> boxes;
+  boxes.reserve(shapes.size());
   for (const auto& shape : shapes) boxes.push_back(shape.box);
   return boxes;
 }

@@ -147,6 +147,40 @@ class Python(unittest.TestCase):
         self.assert_ends(self.fluid(more="def observe(self): return {'push': 1}"), "fluid", BUG, PEER_LOST,
                          "Push.observe names a column 'push', not as 'name[unit]'")
 
+    def test_rows_of_several_lengths_are_refused(self):
+        self.assert_ends(self.fluid("force = [[1, 2], [3]]"), "fluid", BUG, PEER_LOST, "Push: force is no array")
+
+    def test_particles_have_numbers_of_their_own(self):
+        for numbers, why in (("np.zeros(30)", "holds a number twice"), ("np.arange(30) - 1", "holds -1"),
+                             ("np.arange(30) / 2", "holds 0.5")):
+            text = SOLID.replace("return Interface(self.x, volume, area_vector, mass, spacing",
+                                 f"return Interface(self.x, volume, area_vector, mass, spacing, id={numbers}")
+            self.assert_ends(self.run_of(solid=text.format(begin="pass", advance="pass")), "solid", BUG, PEER_LOST,
+                             f"Still: id {why}")
+
+    def test_what_is_not_there_is_named(self):
+        self.assert_ends(self.fluid(more="advance = None"), "fluid", BUG, PEER_LOST, "'NoneType' object is not callable")
+        self.assert_ends(self.run_of(solid=SOLID.replace("def advance(", "def advanced(").format(begin="pass", advance="pass")),
+                         "solid", BUG, PEER_LOST, "Still has no method 'advance'")
+        self.assert_ends(self.fluid(more="def health(self, more): pass"), "fluid", BUG, PEER_LOST,
+                         "Push.health() missing 1 required positional argument: 'more'")
+
+    def test_a_state_that_cannot_be_kept_ends_the_run_at_its_start(self):
+        for state, why in (("('absent',)", "absent, which 'state' names, is not there when 'begin' has ended"),
+                           ("('interface',)", "interface, which 'state' names, is of the type object, not of numbers"),
+                           ("('rows',)\n    rows = [1, 2]", "rows, which 'state' names, is a list, not a number or an array")):
+            self.assert_ends(self.fluid(more=f"state = {state}"), "fluid", BUG, PEER_LOST, f"Push: {why}")
+        with self.fluid(more="state = ('windows')") as run:
+            run.start_all()
+            self.assert_end(run, "fluid", BUG, "Push: 'state' is the text 'windows', not a tuple of names: ('windows',)")
+
+    def test_columns_of_the_series_are_those_of_a_table(self):
+        for column in ("a,b[m]", "time[s]", "a\\n[m]", '\\"a[m]', "a[m,s]"):
+            self.assert_ends(self.fluid(more=f'def observe(self): return {{"{column}": 1}}'), "fluid", BUG, PEER_LOST,
+                             "Push.observe names a column")
+        self.assert_ends(self.fluid(more="def observe(self): return {f'a{self.windows}[m]': 1}"), "fluid", BUG, PEER_LOST,
+                         "and before a0: they must stay the same")
+
     def test_it_can_tell_of_physics_and_of_input_itself(self):
         self.assert_ends(self.fluid("raise participant.PhysicsFailure('it boils')"), "fluid", PHYSICS_FAILED, PHYSICS_FAILED,
                          "it boils")

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import unittest
 
+import toryu
 from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, MACHINE, PEER_LOST
 from toryu_testing import three_hosts
 from toryu_testing.launched_hosts import Launched
@@ -73,6 +74,16 @@ class Results(HostsCase):
         self.assert_end(run.start(("fluid",), SHORT), DONE)
         self.assertTrue((run.out / "fluid.csv").exists())
         self.assertTrue((run.out / "checkpoint/000001/manifest.toml").exists())
+
+    def test_a_program_in_python_finds_toryu_on_its_host(self):
+        run = self.hosts()
+        guest = run.disk("solid") / "my_solid.py"
+        guest.write_text("#!/usr/bin/python3\nimport toryu\nprint('found', toryu.__file__)\n")
+        guest.chmod(0o755)
+        code, said = run.start(("solid",), SHORT, "--solid=/tmp/my_solid.py").end()
+        self.assertEqual(code, PEER_LOST, said)
+        self.assertIn(f"found {toryu.__file__}", said)
+        self.assertIn("solid_solver on 10.77.0.3 ended with exit code 0 before it had joined the run", said)
 
 
 class Restart(HostsCase):

@@ -16,17 +16,17 @@ import subprocess
 import sys
 import tempfile
 
-from toryu import PROGRAMS, program, replay, summary_text
+from toryu import PROGRAMS, guests, program, replay, summary_text
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.folder_lock import FolderTaken, lock_folder
-from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED, says_yes
+from toryu.installation import COMMAND, ROOT
+from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED
 from toryu.remote.placement import Placement, add_options
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
 PACKAGES = str(pathlib.Path(__file__).resolve().parents[1])  # where a program in Python finds toryu
 MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
 PACKAGE_FOR = {".svg": "svgelements", ".dxf": "ezdxf"}  # of Python, that reads such drawings
-ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
 # beside other programs a spinning thread keeps the one it waits for from its core (dam break: 3 to 5 times slower).
 # A short spin first bridges the gaps within a step (gate: 13 % faster on idle cores).
@@ -35,8 +35,8 @@ ENVIRONMENT = {"OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "1000"}
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh", allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself. A file "
-        "with a table [study] is a study; its options: ./run.sh STUDY.toml --help.",
+        prog=COMMAND.removeprefix("./"), allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself. A file "
+        f"with a table [study] is a study; its options: {COMMAND} STUDY.toml --help.",
         epilog="Ctrl-C asks the programs to write a last checkpoint and to end; a second one ends them at once. All other "
                "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
                "4 a process was lost, 5 a fault of the machine (disk, network, threads), 130 interrupted.")
@@ -128,7 +128,7 @@ def install(group, modules):
     """Installs a group of packages unless the modules that they bring are there."""
     if all(map(importlib.util.find_spec, modules)):
         return
-    installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", group]).returncode
+    installed = subprocess.run([ROOT / "tools/install.sh", group]).returncode
     if installed != DONE:
         raise SystemExit(installed)
 
@@ -163,11 +163,13 @@ def programs(options, case):
     if case.kind not in PROGRAMS_OF:
         raise SystemExit(complain(f"{case.file}: error: no section [fluid] and no section [solid]: nothing to compute"))
     names = PROGRAMS_OF[case.kind]
-    guests_elsewhere = [f"{side}_solver" for side in ("fluid", "solid")
-                        if getattr(options, side) and any(text.startswith(f"{side}=") for text in options.host)]
+    elsewhere = [f"{side}_solver" for side in ("fluid", "solid")
+                 if getattr(options, side) and any(text.startswith(f"{side}=") for text in options.host)]
     for name in names:
-        if name not in guests_elsewhere and not shutil.which(executables[name]):
-            raise SystemExit(complain(f"{executables[name]}: error: no such program, needed as {name}"))
+        if name not in elsewhere:
+            executables[name] = guests.located(str(executables[name]))
+            if fault := guests.fault_of(executables[name], name):
+                raise SystemExit(complain(fault))
     return {name: executables[name] for name in names}
 
 
@@ -205,17 +207,7 @@ def check(commands, more=()):
     return BAD_INPUT if errors else MACHINE if MACHINE in codes else BUG
 
 
-def warn_without_checkpoints(options, guests):
-    """Asks the programs that take a solver's place whether they can write checkpoints: a run has none if one cannot."""
-    for executable in guests:
-        if says_yes([executable, "--can-checkpoint"], ANSWER_LIMIT):
-            continue
-        if options.restart is not None:
-            raise SystemExit(complain(f"--restart: error: {executable} cannot write checkpoints, so it cannot go on from one"))
-        print(f"warning: {executable} cannot write checkpoints: this run goes on without them", file=sys.stderr)
-
-
-def check_alone(options, case, own, guests):
+def check_alone(options, case, own, others):
     """All that --check does, with the picture of the scene if that was asked for."""
     with contextlib.ExitStack() as kept:
         more, frames = ["--outlook"], None
@@ -224,7 +216,8 @@ def check_alone(options, case, own, guests):
             more.append(f"--start-frames={frames}")
         if code := check(own, more):
             return code
-        warn_without_checkpoints(options, guests)
+        if code := guests.warn_without_checkpoints(others, options.restart is not None):
+            return code
         print(f"{case.file}: no errors")
         return DONE if frames is None else draw_scene(options, case, pathlib.Path(frames))
 
@@ -311,7 +304,7 @@ def age_of_used_case(out):
 def go_on_with(arguments, options):
     """The command that goes on with this run: the same one, but that it restarts."""
     kept = [word for word in arguments if word != "--overwrite"] + ["--restart"] * (options.restart is None)
-    return shlex.join(["./run.sh", *kept])
+    return shlex.join([COMMAND, *kept])
 
 
 def report(options, case, code, words):
@@ -361,12 +354,12 @@ def main(arguments):
     placement = Placement(options, case, executables, own)
     commands = {name: command + placement.network for name, command in commands.items()}
     own = {name: commands[name] for name in own}
-    guests = [command[0] for name, command in commands.items() if name not in {**own, **placement.jobs}]
+    others = [command[0] for name, command in commands.items() if name not in {**own, **placement.jobs}]
     if options.check:
-        return placement.check() or check_alone(options, case, own, guests)
-    if code := check(own) or placement.check():
+        return placement.check() or check_alone(options, case, own, others)
+    if code := (check(own) or placement.check()
+                or guests.warn_without_checkpoints(others, options.restart is not None)):
         return code
-    warn_without_checkpoints(options, guests)
 
     # what the user has set, stays
     environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ

@@ -36,7 +36,9 @@ import numpy as np
 from toryu import PROGRAMS
 from toryu.processes import BAD_INPUT, BUG, PHYSICS_FAILED
 
-COLUMN = re.compile(r"(.+)\[(.*)\]")
+COLUMN = re.compile(r'([^,"\[\]]+)\[([^,"\[\]]*)\]')  # as CSV has it without quotes
+NUMBERS = (bool, int, float, complex)  # of Python, whose arithmetic is that of numpy's
+LARGEST_ID = 2**32 - 1
 
 
 class PhysicsFailure(Exception):
@@ -131,8 +133,8 @@ class Participant:
         return Health()
 
     def count_step(self):
-        """To be called now and then in a window that takes long: who neither steps nor answers within the time limit of
-        the coupling counts as hung. Ends the window where the run has ended."""
+        """To be called now and then in a window that takes long, by the thread that calls `advance`: who neither steps nor
+        answers within the time limit of the coupling counts as hung. Ends the window where the run has ended."""
 
     @classmethod
     def main(cls):
@@ -177,8 +179,11 @@ class Checked:
 
     def __init__(self, kind, case_as_json):
         self.name = kind.__name__
-        self.participant = kind(json.loads(case_as_json)["content"])
+        if isinstance(kind.state, str):
+            raise WrongAnswer(f"{self.name}: 'state' is the text '{kind.state}', not a tuple of names: ('{kind.state}',)")
+        self.participant = called(kind, json.loads(case_as_json)["content"])
         self.count = 0  # of the interface's particles
+        self.columns = None  # that the first row has
         self.kept = {}  # the state at the start of the window
 
     def count_steps_by(self, count):
@@ -186,9 +191,14 @@ class Checked:
 
     # What it answers
 
+    def ask(self, method, *arguments):
+        if not hasattr(self.participant, method):
+            raise WrongAnswer(f"{self.name} has no method '{method}'")
+        return called(getattr(self.participant, method), *arguments)
+
     def answer(self, kind, method, *arguments):
         """What a method of the participant answers, which must be of that kind."""
-        found = getattr(self.participant, method)(*arguments)
+        found = self.ask(method, *arguments)
         if not isinstance(found, kind):
             raise WrongAnswer(f"{self.name}.{method} answered {'nothing' if found is None else type(found).__name__}, not "
                               f"{kind.__name__}")
@@ -196,7 +206,10 @@ class Checked:
 
     def numbers(self, name, value, *shape):
         """`value` as an array of that shape, of finite numbers."""
-        found = np.asarray(value)
+        try:
+            found = np.asarray(value)
+        except ValueError as error:  # rows of several lengths
+            raise WrongAnswer(f"{self.name}: {name} is no array: {error}") from None
         if found.dtype.kind not in "fiub":
             raise WrongAnswer(f"{self.name}: {name} is of the type {found.dtype}, not of real numbers")
         if found.shape != shape:
@@ -223,7 +236,8 @@ class Checked:
     def begin(self, given):
         if isinstance(self.participant, Fluid):
             self.count = len(given["id"])
-            self.participant.begin(Interface(**given))
+            self.ask("begin", Interface(**given))
+            self.look_at_state()
             return None
         found = self.answer(Interface, "begin", given)
         self.count = n = np.size(found.volume)
@@ -233,7 +247,15 @@ class Checked:
             found.velocity = np.zeros((n, 2))
         told = self.fields(found, {"id": (n,), "position": (n, 2), "volume": (n,), "area_vector": (n, 2), "mass": (n,),
                                    "spacing": (), "velocity": (n, 2)})
-        return told | {"id": told["id"].astype(int).tolist()}
+        self.look_at_state()
+        return told | {"id": self.numbers_of_particles(told["id"])}
+
+    def numbers_of_particles(self, found):
+        wrong = np.flatnonzero((found < 0) | (found > LARGEST_ID) | (found != np.floor(found)))
+        if len(wrong) or len(np.unique(found)) < len(found):
+            why = f"holds {found[wrong[0]]:g}" if len(wrong) else "holds a number twice"
+            raise WrongAnswer(f"{self.name}: id {why}; particles have integers from 0 to {LARGEST_ID}, each its own")
+        return found.astype(int).tolist()
 
     def advance(self, number, iteration, time, dt, given):
         window, n = Window(number, iteration, time, dt), self.count
@@ -258,25 +280,42 @@ class Checked:
         row = []
         for column, value in self.answer(dict, "observe").items():
             parts = COLUMN.fullmatch(str(column))
-            if not parts:
-                raise WrongAnswer(f"{self.name}.observe names a column '{column}', not as 'name[unit]'")
+            if not parts or not str(column).isprintable() or column == "time[s]":
+                raise WrongAnswer(f"{self.name}.observe names a column {str(column)!r}, not as 'name[unit]'"
+                                  + " other than the time's, without commas and quotes")
             row.append((*parts.groups(), float(self.numbers(column, value))))
+        columns = [name for name, _, _ in row]
+        if self.columns not in (None, columns):
+            raise WrongAnswer(f"{self.name}.observe answers the columns {', '.join(columns)}, and before "
+                              f"{', '.join(self.columns)}: they must stay the same")
+        self.columns = columns
         return row
 
     # The state
+
+    def look_at_state(self):
+        """From the first window on it must be there."""
+        if self.participant.state is not None:
+            self.copied_state()
 
     def copied_state(self):
         return {name: np.array(self.numbers_of_state(name)) for name in self.participant.state}
 
     def numbers_of_state(self, name):
-        value = np.asarray(getattr(self.participant, name))
+        if not hasattr(self.participant, name):
+            raise WrongAnswer(f"{self.name}: {name}, which 'state' names, is not there when 'begin' has ended")
+        value = getattr(self.participant, name)
+        if isinstance(value, (list, tuple)):  # would come back as an array
+            raise WrongAnswer(f"{self.name}: {name}, which 'state' names, is a {type(value).__name__}, not a number or an "
+                              "array")
+        value = np.asarray(value)
         if value.dtype.kind not in "fiubc":
             raise WrongAnswer(f"{self.name}: {name}, which 'state' names, is of the type {value.dtype}, not of numbers")
         return value
 
     def put(self, state):
         for name, value in state.items():
-            setattr(self.participant, name, value.copy() if value.ndim else value.item())
+            setattr(self.participant, name, value.copy() if value.ndim or value.dtype not in NUMBERS else value.item())
 
     def save(self):
         self.kept = self.copied_state()
@@ -296,6 +335,16 @@ class Checked:
             raise BadInput(f"{self.name}: the checkpoint holds the state {sorted(state)}, not "
                            f"{sorted(self.participant.state)}")
         self.put(state)
+
+
+def called(function, *arguments):
+    """What a function of the participant answers, which must take that many arguments."""
+    try:
+        return function(*arguments)
+    except TypeError as error:
+        if error.__traceback__.tb_next is None:  # its body was not reached
+            raise WrongAnswer(str(error)) from None
+        raise
 
 
 def total(dt, load, impulse):

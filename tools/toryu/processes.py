@@ -77,23 +77,6 @@ def start(command, stream, environment=None, descriptors=()):
                             preexec_fn=ends_with_this_process())
 
 
-def says_yes(command, limit):
-    """Whether a program answers "yes" within `limit` [s]; one that does not know the question may do anything."""
-    try:
-        asked = start(command, subprocess.PIPE)
-    except OSError:
-        return False
-    try:
-        answer = asked.communicate(timeout=limit)[0]
-    except subprocess.TimeoutExpired:
-        return False
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(asked.pid, signal.SIGKILL)  # whatever it started, too
-        asked.wait()
-    return asked.returncode == DONE and b"yes" in answer.split(b"\n")
-
-
 @dataclass
 class Process:
     name: str

@@ -3,6 +3,7 @@
 import csv
 import math
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -96,6 +97,15 @@ class Compared(unittest.TestCase):
         self.assertEqual((out / "charts/chart_07.svg").read_text(), "of a study")
         for _ in range(2):  # its own it writes anew
             self.assertEqual(self.command(self.first, self.second).returncode, 0)
+
+    def test_one_that_was_ended_is_made_anew(self):
+        out = self.folder / "ended"
+        for left in ([], ["table.csv.part"], ["table.csv", "charts/chart_01.svg", "compare.html.part"]):
+            shutil.rmtree(out, ignore_errors=True)
+            (out / "charts").mkdir(parents=True)
+            for name in left:
+                (out / name).touch()
+            self.assertEqual(self.command(self.first, self.second, "--out", out).returncode, 0, left)
 
     def test_settings_go_by_the_names_of_sections(self):
         used = self.second / "used_case.toml"

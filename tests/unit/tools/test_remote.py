@@ -1,6 +1,7 @@
 """What a run and a host tell each other: messages, files that grow and change, hosts and versions."""
 import os
 import pathlib
+import re
 import tempfile
 import threading
 import types
@@ -12,7 +13,7 @@ from toryu.remote import agent, placement
 from toryu.remote.__main__ import is_same
 from toryu.remote.channel import Channel, ChannelClosed, Silence
 from toryu.remote.connection import Connection, HostFailed
-from toryu.remote.job import argument, restart_files
+from toryu.remote.job import Job, argument, restart_files
 from toryu.remote.mirror import Mirror, Receiver, remove
 
 
@@ -66,7 +67,24 @@ class Messages(Folders):
         self.assertRaises(ChannelClosed, b.receive, 5)
 
 
+    def test_that_are_none_end_the_channel_with_what_was_said(self):
+        for said in (b"10.0.0.2 bash", b"12", b"{}", b'{"kind": 1, "size": 0}', b'{"kind": "log", "size": "x"}', b"\xff"):
+            a, b = self.pair()
+            os.write(a.outgoing, said + b"\n")
+            with self.assertRaisesRegex(ChannelClosed, "^it said '" + re.escape(said.decode(errors="replace")) + "'$"):
+                b.receive(5)
+
+
 class Hosts(Folders):
+    def test_that_let_nobody_in_are_told_with_their_words(self):
+        for words, end in (("echo 'This account is not available.'", "it ended: This account is not available.;"),
+                           ("echo 'Welcome'; echo 'No route' >&2", "it ended: No route;"), ("true", "it ended;")):
+            job = Job("fluid_solver", "10.0.0.2", ["sh", "-c", words], "fluid_solver")
+            with self.assertRaises(HostFailed) as failure:
+                Connection(job)
+            self.assertIn(f"10.0.0.2 cannot be reached: {end}", str(failure.exception))
+            self.assertEqual(failure.exception.code, MACHINE)
+
     def connection(self):
         """To a host that has answered once, and the host's end."""
         host, here = self.pair()

@@ -1,6 +1,5 @@
 """Going on with a run: from which checkpoint, with which options, and what is said at the end of one that can go on."""
 
-import pathlib
 import shlex
 import signal
 import subprocess
@@ -155,52 +154,6 @@ class LastCheckpoint(Launch):
         process = self.start()
         process.send_signal(signal.SIGINT)
         self.assertNotIn("waiting", process.communicate(timeout=30)[1])
-
-
-class Guests(Launch):
-    """Programs that take a solver's place."""
-
-    def setUp(self):
-        super().setUp()
-        self.guest = self.folder / "guests/my_fluid"
-        self.guest.parent.mkdir()
-        self.fake(self.guest)
-        self.warning = f"warning: {self.guest} cannot write checkpoints: this run goes on without them\n"
-
-    def words(self, plan, *options):
-        self.guest.with_suffix(".plan").write_text(plan)
-        done = self.launch("--fluid", str(self.guest), *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stderr
-
-    def test_one_that_can_is_not_warned_of(self):
-        self.assertEqual(self.words("answers 0 0 yes", "--check"), "")
-
-    def test_any_other_answer_warns(self):
-        for plan in ("answers 0 0 no", "answers 0 3 yes", "answers 0 0 yes,no", ""):
-            self.assertEqual(self.words(plan, "--check"), self.warning, plan)
-        self.assertIn(self.warning, self.words(""))  # the start of the run too
-
-    def test_one_that_does_not_answer_is_not_waited_for(self):
-        self.assertEqual(self.words("answers 60 0 yes", "--check"), self.warning)
-        for path in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
-            try:
-                self.assertNotIn(str(self.guest).encode(), path.read_bytes())
-            except OSError:
-                pass  # it ended just now
-
-    def test_one_that_cannot_cannot_go_on(self):
-        (self.out / "checkpoint/000001").mkdir(parents=True)
-        (self.out / "checkpoint/000001/manifest.toml").touch()
-        self.guest.with_suffix(".plan").write_text("answers 0 0 no")
-        done = self.launch("--fluid", str(self.guest), "--restart")
-        self.assertEqual((done.returncode, done.stderr), (
-            2, f"--restart: error: {self.guest} cannot write checkpoints, so it cannot go on from one\n"))
-        self.assertEqual(self.pids(), [])
-
-    def test_our_own_are_not_asked(self):
-        self.launch("--check")
-        self.assertFalse((self.bin / "asked").exists())
 
 
 if __name__ == "__main__":

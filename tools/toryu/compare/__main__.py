@@ -10,9 +10,11 @@ import sys
 
 from toryu import PROGRAMS, counted, printable, program, results
 from toryu.compare import motion, page, runs
+from toryu.installation import COMMAND
 from toryu.processes import BAD_INPUT, DONE
 from toryu.report import data
 
+PARTS = {"charts", "table.csv", "table.csv.part", "compare.html.part"}  # what a comparison that was ended leaves
 MOST_TOLD = 12  # columns and settings on the terminal; the table has all
 
 
@@ -24,7 +26,7 @@ def folder(text):
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh --compare", allow_abbrev=False, description="Lays two runs over each other: what they set "
+        prog=f"{COMMAND.removeprefix('./')} --compare", allow_abbrev=False, description="Lays two runs over each other: what they set "
         "otherwise, how far their series lie apart over the times that both reached, charts of what differs most, "
         "a page.")
     parser.add_argument("first", metavar="OUT_A", type=folder, help="results folder of a run")
@@ -61,9 +63,15 @@ def fault_of(options):
     return ""
 
 
+def is_comparison(out):
+    """Whether a folder holds nothing else than a comparison, or what one that was ended has left."""
+    names = {path.name for path in out.iterdir()}
+    return "compare.html" in names or names <= PARTS and ("table.csv" in names or not any((out / "charts").glob("*")))
+
+
 def prepare(out):
     """Makes the folder of the comparison; returns what is wrong with it."""
-    if out.is_dir() and any(out.iterdir()) and not (out / "compare.html").is_file():
+    if out.is_dir() and not is_comparison(out):
         return f"{out}: error: holds something else than a comparison; give --out another folder"
     file = next((path for path in (out, *out.parents) if path.exists() and not path.is_dir()), None)
     if file:

@@ -66,7 +66,7 @@ class Stand:
         self._hand_over()
         command = [self.job.program, argument(self.job.case, self.work), f"--out={argument(self.job.out, self.work)}",
                    *self.job.arguments]
-        self._send("start", command=command, folder=place("."), environment=of_threads(),
+        self._send("start", command=command, folder=place("."), environment=of_threads() | {"PYTHONPATH": self.job.packages},
                    has_terminal=self.job.is_lead and sys.stderr.isatty())
         self._awaited("started")
         threading.Thread(target=self._pass_on_signals, daemon=True).start()

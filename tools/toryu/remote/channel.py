@@ -50,7 +50,7 @@ class Channel:
         while True:
             while (end := self.unread.find(b"\n")) < 0:
                 self._read_more(limit)
-            message = json.loads(self.unread[:end])
+            message = head_of(bytes(self.unread[:end]))
             while len(self.unread) < end + 1 + message["size"]:
                 self._read_more(limit)
             data = bytes(self.unread[end + 1:end + 1 + message["size"]])
@@ -66,6 +66,17 @@ class Channel:
             raise ChannelClosed("")
         self.unread += piece
         self.heard = time.monotonic()
+
+
+def head_of(line):
+    """Raises ChannelClosed for what is no message: it does not come from who sends them."""
+    try:
+        message = json.loads(line)
+        if isinstance(message["kind"], str) and message["size"] >= 0:
+            return message
+    except (ValueError, TypeError, KeyError):
+        pass
+    raise ChannelClosed(f"it said '{line.decode(errors='replace').strip()}'")
 
 
 def keep_alive(channel):

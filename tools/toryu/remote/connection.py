@@ -77,8 +77,8 @@ class Connection:
             if time.monotonic() - self.channel.heard > self.limit:
                 raise self.lost(f"no sign of life for {self.limit:g} s") from None
             return {"kind": "nothing"}, b""
-        except ChannelClosed:
-            raise self.lost("it was closed" + self._words()) from None
+        except ChannelClosed as closed:
+            raise self.lost(str(closed) or "it was closed" + self._words()) from None
         if message["kind"] == "fault":
             kind, code = ("the machine: ", MACHINE) if message["is_machine"] else ("", BAD_INPUT)
             raise HostFailed(f"error: {kind}{self.job.address}: {message['text']}", code)
@@ -102,7 +102,7 @@ class Connection:
 
     def _unreached(self, is_silent):
         """Why there is no agent, and what must work."""
-        why = f"no answer within {REACH_LIMIT:g} s" if is_silent else "it ended" + self._words()
+        why = f"no answer within {REACH_LIMIT:g} s" if is_silent else "it ended" + self._words(self.channel.unread)
         self.close()
         test = shlex.join([*self.job.launcher, self.job.address, *TEST])
         return HostFailed(f"error: the machine: {self.job.address} cannot be reached: {why}; '{test}' must work, and ask "
@@ -112,6 +112,8 @@ class Connection:
         for line in self.leader.stderr:
             self.said = [*self.said[-20:], line.decode(errors="replace").rstrip()]
 
-    def _words(self):
+    def _words(self, output=b""):
+        """The last ones on standard error, or else of its `output`: a login that is not allowed says so there."""
         self.listening.join(1.0)
-        return f": {self.said[-1]}" if self.said else ""
+        said = self.said or [line for line in output.decode(errors="replace").splitlines() if line.strip()]
+        return f": {said[-1]}" if said else ""

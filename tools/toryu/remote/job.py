@@ -12,6 +12,7 @@ class Job:
     address: str
     launcher: list[str]
     program: str  # its path there
+    packages: str = ""  # where a program in Python finds toryu there
     version: str = ""  # that it must have, as this machine's program tells it; "": any
     folder: str | None = None  # there, in which it gets a folder for what it writes
     lost_after: float = 3.0  # [s]

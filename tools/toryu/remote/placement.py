@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 from toryu import nearest, program
+from toryu.installation import on_other_hosts
 from toryu.processes import BAD_INPUT, DONE, Run, start
 from toryu.remote.job import Job
 
@@ -122,10 +123,11 @@ class Placement:
             self.network = [f"--peers={options.peers or peers_of(hosts, executables)}", "--collected"]
         for name, address in hosts.items():
             path, is_own = str(executables[name]), name in own
-            if is_own and options.remote_bin:
-                path = os.path.join(options.remote_bin, name)
+            if is_own:
+                path = os.path.join(options.remote_bin, name) if options.remote_bin else str(on_other_hosts(path))
             self.jobs[name] = Job(
                 name, address, launcher, os.path.abspath(path) if os.sep in path else path, folder=options.remote_folder,
+                packages=packages_there(options),
                 version=version_of(executables[name]) if is_own else "", lost_after=silence_of(options), case=options.case,
                 out=str(options.out), files=[str(path) for path in inputs_of(case)], is_lead=name == next(iter(executables)),
                 is_coupled=is_coupled, restarts=options.restart is not None)
@@ -169,6 +171,13 @@ class Placement:
 
     def forget_secret(self):
         self.secret.unlink(missing_ok=True)
+
+
+def packages_there(options):
+    """Where a program in Python finds toryu on a host: beside the build there."""
+    if not options.remote_bin:
+        return str(program.PACKAGE.parent)
+    return os.path.normpath(os.path.join(os.path.abspath(options.remote_bin), "../../../tools"))
 
 
 def silence_of(options):
