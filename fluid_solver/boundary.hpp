@@ -94,7 +94,7 @@ struct Boundary {
   bool fitted = false;  ///< see wall_extrapolation.hpp
 
   // of a wall that turns, as it was moved last
-  Mat orientation = Mat::Identity();  ///< of its faces
+  Mat orientation = Mat::Identity();  ///< of its faces; of those of a rigid solid as well
   Vec pivot = Vec::Zero();            ///< about which it turns, and by which moments count [m]
   double angular_velocity = 0;        ///< [rad/s]
   double moment = 0;                  ///< on the fluid, when a force was counted last [N.m per metre depth]
@@ -125,8 +125,9 @@ struct Boundary {
     return prescribed && prescribed->motion.turns();
   }
   /// A direction of the body as it was at the start, as it is now, and the other way round.
-  Vec turned(const Vec& of_body) const { return turns() ? Vec(orientation * of_body) : of_body; }
-  Vec turned_back(const Vec& now) const { return turns() ? Vec(orientation.transpose() * now) : now; }
+  Vec turned(const Vec& of_body) const { return may_turn() ? Vec(orientation * of_body) : of_body; }
+  Vec turned_back(const Vec& now) const { return may_turn() ? Vec(orientation.transpose() * now) : now; }
+  bool may_turn() const { return turns() || is_interface(); }
   bool moves() const { return !std::holds_alternative<Still>(motion); }
   /// Whether a cluster of the fluid is in reach.
   bool acts_on(std::size_t cluster) const {

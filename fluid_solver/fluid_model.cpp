@@ -65,7 +65,8 @@ void FluidModel::read_state(std::istream& stream) {
   state_.neighbours.rebuild(state_.fluid, state_.boundaries);
 }
 
-void FluidModel::attach(const Interface& interface) {
+void FluidModel::attach(const Interface& interface, bool rigid) {
+  if (rigid) rigid_interface_ = interface.position;
   MovingInterface motion(interface, reach() / parameters_.sound_speed);
   std::vector<Vec> positions;
   std::vector<Faces> faces;
@@ -96,6 +97,7 @@ void FluidModel::begin_window(const InterfaceMotion& motion, double dt) {
   Boundary& boundary = state_.boundaries.back();
   interface().begin_window(motion, state_.time, dt);
   boundary.move(state_.time);
+  if (!rigid_interface_.empty()) boundary.orientation = rotation_between(rigid_interface_, motion.position);
   state_.contact_changed = state_.impedance_wanted = !motion.impulse.empty();
   if (std::all_of(motion.impulse.begin(), motion.impulse.end(), [](double J) { return J == 0; })) return;
   const GivenImpulse given = give_impulse(motion.impulse, boundary, state_.fluid, kernel_);

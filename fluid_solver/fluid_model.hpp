@@ -68,7 +68,8 @@ class FluidModel : public Solver {
   FluidTraits traits() const {
     return {reach(), time_step_limit(), parameters_.density, parameters_.sound_speed, parameters_.spacing};
   }
-  void attach(const Interface& interface);
+  /// `rigid`: of a solid that does not deform, and may turn by any angle.
+  void attach(const Interface& interface, bool rigid = false);
   void begin_window(const InterfaceMotion& motion, double dt);
   /// The mean load over the window, with the impedance if the motion asked for it.
   InterfaceLoad take_load();
@@ -203,6 +204,7 @@ class FluidModel : public Solver {
   Vec start_momentum_ = Vec::Zero();
   double start_energy_ = 0, start_potential_ = 0;  ///< [J per metre]
   std::vector<Misfit> misfits_;
+  std::vector<double> rigid_interface_;  ///< positions at the start; empty: the solid deforms [m]
   std::optional<State> saved_;
 };
 

@@ -91,7 +91,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Scene& 
     const Interface interface = link.join(model.traits());
     log::info("the solid's interface has {} of spacing {:g} m", counted(interface.size(), "particle"),
               interface.spacing);
-    model.attach(interface);
+    model.attach(interface, file.value<std::string>("solid.formulation") == "rigid");
     warn_of_thin_wall(model.boundaries().back(), interface.spacing, parameters, scene);
     warn_of_coarse_work_piece(interface.spacing, parameters);
   } catch (...) {

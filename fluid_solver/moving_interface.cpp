@@ -1,8 +1,29 @@
 #include "fluid_solver/moving_interface.hpp"
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "fluid_solver/boundary.hpp"
 
 namespace toryu::fluid {
+
+static_assert(dim == 2, "a turn in the plane");
+
+Mat rotation_between(const std::vector<double>& before, const std::vector<double>& now) {
+  const std::size_t count = before.size() / dim;
+  Vec from = Vec::Zero(), to = Vec::Zero();  // the middles
+  for (std::size_t k = 0; k < count; ++k) {
+    from += vector_of(before, k) / static_cast<double>(count);
+    to += vector_of(now, k) / static_cast<double>(count);
+  }
+  double along = 0, across = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec r = vector_of(before, k) - from, s = vector_of(now, k) - to;
+    along += r.dot(s);
+    across += cross(r, s);
+  }
+  return Eigen::Rotation2Dd(std::atan2(across, along)).toRotationMatrix();
+}
 
 MovingInterface::MovingInterface(const Interface& interface, double response_time)
     : count_(interface.size()), response_time_(response_time) {

@@ -9,6 +9,10 @@ namespace toryu::fluid {
 
 struct Boundary;
 
+/// The turn that brings points from where they were to where they are, dim values each [m], as nearly as one
+/// can (Kabsch 1976; in the plane).
+Mat rotation_between(const std::vector<double>& before, const std::vector<double>& now);
+
 class MovingInterface {
  public:
   /// `interface` as the solid registered it. `response_time` [s] is the time over which its acceleration is

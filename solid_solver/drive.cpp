@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "common/scene/bodies.hpp"
 #include "solid_solver/observers.hpp"
@@ -66,6 +68,20 @@ std::vector<Vec> Drive::accelerations(double t) const {
     for (std::size_t n = 0; n < particles.size(); ++n) a[particles[n]] += each / masses[n];
   }
   return a;
+}
+
+double Drive::fastest_sine() const {
+  double frequency = 0;
+  const auto look = [&](const auto& sines, auto sine_of) {
+    for (const auto& each : sines) frequency = std::max(frequency, std::abs(sine_of(each).frequency));
+  };
+  const auto itself = [](const Sine& sine) { return sine; };
+  for (const Share& share : changing_) look(share.load.sine, itself);
+  if (const auto& change = scene_.gravity_change) {
+    look(change->sine, [](const DirectedSine& shake) { return shake.sine; });
+    if (change->turning) look(change->turning->sine, itself);
+  }
+  return 2 * std::numbers::pi * frequency;
 }
 
 Pose Drive::pose(double t) const {

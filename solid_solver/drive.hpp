@@ -23,6 +23,8 @@ class Drive {
   bool is_forced(std::size_t particle) const { return forced_[particle] != 0; }
   /// By gravity and loads, of each particle [m/s2].
   std::vector<Vec> accelerations(double t) const;
+  /// Of the fastest sine in them; tables are not asked [rad/s].
+  double fastest_sine() const;
   /// Of them what never changes.
   const std::vector<Vec>& steady() const { return steady_; }
 

@@ -10,8 +10,22 @@ namespace {
 
 std::vector<Box> boxes_of(const auto& shapes) {
   std::vector<Box> boxes;
+  boxes.reserve(shapes.size());
   for (const auto& shape : shapes) boxes.push_back(shape.box);
   return boxes;
+}
+
+/// Whether the body's regions meet themselves or each other across a side, so that it has no ends.
+bool meets_its_image(const Parameters& p, const Period& period) {
+  const double touch = 1e-6 * p.spacing;
+  const auto boxes = boxes_of(p.regions);
+  const auto all = with_images(boxes, period.shifts());
+  return std::any_of(
+      all.begin() + static_cast<std::ptrdiff_t>(boxes.size()), all.end(), [&](const Box& image) {
+        return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {
+          return (image.max.cwiseMin(box.max) - image.min.cwiseMax(box.min)).minCoeff() > -touch;
+        });
+      });
 }
 
 }  // namespace
@@ -24,8 +38,14 @@ std::vector<std::pair<std::string, std::string>> periodic_faults(const Parameter
     faults.emplace_back(key, what + " in space that repeats itself ([case] periodic)");
   };
   if (p.formulation == Formulation::updated_lagrangian)
-    refuse("solid.formulation", "only a solid by \"total_lagrangian\" can be");
+    refuse("solid.formulation", "only a solid by \"total_lagrangian\" or \"rigid\" can be");
   if (p.detachment) refuse("solid.detachment", "particles that come off are not looked for");
+  if (p.formulation == Formulation::rigid && !(p.mounting && p.mounting->is_fixed(dim)) &&
+      meets_its_image(p, period))
+    faults.emplace_back(
+        "solid.mounting",
+        "a rigid body that meets its image across a side of [case.domain] has no ends and cannot "
+        "turn: give it fixed = [\"angle\"]");
   for (std::size_t k = 0; k < p.clamps.size(); ++k)
     if (p.clamps[k].motion && p.clamps[k].motion->turns())
       refuse(fmt::format("solid.clamp.{}", k), "clamps do not turn");

@@ -201,8 +201,9 @@ void CaseFile::fault(const InputError& fault) {
 void CaseFile::throw_if_faulty() const {
   const Content& c = *content_;
   if (kind() == Kind::study)
-    throw BadInput({fault_at(c.root.find("study")->first.source(),
-                             "this is a study, and a program computes a case; ./run.sh runs both")});
+    throw BadInput(
+        {fault_at(c.root.find("study")->first.source(),
+                  "this is a study, and a program computes a case; ./run.sh (installed: toryu) runs both")});
   std::vector<InputError> faults = c.faults;
   for (const auto& [section, fault] : c.override_faults)
     if (!contains(c.left_sections, section)) faults.push_back(fault);

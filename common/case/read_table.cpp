@@ -222,9 +222,9 @@ void ReadTable::report_unknown_keys() {
   for (const auto& [key, node] : *table_) {
     const std::string typed(key.str());
     if (std::find(known_.begin(), known_.end(), typed) != known_.end()) continue;
-    const std::string hint = did_you_mean(typed, known_);
-    fault(key.source(), fmt::format("unknown key '{}'{}{}", typed, where_,
-                                    hint.empty() ? "; known are " + quoted_list(known_) : hint));
+    std::string hint = did_you_mean(typed, known_);
+    if (hint.empty()) hint = known_.empty() ? ", which has no keys" : "; known are " + quoted_list(known_);
+    fault(key.source(), fmt::format("unknown key '{}'{}{}", typed, where_, hint));
   }
 }
 

@@ -27,8 +27,8 @@ class RigidBody final : public SolidModel {
  public:
   RigidBody(const Parameters& parameters, const Body& body, const Scene& scene);
 
-  /// A share of what resolves the motion: 1/20 radian of the fastest spring, damper or turn, and 1/20 of the
-  /// interval of frames (without frames 1/1000 of the run); walls it touches are followed stably.
+  /// A share of what resolves the motion: 1/20 radian of the fastest spring, damper, turn or sine of a load,
+  /// 1/2 of a wall it touches, and 1/20 of the interval of frames (without frames 1/1000 of the run).
   double time_step_limit() const override;
   std::string_view time_step_rule() const override { return "accuracy"; }
   void advance(double dt) override;
@@ -88,7 +88,7 @@ class RigidBody final : public SolidModel {
   Coordinates inertia_ = Coordinates::Zero();
   double longest_step_;               ///< [s]
   Vec first_momentum_ = Vec::Zero();  ///< [N.s/m]
-  VecField x_;                        ///< present positions, if walls act on the solid [m]
+  VecField x_;                        ///< present positions in the domain, if walls act on the solid [m]
   FormState form_, saved_form_;
 };
 

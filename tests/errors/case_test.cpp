@@ -147,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
               "value "
               "depth of 256 (TOML_MAX_NESTED_VALUES)"},
         Fault{"Study", "[study]\ntitle = 'a'\n[medium]\n",
-              "case.toml:1:2: error: this is a study, and a program computes a case; ./run.sh runs both"},
+              "case.toml:1:2: error: this is a study, and a program computes a case; ./run.sh (installed: "
+              "toryu) runs both"},
         Fault{"AllAtOnceByLine", "[medum]\n[medium]\nratio = 0\nlaw = 1\nsteps = 'two'\n",
               "case.toml:1:2: error: unknown section 'medum'; did you mean 'medium'?\n"
               "case.toml:2:2: error: missing key 'density' in [medium]: a number [kg/m3] above 0, at rest\n"

@@ -47,6 +47,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"UnknownKeyOfATerm", "fluid.artificial_viscosity.gamma=1",
               "--set fluid.artificial_viscosity.gamma=1: error: unknown key 'gamma' in "
               "[fluid.artificial_viscosity]; known are 'alpha', 'beta'"},
+        Fault{"KeyOfATermWithoutAny", "fluid.held_volume.value=1",
+              "--set fluid.held_volume.value=1: error: unknown key 'value' in [fluid.held_volume], which has "
+              "no keys"},
         Fault{"MissingKeyOfATerm", "fluid.laminar_viscosity={}",
               "--set fluid.laminar_viscosity={}: error: missing key 'dynamic_viscosity' in "
               "[fluid.laminar_viscosity]: a number [Pa.s] of at least 0, mu (Morris, Fox & Zhu 1997)"},

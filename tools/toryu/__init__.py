@@ -3,9 +3,10 @@ or a solid of one's own."""
 
 import difflib
 import importlib
-import pathlib
 
-PROGRAMS = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin"  # where a build leaves them
+from toryu.installation import folder_of_programs
+
+PROGRAMS = folder_of_programs()
 
 
 def nearest(word, words):

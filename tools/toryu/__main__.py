@@ -13,6 +13,8 @@ try:
 except (ImportError, MemoryError) as error:
     if "toryu" in (getattr(error, "name", None) or ""):
         raise
+    from toryu.installation import INSTALLER
+
     print(f"error: the machine: a package of Python cannot be loaded: {error or 'not enough memory'}; "
-          "'tools/install.sh run study' installs what is missing", file=sys.stderr)
+          f"'{INSTALLER} run study' installs what is missing", file=sys.stderr)
     sys.exit(5)  # as in processes.py

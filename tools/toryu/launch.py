@@ -19,6 +19,7 @@ import tempfile
 from toryu import PROGRAMS, guests, program, replay, summary_text
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.folder_lock import FolderTaken, lock_folder
+from toryu.installation import COMMAND, ROOT
 from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED
 from toryu.remote.placement import Placement, add_options
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
@@ -34,8 +35,8 @@ ENVIRONMENT = {"OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "1000"}
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh", allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself. A file "
-        "with a table [study] is a study; its options: ./run.sh STUDY.toml --help.",
+        prog=COMMAND.removeprefix("./"), allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself. A file "
+        f"with a table [study] is a study; its options: {COMMAND} STUDY.toml --help.",
         epilog="Ctrl-C asks the programs to write a last checkpoint and to end; a second one ends them at once. All other "
                "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
                "4 a process was lost, 5 a fault of the machine (disk, network, threads), 130 interrupted.")
@@ -127,7 +128,7 @@ def install(group, modules):
     """Installs a group of packages unless the modules that they bring are there."""
     if all(map(importlib.util.find_spec, modules)):
         return
-    installed = subprocess.run([pathlib.Path(__file__).resolve().parents[1] / "install.sh", group]).returncode
+    installed = subprocess.run([ROOT / "tools/install.sh", group]).returncode
     if installed != DONE:
         raise SystemExit(installed)
 
@@ -303,7 +304,7 @@ def age_of_used_case(out):
 def go_on_with(arguments, options):
     """The command that goes on with this run: the same one, but that it restarts."""
     kept = [word for word in arguments if word != "--overwrite"] + ["--restart"] * (options.restart is None)
-    return shlex.join(["./run.sh", *kept])
+    return shlex.join([COMMAND, *kept])
 
 
 def report(options, case, code, words):

@@ -12,6 +12,7 @@ import pathlib
 import sys
 
 from toryu import nearest, program
+from toryu.installation import INSTALLER
 from toryu.processes import BAD_INPUT, DONE, MACHINE
 
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254}
@@ -293,7 +294,7 @@ def main(arguments):
         print(f"{error.key}\t{error}")
         return BAD_INPUT
     except ImportError as error:
-        print(f"file\tneeds the package '{error.name}' of Python to be read: tools/install.sh import")
+        print(f"file\tneeds the package '{error.name}' of Python to be read: {INSTALLER} import")
         return MACHINE
     print("ring,x[m],y[m]")
     for number, ring in enumerate(rings):

@@ -6,9 +6,11 @@ import pathlib
 import re
 import shutil
 
+from toryu.installation import ROOT
+
 CHECKPOINTS = "checkpoint"  # holds a folder of each checkpoint: 000001, 000002, ...
 MANIFEST = "manifest.toml"  # put in place last: a checkpoint that has one is whole
-LIST = pathlib.Path(__file__).resolve().parents[2] / "common/scene/results_files.inc"
+LIST = ROOT / "common/scene/results_files.inc"
 # All that the programs and the report write into a results folder, but for the checkpoints; nothing else there is ever
 # moved or removed.
 WRITTEN = re.findall(r'^"(.+)",$', LIST.read_text(encoding="utf-8"), re.MULTILINE)

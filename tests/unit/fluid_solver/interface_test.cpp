@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <Eigen/Geometry>
+
 #include "fluid_solver/moving_interface.hpp"
 #include "tests/unit/fluid_solver/plate.hpp"
 
@@ -165,6 +167,31 @@ TEST(MovingInterface, BeginsWhereTheSolidIsIfTheMotionHasAnImpulse) {
   EXPECT_NEAR(copy.at(0.1)(0).x[0], interface.position[0] + 0.08, 1e-15);
   EXPECT_NEAR(copy.at(0.1)(0).v[0], 2, 1e-12);
   EXPECT_NEAR(copy.at(0.2)(0).x[0], interface.position[0] + 0.28, 1e-15);
+}
+
+TEST(RigidInterface, TurnsItsFacesWithIt) {
+  const Interface interface = plate();
+  for (const bool rigid : {false, true}) {
+    Setting setting = tank_with_a_plate();
+    WeaklyCompressible solver = setting.solver();
+    solver.attach(interface, rigid);
+    InterfaceMotion motion = moved(interface, Vec::Zero(), 0);
+    for (const double angle : {0.0, 0.5, 3.0, -2.0}) {
+      const Pose pose{.about = Vec(0.5, 0.5),
+                      .centre = Vec(0.7, 0.4),
+                      .angle = angle,
+                      .rotation = Eigen::Rotation2Dd(angle).toRotationMatrix()};
+      for (std::size_t k = 0; k < interface.size(); ++k) {
+        const Vec x = pose.place(vector_of(interface.position, k));
+        motion.position[dim * k] = x[0], motion.position[dim * k + 1] = x[1];
+      }
+      solver.begin_window(motion, 1e-6);
+      const Boundary& boundary = solver.boundaries().back();
+      const Vec normal(0.6, -0.8), expected = rigid ? pose.turned(normal) : normal;
+      EXPECT_LT((boundary.turned(normal) - expected).norm(), 1e-13) << angle;
+      EXPECT_LT((boundary.turned_back(expected) - normal).norm(), 1e-13) << angle;
+    }
+  }
 }
 
 TEST(GrazedPlate, TakesWhatItGivesToRoundingOfThatLittle) {

@@ -193,6 +193,34 @@ TEST(PeriodicSolid, TouchesWallsAndBodiesAcrossTheSeam) {
         << begin / d_0;
 }
 
+/// A rigid block of 4 x 4 particles, `begin` [m] its left side, that falls on a floor and slides along it,
+/// out of the domain.
+std::unique_ptr<SolidModel> slid_rigid_block(double begin) {
+  Parameters p;
+  p.formulation = Formulation::rigid;
+  p.material = {1000, 0, 0};
+  p.spacing = d_0;
+  p.regions = {{"block", {Vec(begin, 0.5 * d_0), Vec(begin + 4 * d_0, 4.5 * d_0)}}};
+  p.initial_velocity = InitialVelocity{.velocity = Vec(1, -0.5)};
+  p.wall_contact = Contact{.modulus = 1e5};
+  Scene scene = repeating();
+  scene.gravity = Vec(0, -10);
+  scene.walls = {{"floor", {Vec(0, -3 * d_0), Vec(length, 0)}, {}}};
+  auto model = model_in(scene, p);
+  for (int n = 0; n < 1000; ++n) model->advance(5e-4);
+  return model;
+}
+
+TEST(PeriodicSolid, IsHeldByAFloorWhenItIsRigidToo) {
+  const auto within = slid_rigid_block(0);
+  EXPECT_GT(within->displacement(0)[0], length) << "it has gone round";
+  EXPECT_GT(within->displacement(0)[1], -d_0) << "and lies on the floor";
+  EXPECT_GT(within->impulses().walls[1], 0);
+  for (const double begin : {8 * d_0, 14 * d_0})
+    EXPECT_LT(largest_difference(displacements(*within), displacements(*slid_rigid_block(begin))), 1e-9)
+        << begin / d_0;
+}
+
 std::vector<std::string> faults(const std::function<void(Parameters&, Scene&)>& change) {
   Parameters p = plate(0, length);
   Scene scene = repeating();
@@ -202,8 +230,9 @@ std::vector<std::string> faults(const std::function<void(Parameters&, Scene&)>& 
   return said;
 }
 
+using Said = std::vector<std::string>;
+
 TEST(PeriodicSolid, SaysWhatItDoesNotGoWith) {
-  using Said = std::vector<std::string>;
   EXPECT_EQ(faults([](Parameters&, Scene&) {}), Said{});
   EXPECT_EQ(faults([](Parameters& p, Scene& scene) {
               p.formulation = Formulation::updated_lagrangian;
@@ -218,8 +247,8 @@ TEST(PeriodicSolid, SaysWhatItDoesNotGoWith) {
                     {.name = "turning", .box = {}, .motion = Motion{.rotation = Rotation{}}}};
       }),
       (Said{
-          "solid.formulation: only a solid by \"total_lagrangian\" can be in space that repeats itself "
-          "([case] periodic)",
+          "solid.formulation: only a solid by \"total_lagrangian\" or \"rigid\" can be in space that repeats "
+          "itself ([case] periodic)",
           "solid.detachment: particles that come off are not looked for in space that repeats itself ([case] "
           "periodic)",
           "solid.clamp.1: clamps do not turn in space that repeats itself ([case] periodic)"}));
@@ -234,6 +263,25 @@ TEST(PeriodicSolid, SaysWhatItDoesNotGoWith) {
             "move it by whole periods",
             "solid.region.1.box: the middle of region 'right' lies outside [case.domain], at x = 0.4375 "
             "m: move it by whole periods"}));
+}
+
+TEST(PeriodicSolid, DoesNotTurnARigidBodyWithoutEnds) {
+  const Said refused{
+      "solid.mounting: a rigid body that meets its image across a side of [case.domain] has no ends and "
+      "cannot turn: give it fixed = [\"angle\"]"};
+  const auto rigid = [](double begin, double end, const std::vector<std::string>& fixed) {
+    return faults([&](Parameters& p, Scene&) {
+      p = plate(begin, end);
+      p.formulation = Formulation::rigid;
+      p.mounting = Mounting{.fixed = fixed};
+    });
+  };
+  EXPECT_EQ(rigid(0, length, {}), refused);
+  EXPECT_EQ(rigid(4 * d_0, length + 4 * d_0, {"x", "y"}), refused);
+  EXPECT_EQ(rigid(0, length, {"angle"}), Said{});
+  EXPECT_EQ(rigid(4 * d_0, length, {}), Said{}) << "not as long as the period";
+  EXPECT_EQ(faults([](Parameters& p, Scene&) { p.formulation = Formulation::rigid; }), refused)
+      << "without a mounting";
 }
 
 }  // namespace periodic_test

@@ -235,6 +235,27 @@ TEST(RigidBody, RestsOnAWall) {
   EXPECT_NEAR(body.coordinates()[2], 0, 1e-9);
 }
 
+TEST(RigidBody, BouncesWithItsEnergy) {
+  Scene scene = empty_scene();
+  scene.gravity = Vec(0, -10);
+  scene.walls = {{"floor", {Vec(-0.1, -0.25), Vec(0.2, -0.05)}, {}}};
+  for (const double modulus : {1e5, 1e6}) {
+    Parameters p = mounted({.fixed = {"x", "angle"}});
+    p.spacing = 0.01;
+    p.wall_contact = Contact{.modulus = modulus};
+    RigidBody body = rigid(p, scene);
+    double least = 0, most = 0;
+    for (int n = 1; n <= 100; ++n) {
+      run_to(body, 0.01);
+      const double lost = observed(body, "dissipated_energy");
+      least = std::min(least, lost), most = std::max(most, lost);
+    }
+    EXPECT_GT(body.impulses().walls[1], 2 * m * 10 * 0.1) << "it has bounced";
+    EXPECT_GT(least, -0.02 * m * 10 * 0.05) << modulus;
+    EXPECT_LT(most, 0.02 * m * 10 * 0.05) << modulus;
+  }
+}
+
 TEST(RigidBody, ResolvesWhatSwingsTurnsAndIsShown) {
   Scene scene = empty_scene();
   scene.frame_interval = 0.1;
@@ -247,6 +268,10 @@ TEST(RigidBody, ResolvesWhatSwingsTurnsAndIsShown) {
   EXPECT_DOUBLE_EQ(rigid(p, scene).time_step_limit(), 0.05 / 100);
   p.mounting->fixed = {"x"};
   EXPECT_DOUBLE_EQ(rigid(p, scene).time_step_limit(), 0.1 / 20);
+  scene.gravity_change = GravityChange{.sine = {Shake{{{.amplitude = 1, .frequency = 5}, Vec(1, 0)}}}};
+  EXPECT_DOUBLE_EQ(rigid(p, scene).time_step_limit(), 0.05 / (10 * std::numbers::pi));
+  p.loads = {{.name = "push", .box = {Vec(0, 0), Vec(1, 1)}, .force = Vec(0, 1), .sine = {Pulse{{1, 50}}}}};
+  EXPECT_DOUBLE_EQ(rigid(p, scene).time_step_limit(), 0.05 / (100 * std::numbers::pi));
 }
 
 TEST(RigidBody, SharesItsWholeMassWithWhatTheFluidTouches) {

@@ -142,7 +142,7 @@ class FormerResults(Launch):
         self.assertEqual((self.folder / "disk/out.1/fluid.csv").read_text(), "old")
 
     def test_they_are_left_alone_while_another_run_holds_the_folder(self):
-        self.plan(coupler="wait 30")
+        self.plan(*["wait 30"] * 3)
         first = subprocess.Popen(self.command(), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         try:
             self.wait_for(lambda: (self.out / "coupler.pid").exists())

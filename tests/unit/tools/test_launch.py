@@ -48,7 +48,7 @@ class WhatIsStarted(Launch):
         self.assertEqual((self.out / "fluid_solver_OMP_WAIT_POLICY").read_text(), "active")
 
     def test_a_second_run_in_the_same_folder_is_refused(self):
-        self.plan(coupler="wait 30")
+        self.plan(*["wait 30"] * 3)
         first = subprocess.Popen(self.command(), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         try:
             self.wait_for(lambda: (self.out / "coupler.pid").exists())

@@ -10,6 +10,7 @@ import sys
 
 from toryu import PROGRAMS, counted, printable, program, results
 from toryu.compare import motion, page, runs
+from toryu.installation import COMMAND
 from toryu.processes import BAD_INPUT, DONE
 from toryu.report import data
 
@@ -25,7 +26,7 @@ def folder(text):
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh --compare", allow_abbrev=False, description="Lays two runs over each other: what they set "
+        prog=f"{COMMAND.removeprefix('./')} --compare", allow_abbrev=False, description="Lays two runs over each other: what they set "
         "otherwise, how far their series lie apart over the times that both reached, charts of what differs most, "
         "a page.")
     parser.add_argument("first", metavar="OUT_A", type=folder, help="results folder of a run")

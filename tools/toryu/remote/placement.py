@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 from toryu import nearest, program
+from toryu.installation import on_other_hosts
 from toryu.processes import BAD_INPUT, DONE, Run, start
 from toryu.remote.job import Job
 
@@ -122,8 +123,8 @@ class Placement:
             self.network = [f"--peers={options.peers or peers_of(hosts, executables)}", "--collected"]
         for name, address in hosts.items():
             path, is_own = str(executables[name]), name in own
-            if is_own and options.remote_bin:
-                path = os.path.join(options.remote_bin, name)
+            if is_own:
+                path = os.path.join(options.remote_bin, name) if options.remote_bin else str(on_other_hosts(path))
             self.jobs[name] = Job(
                 name, address, launcher, os.path.abspath(path) if os.sep in path else path, folder=options.remote_folder,
                 packages=packages_there(options),

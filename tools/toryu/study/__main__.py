@@ -12,6 +12,7 @@ import sys
 import time
 
 from toryu import PROGRAMS, counted, program
+from toryu.installation import COMMAND
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
 from toryu.study import (bisection, calibration, calibration_search, charts, checks, elsewhere, hosts, map_file, metrics, page,
                          recession, recession_search, removal, runner, slurm, study_file, table, terms, timing, verdicts)
@@ -29,7 +30,7 @@ SBATCH = {"partition": "where the jobs go", "account": "who pays for them", "tim
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog="run.sh", allow_abbrev=False, description="Runs a study: a case over the axes that its file names. Runs "
+        prog=COMMAND.removeprefix("./"), allow_abbrev=False, description="Runs a study: a case over the axes that its file names. Runs "
         "that are done are kept, so the same command goes on where it was stopped.",
         epilog="Exit codes: 0 done (runs whose physics failed are results), 1 done but a run of a map hung, 2 bad input, "
                "5 a fault of the machine, 130 interrupted, else that of the run that ended the study.")

@@ -10,7 +10,7 @@ import sys
 import time
 from dataclasses import asdict, dataclass, field, replace
 
-from toryu import counted, program, results
+from toryu import PROGRAMS, counted, program, results
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.processes import (BAD_INPUT, DONE, INTERRUPTED, LAST_PATIENCE, PATIENCE, PHYSICS_FAILED, own_pause, pauses,
                              requests_to_end, start)
@@ -205,7 +205,9 @@ class Runner:
         return [replace(records[s.key], setting=s) for s in settings]
 
     def command(self, setting, *options):
-        return program.python("launch", self.study.case, f"--bin={self.bin}", *setting.options(), *options)
+        # On another machine the programs of an installation may be others.
+        where = [] if self.bin == PROGRAMS else [f"--bin={self.bin}"]
+        return program.python("launch", self.study.case, *where, *setting.options(), *options)
 
     def _whole_command(self, setting, goes_on):
         extra = ["--restart"] * goes_on + ["--no-report"] * (not self.study.keep_frames)

@@ -1,0 +1,11 @@
+# find_package(toryu): the target toryu::participant, to build another fluid or solid with (tests/participants/README.md).
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3)
+find_dependency(cereal)
+find_dependency(fmt)
+find_dependency(spdlog)
+find_dependency(tomlplusplus)
+find_dependency(CycloneDDS)
+find_dependency(OpenMP COMPONENTS CXX)
+find_dependency(ZLIB)
+include(${CMAKE_CURRENT_LIST_DIR}/toryu_targets.cmake)
