@@ -13,7 +13,7 @@ import pathlib
 import h5py
 import numpy as np
 
-from toryu import results
+from toryu import nearest, results
 
 
 class Values(np.ndarray):
@@ -37,6 +37,13 @@ class Values(np.ndarray):
         return f"{np.asarray(self)!r} [{self.unit}]"
 
 
+class Named(dict):
+    """Values by their names; what is not among them is told with the nearest."""
+
+    def __missing__(self, name):
+        raise KeyError(f"no '{name}'{nearest(str(name), list(self))}")
+
+
 class Frame:
     """The particles of one body at one time."""
 
@@ -55,7 +62,7 @@ class Frame:
     def __getitem__(self, name):
         """A field: n numbers, n x 2 of a vector, n x 2 x 2 of a tensor."""
         with h5py.File(self.path) as file:
-            field = file["VTKHDF/PointData"][name]
+            field = Named(file["VTKHDF/PointData"])[name]
             values, unit = field[:], unit_of(field)
         if values.ndim == 2:
             values = values[:, :2] if values.shape[1] == 3 else values.reshape(-1, 2, 2)
@@ -81,7 +88,7 @@ class Results:
     def series(self, name):
         """Column -> values of NAME.csv ("fluid", "solid", "coupler"), "time" among them."""
         columns = self._read(f"{name}.csv", results.read_series, name)
-        return {column.partition("[")[0]: Values(values, results.unit_of(column)) for column, values in columns.items()}
+        return Named({column.partition("[")[0]: Values(values, results.unit_of(column)) for column, values in columns.items()})
 
     def frames(self, name):
         """The frames of a body ("fluid", "solid", "walls") in the order of time."""
@@ -117,6 +124,6 @@ class Results:
             raise FileNotFoundError(f"{self.out / name}: the run left none")
         try:
             with h5py.File(path) as file:
-                return {key: Values(dataset[()], unit_of(dataset)) for key, dataset in file.items()}
+                return Named({key: Values(dataset[()], unit_of(dataset)) for key, dataset in file.items()})
         except results.DAMAGED as error:
             raise ValueError(f"{path} cannot be read: {error}") from None

@@ -249,7 +249,7 @@ class Run:
 
     def _show(self, process, lines):
         for line in (line.decode(errors="replace") for line in lines):
-            if re.search(r"\berror\b", line, re.IGNORECASE):
+            if re.search(r"\berror:", line, re.IGNORECASE):
                 process.held_lines.append(line)
             else:
                 tell(line)

@@ -5,8 +5,8 @@ import signal
 import subprocess
 
 from toryu import PROGRAMS, program, results
-from toryu.case import resolve
-from toryu.processes import DONE, start
+from toryu.case import BadCase, resolve
+from toryu.processes import BAD_INPUT, DONE, start
 from toryu.study.settings import toml
 
 
@@ -23,8 +23,12 @@ def run(case, set={}, out=None, options=()):
     the results, by default out/<case name>; `options`: more of run.sh's, as ["--end-time=0.1", "--fluid=my_fluid.py"]. Raises
     RunFailed. An interruption is passed on and waited for, so that the programs end in order."""
     case = os.fspath(case)
+    options = [options] if isinstance(options, str) else options
     if out is None:
-        out = os.path.join("out", resolve(case, PROGRAMS / "coupler").name)
+        try:
+            out = os.path.join("out", resolve(case, PROGRAMS / "coupler").name)
+        except BadCase as fault:
+            raise RunFailed(BAD_INPUT, str(fault)) from None
     settings = [f"--set={key}={toml(getattr(value, 'tolist', lambda: value)())}" for key, value in set.items()]
     process = start(program.python("launch", case, *settings, f"--out={os.fspath(out)}", *options), subprocess.PIPE)
     try:

@@ -72,6 +72,14 @@ class Arrays(unittest.TestCase):
             with self.assertRaisesRegex(FileNotFoundError, f"{name}: the run left none"):
                 ask(self.read())
 
+    def test_a_name_that_is_not_there_is_told_with_the_nearest(self):
+        made_up_run.write_series(self.out, "fluid", {"time[s]": [0, 1], "gauge_level[m]": [1, 2]})
+        with self.assertRaisesRegex(KeyError, "no 'guage_level'; did you mean 'gauge_level'?"):
+            self.read().series("fluid")["guage_level"]
+        made_up_run.write_frames(self.out, "fluid", lambda time: (np.zeros((1, 2)), {"pressure": ("Pa", np.zeros(1))}), [0, 1])
+        with self.assertRaisesRegex(KeyError, "no 'presure'; did you mean 'pressure'?"):
+            self.read().frames("fluid")[0]["presure"]
+
     def test_what_is_damaged(self):
         for name in ("fluid.csv", "fluid.hdf.series", "fluid_summary.toml", "interface.h5"):
             (self.out / name).write_text("nothing,of\n\x00use")
@@ -98,6 +106,15 @@ class Running(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(toryu.RunFailed, "did you mean 'density'") as failed:
             toryu.run(CASE, set={"fluid.densty": 1000}, out=folder)
         self.assertEqual(failed.exception.exit_code, 2)
+
+    def test_a_case_that_is_not_there_fails_alike_without_a_folder_for_results(self):
+        with self.assertRaisesRegex(toryu.RunFailed, "/nowhere: error: no such file or folder") as failed:
+            toryu.run("/nowhere")
+        self.assertEqual(failed.exception.exit_code, 2)
+
+    def test_one_option_may_be_a_text(self):
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(toryu.RunFailed, "--no-such: error: unknown option"):
+            toryu.run(CASE, out=folder, options="--no-such")
 
 
 if __name__ == "__main__":

@@ -143,6 +143,10 @@ class Failures(Launch):
         self.assertLess(time.monotonic() - start, 30)
         self.assert_nothing_left()
 
+    def test_a_line_that_speaks_of_an_error_is_none(self):
+        self.plan(solid="say relative error 1e-3")
+        self.assertIn("relative error 1e-3", self.launch().stderr)
+
     def test_lines_of_the_others_are_passed_on(self):
         self.plan(coupler="wait 0.3", solid="say solid_solver: warning: coarse")
         done = self.launch()

@@ -174,7 +174,7 @@ class Faults(Surroundings):
         text.chmod(0o755)
         done = self.launch("--fluid", str(text), "--no-report")
         self.assertEqual(done.returncode, 2)
-        self.assertIn(f"{text}: error: Exec format error\n", done.stderr)
+        self.assertIn(f"{text}: error: cannot be started: Exec format error; ", done.stderr)
         self.assert_nothing_left()
 
     def test_the_cause_is_who_failed_not_who_was_told(self):
