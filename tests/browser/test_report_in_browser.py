@@ -151,6 +151,16 @@ class ReportInBrowser(unittest.TestCase):
             select.select_by_index(1)
             WebDriverWait(self.browser, 60).until(lambda _: self.picture() != before)
 
+    def test_marks_of_a_narrow_range_differ(self):
+        self.open("coupled")
+
+        def marks(low, high):
+            return self.browser.execute_script("return marksBetween(arguments[0], arguments[1])", low, high)
+
+        self.assertEqual(marks(0, 100), ["0", "25", "50", "75", "100"])
+        self.assertEqual(marks(0.99932, 1.00252), ["0.99932", "1.0001", "1.0009", "1.0017", "1.0025"])
+        self.assertEqual(marks(2.5, 2.5), ["2.5"] * 5)
+
     def test_play_runs_to_the_end_and_stops(self):
         self.open("coupled")
         Select(self.browser.find_element(By.ID, "speed")).select_by_value("2")

@@ -126,6 +126,16 @@ class Player {
   }
 }
 
+// Five numbers from `low` to `high`, with more digits where the range is narrow: they would all be alike.
+function marksBetween(low, high) {
+  const apart = Math.max(Math.abs(low), Math.abs(high)) / (high - low);
+  const digits = Math.min(7, 3 + Math.max(0, Math.floor(Math.log10(apart)) || 0));
+  return [0, 0.25, 0.5, 0.75, 1].map((share) => {
+    const value = +(low + share * (high - low)).toPrecision(digits);
+    return digits > 4 ? String(value) : text(value);
+  });
+}
+
 // The choice of colour of a participant, of one run or of two, with its colour bar; returns what brings the bar up to date.
 function colourChoice(parent, bodies, changed) {
   const [{name, quantities}] = bodies;
@@ -150,8 +160,7 @@ function colourChoice(parent, bodies, changed) {
     const stops = Array.from({length: 17}, (_, i) => `rgb(${body.table[Math.round(i * 255 / 16)]})`);
     scale.style.background = `linear-gradient(to right, ${stops})`;
     marks.replaceChildren();
-    for (const share of [0, 0.25, 0.5, 0.75, 1])
-      html("span", {}, marks, text(+(body.low + share * (body.high - body.low)).toPrecision(3)));
+    for (const mark of marksBetween(body.low, body.high)) html("span", {}, marks, mark);
   };
 }
 
