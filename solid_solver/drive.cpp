@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "common/scene/bodies.hpp"
@@ -82,6 +83,19 @@ double Drive::fastest_sine() const {
     if (change->turning) look(change->turning->sine, itself);
   }
   return 2 * std::numbers::pi * frequency;
+}
+
+double Drive::shortest_interval() const {
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Rows& rows) {
+    for (std::size_t k = 1; k < rows.size(); ++k) shortest = std::min(shortest, rows[k][0] - rows[k - 1][0]);
+  };
+  for (const Share& share : changing_) look(share.load.factor);
+  if (const auto& change = scene_.gravity_change) {
+    look(change->acceleration);
+    if (change->turning) look(change->turning->angle), look(change->turning->angular_velocity);
+  }
+  return shortest;
 }
 
 Pose Drive::pose(double t) const {

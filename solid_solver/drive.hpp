@@ -23,8 +23,10 @@ class Drive {
   bool is_forced(std::size_t particle) const { return forced_[particle] != 0; }
   /// By gravity and loads, of each particle [m/s2].
   std::vector<Vec> accelerations(double t) const;
-  /// Of the fastest sine in them; tables are not asked [rad/s].
+  /// Of the fastest sine in them [rad/s].
   double fastest_sine() const;
+  /// Between two rows of a table in them [s]; infinite without tables.
+  double shortest_interval() const;
   /// Of them what never changes.
   const std::vector<Vec>& steady() const { return steady_; }
 

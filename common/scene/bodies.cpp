@@ -117,9 +117,10 @@ class Bodies {
       for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
         for (const Body& other : *bodies)
           if (!is_left_out(other)) keep_apart(region, other, 0, "", found);
+    const bool rigid = file_.value<std::string>("solid.formulation") == "rigid";  // which takes no clamps
     for (const Body& wall : bodies_.walls) {
       for (const Body& part : bodies_.free)
-        keep_apart(wall, part, 0, "; what a wall holds of a solid is a [[solid.clamp]]", found);
+        keep_apart(wall, part, 0, rigid ? "" : "; what a wall holds of a solid is a [[solid.clamp]]", found);
       for (const Held& part : bodies_.held) keep_together(wall, part, found);
     }
     for (std::size_t i = 0; i < bodies_.held.size(); ++i)

@@ -18,6 +18,9 @@ namespace {
 
 constexpr double largest_turn_of_step = 1.0 / 20;  // of the phase of what swings, or of the body [rad]
 constexpr double steps_of_frame = 20, steps_of_run = 1000;
+/// Rows of a load's table are resolved, but for a jump, whose two rows may be as near as one likes: a step
+/// may be as long as this share of the longest.
+constexpr double step_of_jump = 1e-3;
 /// Of a particle that touches a wall firmly. The wall begins and ends to push within a step: a bounce is then
 /// within half a percent of its energy, at 2, where a step is just stable, within 20 % [rad].
 constexpr double contact_phase_of_step = 0.5;
@@ -192,6 +195,8 @@ double RigidBody::time_step_limit() const {
       (natural_frequencies() + damping + Coordinates(0, 0, turning)).cwiseProduct(free_);
   double limit =
       std::min(longest_step_, largest_turn_of_step / std::max(rates.maxCoeff(), drive_.fastest_sine()));
+  limit = std::min(limit,
+                   std::max(largest_turn_of_step * drive_.shortest_interval(), step_of_jump * longest_step_));
   if (walls_) limit = std::min(limit, contact_phase_of_step / walls_->highest_frequency());
   return parameters_.time_step_share * limit;
 }
@@ -239,9 +244,11 @@ std::vector<ActiveTerm> RigidBody::active_terms() const {
             fmt::format("natural frequency in {} {:.6g} Hz", name, omega / (2 * std::numbers::pi)));
       if (c > 0 && k > 0)
         parts.push_back(fmt::format("damping ratio in {} {:.4g}", name, 0.5 * c / (inertia_[n] * omega)));
+      else if (c > 0)
+        parts.push_back(fmt::format("decay time in {} {:.4g} s", name, inertia_[n] / c));
     }
-    terms.push_back(
-        {"mounting", "F = -k (q - q_rest) - c dq/dt", "", fmt::format("{}", fmt::join(parts, ", "))});
+    terms.push_back({"mounting", "F = -k (q - q_rest) - c dq/dt", "",
+                     parts.empty() ? "holds nothing" : fmt::format("{}", fmt::join(parts, ", "))});
   }
   for (auto& term : SolidModel::active_terms()) terms.push_back(std::move(term));
   return terms;

@@ -28,7 +28,8 @@ class RigidBody final : public SolidModel {
   RigidBody(const Parameters& parameters, const Body& body, const Scene& scene);
 
   /// A share of what resolves the motion: 1/20 radian of the fastest spring, damper, turn or sine of a load,
-  /// 1/2 of a wall it touches, and 1/20 of the interval of frames (without frames 1/1000 of the run).
+  /// 1/2 of a wall it touches, and 1/20 of the interval of frames (without frames 1/1000 of the run) and of
+  /// the shortest between rows of a load's table.
   double time_step_limit() const override;
   std::string_view time_step_rule() const override { return "accuracy"; }
   void advance(double dt) override;

@@ -103,6 +103,11 @@ INSTANTIATE_TEST_SUITE_P(
         Scenery{"AFreeGateInAWall", gate + wall("post", "min=[1,0.5], max=[1.1,1.5]"),
                 "case.toml:20:1: error: the wall 'post' overlaps the solid's region 'gate' near (1.05, "
                 "0.75) m; what a wall holds of a solid is a [[solid.clamp]]"},
+        Scenery{"ARigidFloatInAWall",
+                water + "[solid]\nformulation='rigid'\n[[solid.region]]\nname='float'\n" +
+                    "box={min=[1,0], max=[1.1,1]}\n" + wall("post", "min=[1,0.5], max=[1.1,1.5]"),
+                "case.toml:17:1: error: the wall 'post' overlaps the solid's region 'float' near (1.05, "
+                "0.75) m"},
         Scenery{"TwoWalls",
                 gate + wall("a", "min=[-2,-2], max=[-1,-1]") + wall("b", "min=[-2,-1.5], max=[-1,0]"),
                 "case.toml:23:1: error: the wall 'b' overlaps the wall 'a' near (-1.5, -1.25) m"},

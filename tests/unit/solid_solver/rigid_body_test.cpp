@@ -235,6 +235,22 @@ TEST(RigidBody, RestsOnAWall) {
   EXPECT_NEAR(body.coordinates()[2], 0, 1e-9);
 }
 
+TEST(RigidBody, TakesAllOfABlow) {
+  Scene scene = empty_scene();
+  scene.frame_interval = 0.05;
+  Parameters p = bar();
+  for (const double length : {4e-4, 1e-9}) {  // a blow, and a force that jumps
+    const Rows blow = length > 1e-6 ? Rows{{0.02, 0}, {0.02 + length, 1}, {0.02 + 2 * length, 0}}
+                                    : Rows{{0.02, 0}, {0.02 + length, 1}};
+    p.loads = {{.name = "blow", .box = {Vec(0, 0), Vec(1, 1)}, .force = Vec(0, 1000), .factor = blow}};
+    RigidBody body = rigid(p, scene);
+    run_to(body, 0.03);
+    const double impulse = 1000 * (length > 1e-6 ? length : 0.01);
+    EXPECT_NEAR(m * body.velocities()[1] / impulse, 1, 5e-3) << length;
+    EXPECT_GE(body.time_step_limit(), 1e-6);
+  }
+}
+
 TEST(RigidBody, BouncesWithItsEnergy) {
   Scene scene = empty_scene();
   scene.gravity = Vec(0, -10);
@@ -272,6 +288,18 @@ TEST(RigidBody, ResolvesWhatSwingsTurnsAndIsShown) {
   EXPECT_DOUBLE_EQ(rigid(p, scene).time_step_limit(), 0.05 / (10 * std::numbers::pi));
   p.loads = {{.name = "push", .box = {Vec(0, 0), Vec(1, 1)}, .force = Vec(0, 1), .sine = {Pulse{{1, 50}}}}};
   EXPECT_DOUBLE_EQ(rigid(p, scene).time_step_limit(), 0.05 / (100 * std::numbers::pi));
+}
+
+TEST(RigidBody, TellsWhatHoldsIt) {
+  const auto told = [](const Mounting& mounting) {
+    for (const auto& term : rigid(mounted(mounting)).active_terms())
+      if (term.name == "mounting") return term.parameters;
+    return std::string();
+  };
+  EXPECT_EQ(told({}), "holds nothing");
+  EXPECT_EQ(told({.fixed = {"x"}, .damping = Vec(0, 3.2)}), "x fixed, decay time in y 0.5 s");
+  EXPECT_EQ(told({.stiffness = Vec(0, 6.4), .damping = Vec(0, 3.2)}),
+            "natural frequency in y 0.31831 Hz, damping ratio in y 0.5");
 }
 
 TEST(RigidBody, SharesItsWholeMassWithWhatTheFluidTouches) {
