@@ -251,6 +251,13 @@ class Python(unittest.TestCase):
             run.signal("fluid", signal.SIGINT)
             self.assert_end(run, "fluid", INTERRUPTED)
 
+    def test_a_thread_that_goes_on_after_the_run_is_not_waited_for_for_ever(self):
+        thread = ("import threading; participant.PATIENCE = 1\n"
+                  "    threading.Thread(target=time.sleep, args=[1000]).start()")
+        with self.fluid(more=thread, end_time="0.001") as run:
+            run.start_all()
+            self.assert_end(run, "fluid", DONE, "a thread of this program goes on after 1 s: it is ended")
+
     def wait_for(self, condition):
         end = time.monotonic() + LIMIT
         while not condition():

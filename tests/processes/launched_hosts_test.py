@@ -131,6 +131,9 @@ class Refusal(HostsCase):
         self.assert_end(run.start(ON_THREE, SHORT, "--remote-bin=/nowhere"), BAD_INPUT,
                         "fluid_solver: error: 10.77.0.2: has no program /nowhere/fluid_solver",
                         "solid_solver: error: 10.77.0.3: has no program /nowhere/solid_solver")
+        self.assert_end(run.start(("fluid",), SHORT, "--fluid=/nowhere/mine.py"), BAD_INPUT,
+                        "fluid_solver: error: 10.77.0.2: has no program /nowhere/mine.py: copy it there: --fluid and --solid "
+                        "are paths of their hosts")
         other = run.disk("fluid") / "fluid_solver"
         other.write_text("#!/bin/sh\necho 'fluid_solver of toryu 0.0.1 (commit 1234567, GCC 1)'\n")
         other.chmod(0o755)

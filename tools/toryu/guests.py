@@ -14,6 +14,8 @@ from toryu.program import SHORTAGES
 
 ANSWER_LIMIT = 5.0  # [s] in which a program says whether it can write checkpoints
 FRAME = re.compile(r'^ +File "(.+)", line (\d+)', re.MULTILINE)  # of a traceback of Python
+# Without a frame: by toryu.participant, and of a file that is no text in UTF-8 or may not be read.
+OF_PYTHON = re.compile(r"^(?:error: |SyntaxError: |\S+: can't open file ).*$", re.MULTILINE)
 NOT_THE_USERS = ("<frozen ", os.path.dirname(os.path.abspath(__file__)), f"{sys.base_prefix}/lib/")
 
 
@@ -67,12 +69,13 @@ def first_line(program):
 
 
 def mistake_in(text):
-    """FILE:LINE: error: WHAT of the last traceback in `text`, or what toryu.participant says by itself; "" if there is none.
-    The place is the last one that is neither in toryu nor in a package."""
+    """FILE:LINE: error: WHAT of the last traceback in `text`, or what is said in the place of one; "" if there is none. The
+    place is the last one that is neither in toryu nor in a package."""
     *_, told = re.split(r"^Traceback .*$", text, flags=re.MULTILINE)
     frames = list(FRAME.finditer(told))
     if not frames:
-        return next((line for line in text.splitlines() if line.startswith("error: ")), "")
+        found = OF_PYTHON.search(text)
+        return found[0] if found else ""
     own = [frame for frame in frames if not frame[1].startswith(NOT_THE_USERS)]
     place = (own or frames)[-1]
     what = re.search(r"^\w.*$", told[frames[-1].end():], re.MULTILINE)

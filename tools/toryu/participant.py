@@ -25,16 +25,18 @@ import dataclasses
 import functools
 import io
 import json
+import os
 import pathlib
 import re
 import sys
+import threading
 import traceback
 from dataclasses import dataclass
 
 import numpy as np
 
 from toryu import PROGRAMS
-from toryu.processes import BAD_INPUT, BUG, PHYSICS_FAILED
+from toryu.processes import BAD_INPUT, BUG, PATIENCE, PHYSICS_FAILED
 
 COLUMN = re.compile(r'([^,"\[\]]+)\[([^,"\[\]]*)\]')  # as CSV has it without quotes
 NUMBERS = (bool, int, float, complex)  # of Python, whose arithmetic is that of numpy's
@@ -141,7 +143,11 @@ class Participant:
         """Runs the participant as a program with the options of the solvers, named as its file, and ends Python with its
         exit code."""
         name = pathlib.Path(sys.argv[0]).stem
-        sys.exit(compiled().run(name, cls.side, cls.state is not None, functools.partial(Checked, cls), sys.argv))
+        code = compiled().run(name, cls.side, cls.state is not None, functools.partial(Checked, cls), sys.argv)
+        ending = threading.Timer(PATIENCE, give_up_threads, [name, code])
+        ending.daemon = True
+        ending.start()
+        sys.exit(code)
 
 
 class Fluid(Participant):
@@ -160,6 +166,13 @@ class Solid(Participant):
     `advance(window, load)`, which answers a Motion, in each window."""
 
     side = "solid"
+
+
+def give_up_threads(name, code):
+    """Ends Python, which waits for ever for a thread of the participant that goes on."""
+    print(f"{name}: warning: the run is over, and a thread of this program goes on after {PATIENCE:g} s: it is ended",
+          file=sys.stderr, flush=True)
+    os._exit(code)
 
 
 def compiled():

@@ -82,6 +82,13 @@ class Mistakes(Launch):
         for options in ((), ("--check",)):
             self.assert_refused(":2: error: SyntaxError: expected ':'", *options)
 
+    def test_in_how_it_is_encoded(self):
+        self.guest.write_bytes(b"#!/usr/bin/python3\n'\xff'\n")
+        self.guest.chmod(0o755)
+        done = self.launch("--fluid", str(self.guest))
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, "^SyntaxError: .*my_fluid.py.* line 2, .*\n$")
+
     def test_of_what_is_imported(self):
         self.write("#!/usr/bin/python3", "import no_such_module")
         self.assert_refused(":2: error: ModuleNotFoundError: No module named 'no_such_module'")

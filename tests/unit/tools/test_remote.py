@@ -75,6 +75,16 @@ class Messages(Folders):
                 b.receive(5)
 
 
+class Packages(unittest.TestCase):
+    def test_are_beside_the_programs_there(self):
+        def there(remote_bin):
+            return placement.packages_there(types.SimpleNamespace(remote_bin=remote_bin)).split(":")
+
+        self.assertEqual(there(None), [str(pathlib.Path(placement.__file__).parents[2])])
+        self.assertIn("/home/me/toryu/tools", there("/home/me/toryu/build/release/bin"))
+        self.assertIn("/opt/toryu/lib/toryu/tools", there("/opt/toryu/bin/"))
+
+
 class Hosts(Folders):
     def test_that_let_nobody_in_are_told_with_their_words(self):
         for words, end in (("echo 'This account is not available.'", "it ended: This account is not available.;"),

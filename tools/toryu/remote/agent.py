@@ -77,7 +77,9 @@ class Agent:
         """Tells the version of the program, and makes the folder of the run."""
         program = wanted["program"]
         if not shutil.which(program):
-            raise Fault(f"has no program {program}: build toryu there, or give the folder of its programs by --remote-bin")
+            hint = ("build toryu there, or give the folder of its programs by --remote-bin" if wanted["asks_version"] else
+                    "copy it there: --fluid and --solid are paths of their hosts")
+            raise Fault(f"has no program {program}: {hint}")
         version = ""
         if wanted["asks_version"]:
             version = version_of(program)

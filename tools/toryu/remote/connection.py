@@ -99,6 +99,7 @@ class Connection:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self.leader.pid, signal.SIGKILL)
         self.leader.wait()
+        self.leader.stdout.close()
 
     def _unreached(self, is_silent):
         """Why there is no agent, and what must work."""
@@ -109,8 +110,9 @@ class Connection:
                           "nothing", MACHINE)
 
     def _listen(self):
-        for line in self.leader.stderr:
-            self.said = [*self.said[-20:], line.decode(errors="replace").rstrip()]
+        with self.leader.stderr:
+            for line in self.leader.stderr:
+                self.said = [*self.said[-20:], line.decode(errors="replace").rstrip()]
 
     def _words(self, output=b""):
         """The last ones on standard error, or else of its `output`: a login that is not allowed says so there."""

@@ -174,10 +174,11 @@ class Placement:
 
 
 def packages_there(options):
-    """Where a program in Python finds toryu on a host: beside the build there."""
+    """Where a program in Python finds toryu on a host: beside the build, or the command of an installation, there."""
     if not options.remote_bin:
         return str(program.PACKAGE.parent)
-    return os.path.normpath(os.path.join(os.path.abspath(options.remote_bin), "../../../tools"))
+    return os.pathsep.join(os.path.abspath(os.path.join(options.remote_bin, tools)) for tools in
+                           ("../../../tools", "../lib/toryu/tools"))
 
 
 def silence_of(options):
