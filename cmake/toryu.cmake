@@ -83,7 +83,7 @@ function(toryu_test name)
     TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT OMP_NUM_THREADS=1)
 endfunction()
 
-# toryu_python_test(NAME SCRIPT test.py [ARGUMENTS a ...] [MODULES folder ...] [LABEL unit] [TIMEOUT 300]
+# toryu_python_test(NAME SCRIPT test.py [ARGUMENTS a ...] [MODULES folder ...] [LABEL unit] [TIMEOUT 900]
 # [ENVIRONMENT A=1 ...]): a unittest file, one CTest entry. Debian's own Python runs it: that one has h5py and VTK. It
 # finds the packages of tools/ and tests/, and the modules of the given folders.
 function(toryu_python_test name)
@@ -92,7 +92,7 @@ function(toryu_python_test name)
     set(ARG_LABEL unit)
   endif()
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
+    set(ARG_TIMEOUT 900)  # some start a hundred processes
   endif()
   add_test(NAME ${name} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT} ${ARG_ARGUMENTS})
   string(JOIN ":" path ${PROJECT_SOURCE_DIR}/tools ${PROJECT_SOURCE_DIR}/tests ${ARG_MODULES})
