@@ -147,7 +147,7 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
                "a flow whose density is chosen knows of no gravity that changes: leave one of the two out");
   if (parameters.enclosed_medium && file.has("solid"))
     file.fault("fluid.enclosed_medium",
-               "an elastic solid bears the pressures that move the fluid: give [fluid.background_pressure]");
+               "a solid bears the pressures that move the fluid: give [fluid.background_pressure]");
   const bool pressed =
       std::any_of(scene.walls.begin(), scene.walls.end(), [](const Wall& w) { return w.press; });
   if (pressed && parameters.integrator == fluid::Integrator::midpoint)
@@ -159,9 +159,8 @@ void check_sections(CaseFile& file, const Scene& scene, const fluid::Parameters&
   else if (medium && !pressed && !(medium->mean_pressure > 0))
     file.fault("fluid.enclosed_medium", "without a pressed wall the medium needs a 'mean_pressure' above 0");
   if (parameters.held_volume && (pressed || file.has("solid") || parameters.has_open_ends()))
-    file.fault(
-        "fluid.held_volume",
-        "pressed walls, an elastic solid and open ends leave the medium no volume of its own: leave it out");
+    file.fault("fluid.held_volume",
+               "pressed walls, a solid and open ends leave the medium no volume of its own: leave it out");
   if (parameters.wall_slip && file.has("solid"))
     file.fault(
         "fluid.wall_slip",
@@ -200,6 +199,21 @@ std::vector<Part> solid_parts(const CaseFile& file, const Scene& scene) {
   std::vector<Part> parts;
   for (const Body& body : CaseBodies(file, scene).solid) parts.push_back(body.part);
   return parts;
+}
+
+/// Refuses what needs walls all around where there is a free surface at the start.
+void check_enclosed(FluidModel& model, const fluid::Parameters& parameters) {
+  const bool implicit = parameters.model == fluid::Model::implicit;
+  if (!(parameters.enclosed_medium || parameters.held_volume || implicit) || model.is_enclosed()) return;
+  if (parameters.enclosed_medium)
+    throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
+                     "the fluid has a free surface at the start, where its pressure is 0: give no "
+                     "mean pressure"}});
+  if (parameters.held_volume)
+    throw BadInput({{"[fluid.held_volume]", 0, 0,
+                     "the fluid has a free surface at the start: nothing holds its volume"}});
+  const auto [key, message] = fluid::implicit_surface_fault();
+  throw BadInput({{key, 0, 0, message}});
 }
 
 ExitCode solve(const Options& options) {
@@ -241,17 +255,7 @@ ExitCode solve(const Options& options) {
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
   check_start(model, "[fluid]");
-  if (parameters.enclosed_medium && !model.is_enclosed())
-    throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
-                     "the fluid has a free surface at the start, where its pressure is 0: give no "
-                     "mean pressure"}});
-  if (parameters.held_volume && !model.is_enclosed())
-    throw BadInput({{"[fluid.held_volume]", 0, 0,
-                     "the fluid has a free surface at the start: nothing holds its volume"}});
-  if (parameters.model == fluid::Model::implicit && !model.is_enclosed()) {
-    const auto [key, message] = fluid::implicit_surface_fault();
-    throw BadInput({{key, 0, 0, message}});
-  }
+  check_enclosed(model, parameters);
   model.record_surface(options.out);  // which has columns
   check_columns(model, "[fluid]");
   check_series(file, scene, "fluid", model, [coupled = file.has("solid")](const std::string& column) {

@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
               "volume"},
         Fault{"VolumeBesidePresses",
               "fluid.held_volume={}' --set 'wall.0.press={force=[[0,1]], direction=\"+y\", travel=[0,1e-9]}",
-              "--set fluid.held_volume={}: error: pressed walls, an elastic solid and open ends leave the "
+              "--set fluid.held_volume={}: error: pressed walls, a solid and open ends leave the "
               "medium no "
               "volume of its own: leave it out"},
         Fault{"EnclosedByNothing", "fluid.enclosed_medium={}",
