@@ -103,7 +103,9 @@ class Launched:
                 continue
             if words:  # else it has ended, and nobody has looked at it yet
                 running.append(words.decode(errors="replace"))
-        return running + [str(path) for role in ROLES for path in self.disk(role).rglob("*")]
+        # os.walk bears folders that go away meanwhile
+        return running + [os.path.join(folder, name) for role in ROLES for folder, folders, files in os.walk(self.disk(role))
+                          for name in folders + files]
 
     def processes_on(self, role):
         """Of the host of `role`: program -> process, "agent" too."""
