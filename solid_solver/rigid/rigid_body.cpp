@@ -81,12 +81,17 @@ Pose RigidBody::pose() const {
           .rotation = Eigen::Rotation2Dd(form_.q[dim]).toRotationMatrix()};
 }
 
+void RigidBody::move_particles() {
+  const Pose now = pose();
+  for (std::size_t k = 0; k < X_[0].size(); ++k) set(state_.v, k, now.velocity_of(at(X_, k)));
+}
+
 void RigidBody::place_particles() {
   const Pose now = pose();
+  move_particles();
   for (std::size_t k = 0; k < X_[0].size(); ++k) {
     const Vec X = at(X_, k);
     set(state_.u, k, now.place(X) - X);
-    set(state_.v, k, now.velocity_of(X));
     if (walls_) set(x_, k, period_.inside(now.place(X)));
   }
   if (!walls_) return;
@@ -145,7 +150,7 @@ void RigidBody::advance(double dt) {
   form_.v = resistance.drift;
   place_particles();
   form_.v += 0.5 * dt * free_.cwiseProduct(force() + resistance.force).cwiseQuotient(inertia_);
-  place_particles();
+  move_particles();
   count_impulses(0.5 * dt);
   if (parameters_.mounting)
     state_.impulses.clamps = momentum() - first_momentum_ - state_.impulses.loads - state_.impulses.walls;

@@ -77,7 +77,8 @@ class RigidBody final : public SolidModel {
   Coordinates force() const;  ///< at the present place [N/m], [N.m/m]
   /// Finds w and what goes with it; counts what the impedance takes.
   Resistance resist(double dt);
-  void place_particles();
+  void place_particles();  ///< with their velocities, and what walls do to them there
+  void move_particles();   ///< their velocities alone
   double spring_energy() const;
   Coordinates natural_frequencies() const;  ///< by the springs, undamped [rad/s]
   /// How fast the angle would swing by the moments of gravity and loads alone, at most [rad/s].

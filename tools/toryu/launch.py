@@ -24,7 +24,7 @@ from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAIL
 from toryu.remote.placement import Placement, add_options
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
-PACKAGES = str(pathlib.Path(__file__).resolve().parents[1])  # where a program in Python finds toryu
+PACKAGES = str(ROOT / "tools")  # where a program in Python finds toryu
 MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
 PACKAGE_FOR = {".svg": "svgelements", ".dxf": "ezdxf"}  # of Python, that reads such drawings
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
@@ -35,7 +35,8 @@ ENVIRONMENT = {"OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "1000"}
 
 def parse(arguments):
     parser = argparse.ArgumentParser(
-        prog=COMMAND.removeprefix("./"), allow_abbrev=False, description="Runs a case: a folder with a case.toml, or the file itself. A file "
+        prog=COMMAND.removeprefix("./"), allow_abbrev=False, description="Runs a case: a folder with "
+        "a case.toml, or the file itself. A file "
         f"with a table [study] is a study; its options: {COMMAND} STUDY.toml --help.",
         epilog="Ctrl-C asks the programs to write a last checkpoint and to end; a second one ends them at once. All other "
                "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "

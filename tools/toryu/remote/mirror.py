@@ -23,9 +23,9 @@ def check_sum(path, size):
     return total
 
 
-def send_file(channel, path, name, start=0, **content):
-    """Sends what a file holds from byte `start` on, as `name`; returns its size and check sum as they were sent."""
-    total = check_sum(path, start)
+def send_file(channel, path, name, start=0, total=0, **content):
+    """Sends what a file holds from byte `start` on, as `name`, `total` the check sum of what is before; returns its size and
+    check sum as they were sent."""
     with open(path, "rb") as file:
         facts = os.fstat(file.fileno())
         file.seek(start)
@@ -161,7 +161,7 @@ class Mirror:
         name, facts = self._name(path), path.stat()
         known = self.known.get(name)
         grown = known and 0 < known.size <= facts.st_size and check_sum(path, known.size) == known.check_sum
-        size, total = send_file(self.channel, path, name, known.size if grown else 0)
+        size, total = send_file(self.channel, path, name, *((known.size, known.check_sum) if grown else ()))
         self.known[name] = Known(size, facts.st_mtime_ns, total)
         if name.startswith(FRAMES) or name.startswith(CHECKPOINTS) and not self.keeps_checkpoints:
             path.unlink()
