@@ -11,7 +11,6 @@ import os
 import pathlib
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,8 +19,9 @@ from toryu import PROGRAMS, guests, program, replay, summary_text
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.installation import COMMAND, ROOT
+from toryu.launch_options import parse
 from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED
-from toryu.remote.placement import Placement, add_options
+from toryu.remote.placement import Placement
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
 
 PACKAGES = str(ROOT / "tools")  # where a program in Python finds toryu
@@ -31,57 +31,6 @@ PACKAGE_FOR = {".svg": "svgelements", ".dxf": "ezdxf"}  # of Python, that reads 
 # beside other programs a spinning thread keeps the one it waits for from its core (dam break: 3 to 5 times slower).
 # A short spin first bridges the gaps within a step (gate: 13 % faster on idle cores).
 ENVIRONMENT = {"OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "1000"}
-
-
-def parse(arguments):
-    parser = argparse.ArgumentParser(
-        prog=COMMAND.removeprefix("./"), allow_abbrev=False, description="Runs a case: a folder with "
-        "a case.toml, or the file itself. A file "
-        f"with a table [study] is a study; its options: {COMMAND} STUDY.toml --help.",
-        epilog="Ctrl-C asks the programs to write a last checkpoint and to end; a second one ends them at once. All other "
-               "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
-               "4 a process was lost, 5 a fault of the machine (disk, network, threads), 130 interrupted.")
-    parser.add_argument("case", metavar="CASE", nargs="?")
-    parser.add_argument("--out", metavar="DIR", help="results folder; default out/<case name>. Results of a former run "
-                        "that are there are kept in DIR.1, DIR.2, ...")
-    parser.add_argument("--overwrite", action="store_true", help="remove the results of a former run")
-    parser.add_argument("--restart", metavar="FOLDER", nargs="?", const="", help="go on with the run in the results "
-                        "folder, or in FOLDER, from its newest checkpoint; with --end-time beyond its end")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[],
-                        help="another value for a key of the case file; repeatable")
-    parser.add_argument("--end-time", metavar="SECONDS")
-    parser.add_argument("--threads", metavar="N")
-    parser.add_argument("--log-level", metavar="LEVEL")
-    parser.add_argument("--lost-after", metavar="SECONDS", help=argparse.SUPPRESS)
-    parser.add_argument("--check", action="store_true", help="only check the case file")
-    parser.add_argument("--picture", metavar="FILE", nargs="?", const="", help="with --check: draw the scene as an SVG or, by "
-                        "the ending of FILE, a PNG; default out/<case name>_scene.svg")
-    parser.add_argument("--compare", metavar=("OUT_A", "OUT_B"), nargs=2, help="lay the results of two runs over each other, "
-                        "in place of a run")
-    parser.add_argument("--describe", action="store_true", help="list the keys of the case's sections with units, "
-                                                                "defaults and ranges")
-    parser.add_argument("--print-case", action="store_true", help="print the case as it is read, with its base and the "
-                                                                  "values of --set")
-    parser.add_argument("--replay", metavar="RESULTS", help="run one side alone, against what the other one answered in "
-                        "the run that left RESULTS with [coupling] record = 'every_window'; what it answers is compared")
-    parser.add_argument("--only", choices=["fluid", "solid"], help="the side of a replay that runs")
-    parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
-    parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
-    add_options(parser)
-    parser.add_argument("--no-report", action="store_true", help="leave report.html and frames.py out")
-    parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
-                        help=argparse.SUPPRESS)
-    options, unknown = parser.parse_known_args(arguments)
-    if options.case is None and options.restart and any(
-            map(os.path.isfile, (options.restart, os.path.join(options.restart, "case.toml")))):
-        options.case, options.restart = options.restart, ""  # "--restart CASE": the case stands where a folder may
-    if options.case is None:
-        parser.error("the following arguments are required: CASE")
-    options.passed_on = [f"--set={pair}" for pair in options.set] + unknown
-    for name in ("end_time", "threads", "log_level", "lost_after"):
-        if (value := getattr(options, name)) is not None:
-            options.passed_on.append(f"--{name.replace('_', '-')}={value}")
-    return options
 
 
 def settle_replay(options, case):
