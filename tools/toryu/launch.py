@@ -270,9 +270,11 @@ def report(options, case, code, words):
 
 
 def compared_with_record(options):
+    from toryu import replay_comparison  # takes its time
+
     try:
-        return replay.sum_up(options)
-    except replay.BadRecord as error:
+        return replay_comparison.sum_up(options)
+    except replay_comparison.BadRecord as error:
         raise SystemExit(complain(str(error)))
 
 
