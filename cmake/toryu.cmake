@@ -63,7 +63,8 @@ add_custom_target(unit_tests)
 # toryu_test(NAME SOURCES a.cpp ... LIBRARIES x ... [LABEL unit] [TIMEOUT 300]): a GoogleTest executable, one CTest entry a test case.
 # Tests run side by side: one thread each unless a test asks for more. Two tests whose threads wait for each other on the
 # same two cores take thirty times as long. Its files are compiled several at once, which is faster: names of one that
-# clash with another's belong into a namespace of its own.
+# clash with another's belong into a namespace of its own. Of a unit's tests, a suite whose name ends in `Run` takes whole runs:
+# it is `validation`, which the sanitizers leave out.
 function(toryu_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_LABEL)
@@ -79,8 +80,14 @@ function(toryu_test name)
   if(ARG_LABEL STREQUAL "unit")
     add_dependencies(unit_tests ${name})
   endif()
-  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${ARG_LABEL}
-    TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT OMP_NUM_THREADS=1)
+  set(options NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT OMP_NUM_THREADS=1 LABELS)
+  set(runs "*Run.*")
+  if(ARG_LABEL STREQUAL "unit")
+    gtest_discover_tests(${name} TEST_FILTER "-${runs}" ${options} unit)
+    gtest_discover_tests(${name} TEST_FILTER "${runs}" ${options} validation)
+  else()
+    gtest_discover_tests(${name} ${options} ${ARG_LABEL})
+  endif()
 endfunction()
 
 # toryu_python_test(NAME SCRIPT test.py [ARGUMENTS a ...] [MODULES folder ...] [LABEL unit] [TIMEOUT 900]

@@ -29,7 +29,7 @@ double left(SchemeKind scheme, double mass, double angle, double dt, int steps, 
 
 constexpr double angles[] = {0.1, 0.3, 1.0, 1.6, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0};
 
-TEST(SerialRobin, MakesNoEnergyWhateverTheModeAndTheMass) {
+TEST(SerialRobinRun, MakesNoEnergyWhateverTheModeAndTheMass) {
   for (const double mass : {4.0, 1.0, 0.37, 0.1})
     for (const double angle : angles)
       EXPECT_LT(left(SchemeKind::serial_robin, mass, angle, 0.28, 1), 1)

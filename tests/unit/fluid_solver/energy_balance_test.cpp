@@ -108,7 +108,7 @@ TEST(EnergyBalance, IsIntegratedByTheTrapezoidalRule) {
   EXPECT_DOUBLE_EQ(balance.taken(Taken::dissipated, 3.5), 10 + 6 * 0.5) << "at the last rate";
 }
 
-TEST(EnergyBalance, ClosesInEmptySpace) {
+TEST(EnergyBalanceRun, ClosesInEmptySpace) {
   Setting setting = colliding_drops();
   setting.parameters.integrator = Integrator::symplectic;
   WeaklyCompressible solver = setting.solver();

@@ -183,7 +183,7 @@ TEST(WeaklyCompressible, NeedsNoMemoryForTermsThatAreAbsent) {
   for (const auto& boundary : solver.boundaries()) EXPECT_TRUE(boundary.eta.empty());
 }
 
-TEST(WeaklyCompressible, StandsOnTheFloorWithItsWeight) {
+TEST(WeaklyCompressibleRun, StandsOnTheFloorWithItsWeight) {
   Setting setting = collapsing_column();
   setting.parameters.regions.front().box.max = Vec(1.0, 0.6);
   setting.parameters.hydrostatic_start = HydrostaticStart{0.6};
@@ -303,7 +303,7 @@ double speed_at_rest(double width, double thickness, double post) {
   return largest;
 }
 
-TEST(WaterAtRest, IsAsQuietBetweenFacesThatAreNoWholeNumberOfSpacingsApart) {
+TEST(WaterAtRestRun, IsAsQuietBetweenFacesThatAreNoWholeNumberOfSpacingsApart) {
   EXPECT_LT(speed_at_rest(1.0, 0.15, 0.3), 0.006) << "whole numbers";
   EXPECT_LT(speed_at_rest(1.03, 0.15, 0.3), 0.006);
   EXPECT_LT(speed_at_rest(1.0, 0.16, 0.333), 0.01) << "rows of walls and post are off by up to 7 %";

@@ -338,7 +338,7 @@ TEST(FrictionInTheSolver, LimitsTheStepAsALinearDragAtRest) {
               solver.time_step_limit() / printed_share(CubicSpline(1.3), 1), 1e-12);
 }
 
-TEST(FrictionInTheSolver, StaysAtRestAtItsLimit) {
+TEST(FrictionInTheSolverRun, StaysAtRestAtItsLimit) {
   Setting setting = sliding_water();
   setting.parameters.regions.front().box.max = Vec(1.0, 0.4);
   setting.parameters.hydrostatic_start = HydrostaticStart{0.4};

@@ -37,7 +37,7 @@ TEST(HeldVolume, ScalesTheDensitiesAlike) {
   EXPECT_DOUBLE_EQ(volume(fluid), 1.0);
 }
 
-TEST(HeldVolume, StaysWhileShiftingWouldMakeItCreep) {
+TEST(HeldVolumeRun, StaysWhileShiftingWouldMakeItCreep) {
   Setting s = cavity();
   auto floating = s.solver();
   s.parameters.held_volume = HeldVolume{};

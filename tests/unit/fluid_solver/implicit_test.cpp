@@ -277,7 +277,7 @@ double left_of_vortices(double step, int steps) {
   return largest_norm(model.particles().v, model.particles().count) / before;
 }
 
-TEST(Implicit, DecaysVorticesAsTheExactSolutionToFirstOrder) {
+TEST(ImplicitRun, DecaysVorticesAsTheExactSolutionToFirstOrder) {
   const double T = 1 / rate;
   const double coarse = left_of_vortices(T / 8, 8), middle = left_of_vortices(T / 16, 16),
                fine = left_of_vortices(T / 32, 32);

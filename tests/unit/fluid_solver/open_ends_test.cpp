@@ -335,7 +335,7 @@ TEST(Layers, HoldTheSlowPartOfAWave) {
   EXPECT_NEAR((channel.ends.state(0).slow_wave - before) / (wave - before), 1 - std::exp(-0.25), 1e-9);
 }
 
-TEST(AnOpenChannel, KeepsItsBalances) {
+TEST(OpenChannelRun, KeepsItsBalances) {
   Setting s = channel();
   s.scene.gravity = Vec(0.5, -1);
   s.parameters.laminar_viscosity = LaminarViscosity{5};
@@ -359,7 +359,7 @@ TEST(AnOpenChannel, KeepsItsBalances) {
   EXPECT_LT(std::abs(row["energy_remainder"]), 0.01 * row["dissipated_by_viscosity"]);
 }
 
-TEST(AnOpenChannel, RestsUnderGravityAcrossIt) {
+TEST(OpenChannelRun, RestsUnderGravityAcrossIt) {
   Setting s = channel();
   s.scene.gravity = Vec(0, -2);
   s.parameters.hydrostatic_start = HydrostaticStart{0.25};

@@ -83,7 +83,7 @@ TEST_P(StirredSquare, GainsTheAngularMomentumAndTheEnergyThatThePaddleGives) {
   EXPECT_LT(worst, (GetParam() == Integrator::symplectic ? 1e-12 : 1e-3) * largest);
 }
 
-TEST(TurningWall, TheEnergyBalanceClosesAsForOneThatShifts) {
+TEST(TurningWallRun, TheEnergyBalanceClosesAsForOneThatShifts) {
   Setting s = stirred_square(Integrator::symplectic);
   WeaklyCompressible solver = s.solver();
   while (solver.time() < 0.15) {
@@ -95,7 +95,7 @@ TEST(TurningWall, TheEnergyBalanceClosesAsForOneThatShifts) {
   EXPECT_LT(std::abs(row.at("energy_remainder")), 0.03 * row.at("work_from_paddle"));
 }
 
-TEST(TurningWall, WhatThickFluidTakesIsDissipated) {
+TEST(TurningWallRun, WhatThickFluidTakesIsDissipated) {
   Setting s = stirred_square(Integrator::symplectic);
   s.parameters.laminar_viscosity = LaminarViscosity{50};
   WeaklyCompressible solver = s.solver();

@@ -235,7 +235,7 @@ TEST(RigidBody, RestsOnAWall) {
   EXPECT_NEAR(body.coordinates()[2], 0, 1e-9);
 }
 
-TEST(RigidBody, TakesAllOfABlow) {
+TEST(RigidBodyRun, TakesAllOfABlow) {
   Scene scene = empty_scene();
   scene.frame_interval = 0.05;
   Parameters p = bar();
@@ -251,7 +251,7 @@ TEST(RigidBody, TakesAllOfABlow) {
   }
 }
 
-TEST(RigidBody, BouncesWithItsEnergy) {
+TEST(RigidBodyRun, BouncesWithItsEnergy) {
   Scene scene = empty_scene();
   scene.gravity = Vec(0, -10);
   scene.walls = {{"floor", {Vec(-0.1, -0.25), Vec(0.2, -0.05)}, {}}};

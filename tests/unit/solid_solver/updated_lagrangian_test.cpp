@@ -22,7 +22,7 @@ Parameters struck_block(double courant_number) {
   return p;
 }
 
-TEST(UpdatedLagrangian, ComesToRestWithTheLongestStepsThatMayBeAskedFor) {
+TEST(UpdatedLagrangianRun, ComesToRestWithTheLongestStepsThatMayBeAskedFor) {
   const auto model = model_of(struck_block(1.0));
   EXPECT_EQ(model->time_step_rule(), "acoustic");
   const double energy = observed(*model, "kinetic_energy");
