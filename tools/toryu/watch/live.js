@@ -29,7 +29,10 @@ told("rows", ({name, columns, rows}) => {
     }
   }
   const shown = span();
-  for (const chart of grown.size ? charts : []) chart.grow(shown);
+  for (const chart of grown.size ? charts : []) {
+    chart.grow(shown);
+    if (player) chart.moveTo(player.time);
+  }
 });
 
 told("frame", ({bodies: newest, view}) => {
@@ -41,7 +44,9 @@ told("frame", ({bodies: newest, view}) => {
   });
   const time = Math.max(...newest.flatMap((one) => one.times));
   player.times.splice(0, player.times.length, time);
-  player.stages[0].home = view;
+  const [stage] = player.stages, before = stage.home;
+  stage.home = before.map((edge, i) => (i < 2 ? Math.min : Math.max)(edge, view[i]));
+  if (stage.home.some((edge, i) => edge !== before[i])) stage.fit();
   player.show(0);
 });
 
@@ -70,4 +75,5 @@ byId("stop").addEventListener("click", async () => {
   byId("stop").disabled = false;
   byId("told").textContent = "The run could not be asked to end.";
 });
-for (const id of ["play", "time", "video", "speed"]) byId(id).closest("label")?.setAttribute("hidden", "") ?? (byId(id).hidden = true);
+// There is one frame to show.
+for (const id of ["play", "time", "video", "speed"]) (byId(id).closest("label") || byId(id)).hidden = true;
