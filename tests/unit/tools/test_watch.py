@@ -61,7 +61,6 @@ class Events:
 class Watch(unittest.TestCase):
     def setUp(self):
         self.enterContext(unittest.mock.patch.multiple(server, PAUSE=0.02, PATIENCE=1.0))
-        self.enterContext(unittest.mock.patch.object(server.Handler, "timeout", 1.0))
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.out = pathlib.Path(folder.name)
@@ -143,7 +142,7 @@ class Watch(unittest.TestCase):
         for path, method, headers in (
                 ("/", "GET", {}), ("/wrong/", "GET", {}), (self.base[:-2] + "/", "GET", {}),
                 (self.base, "GET", {"Host": f"elsewhere.example:{port}"}),  # a name that leads here
-                (self.base + "events", "GET", {"Origin": "http://elsewhere.example"}),
+                (self.base, "GET", {"Origin": "http://elsewhere.example"}),
                 (self.base + "stop", "POST", {}),
                 (self.base + "stop", "POST", {"X_Toryu": "stop", "Origin": "null"}),
                 (self.base + "stop", "POST", {"X_Toryu": "stop", "Origin": f"http://127.0.0.1:{port + 1}"}),

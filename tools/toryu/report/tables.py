@@ -51,7 +51,7 @@ def number(value):
 def state(run):
     kind = "good" if run["code"] == DONE else "stopped" if run["code"] in (INTERRUPTED, None) else "bad"
     badge = f'<span class="badge {kind}">{html.escape(run["meaning"])}</span>'
-    if run["code"] == DONE:
+    if run["code"] == DONE or run["code"] is None and not run["words"]:
         return badge
     code = "" if run["code"] is None else f"<p>Exit code {run['code']}.</p>"
     words = "".join(f"<p>{html.escape(line)}</p>" for line in run["words"].splitlines())

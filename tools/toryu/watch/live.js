@@ -24,7 +24,9 @@ told("rows", ({name, columns, rows}) => {
     for (const row of rows) {
       if (row[clock] === null || row[clock] <= last) continue;
       last = row[clock];
-      line.points.push([last, row[k] === null ? null : row[k] * factor]);
+      const value = row[k] === null ? null : row[k] * factor;
+      if (factor > 1 && Math.abs(value) >= 1000) return renew();  // a larger unit suits it better
+      line.points.push([last, value]);
       grown.add(chart);
     }
   }
@@ -37,7 +39,7 @@ told("rows", ({name, columns, rows}) => {
 
 told("frame", ({bodies: newest, view}) => {
   if (!newest.length) return;
-  if (newest.length !== bodies.length || newest.some((one, i) => one.name !== bodies[i].name)) return renew();
+  if (newest.length !== bodies.length || newest.some((one, i) => one.name !== bodies[i].name || one.quantities.length !== bodies[i].quantities.length)) return renew();
   newest.forEach((one, i) => {
     Object.assign(bodies[i], one, {decoded: new Map()});
     bodies[i].choose(bodies[i].chosen);
@@ -75,5 +77,6 @@ byId("stop").addEventListener("click", async () => {
   byId("stop").disabled = false;
   byId("told").textContent = "The run could not be asked to end.";
 });
-// There is one frame to show.
+// There is one frame to show, and figures are taken at the end.
+document.querySelector(".tiles").style.display = byId("motion").querySelector(".note").style.display = "none";
 for (const id of ["play", "time", "video", "speed"]) (byId(id).closest("label") || byId(id)).hidden = true;

@@ -74,8 +74,11 @@ class Server(http.server.ThreadingHTTPServer):
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
-    timeout = PATIENCE  # of each read and each write
     server_version, sys_version = "toryu", ""
+
+    def setup(self):
+        self.timeout = PATIENCE  # of each read and each write
+        super().setup()
 
     def log_message(self, *_):
         pass
