@@ -27,9 +27,9 @@ def end_of_rows(out, name):
 
 def opened(out, name, start=0, most=-1):
     """(first bytes, bytes from `start`) of NAME.csv; None without the file."""
-    path = results.newest(out / f"{name}.csv")
+    path = out / f"{name}.csv"
     try:
-        with open(path, "rb") if path else open(out / f"{name}.csv", "rb") as file:
+        with open(results.newest(path) or path, "rb") as file:
             head = file.read(MOST_BYTES)
             file.seek(start)
             return head, file.read(most)

@@ -85,14 +85,13 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
     def path_asked(self):
         """What is asked for below the token; None if the request may not come from this page or its user."""
-        url = urllib.parse.urlsplit(self.path)
+        parts = urllib.parse.urlsplit(self.path).path.split("/")  # "", token, what
         own = {f"{name}:{self.server.server_port}" for name in (LOOPBACK, "localhost")}
         origin = self.headers.get("Origin")
-        _, token, *rest = url.path.split("/") + [""] * (2 - len(url.path.split("/")))
         if (self.headers.get("Host") not in own or origin not in {None, *(f"http://{host}" for host in own)}
-                or not hmac.compare_digest(token.encode(), self.server.token.encode()) or len(rest) != 1):
+                or len(parts) != 3 or not hmac.compare_digest(parts[1].encode(), self.server.token.encode())):
             return None
-        return rest[0]
+        return parts[2]
 
     def do_GET(self):
         asked = self.path_asked()
