@@ -23,6 +23,7 @@ from toryu.launch_options import parse
 from toryu.processes import BAD_INPUT, BUG, DONE, MACHINE, MEANING, PHYSICS_FAILED
 from toryu.remote.placement import Placement
 from toryu.results_folder import keep_former, newest_checkpoint, remove_former, what_is_there
+from toryu.watch import launched
 
 PACKAGES = str(ROOT / "tools")  # where a program in Python finds toryu
 MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
@@ -285,6 +286,9 @@ def main(arguments):
     if any(is_study(argument, coupler) for argument in arguments):
         go_on_as("study", arguments)
     options = parse(arguments)
+    if options.case is None:
+        os.execv(sys.executable, program.python("watch", options.watch, f"--bin={options.bin}"))
+    launched.port_of(options)
     case = case_of(options)
     if options.picture is not None and not options.check:
         return complain("--picture: error: goes with --check")
@@ -315,12 +319,13 @@ def main(arguments):
 
     # what the user has set, stays
     environment = dict(os.environ) if "OMP_WAIT_POLICY" in os.environ else ENVIRONMENT | os.environ
-    with hold(options.out, "launch.lock"):
+    with hold(options.out, "launch.lock"), contextlib.ExitStack() as kept:
         placement.forget_secret()  # of a run that was killed
         if options.restart is None:
             set_former_aside(options)
         placement.make_secret()
         before = age_of_used_case(options.out)
+        tell = kept.enter_context(launched.watched(options))
         try:
             code, words = placement.run_of(commands, environment, lambda: age_of_used_case(options.out) != before)()
         finally:
@@ -332,6 +337,7 @@ def main(arguments):
         # A restart that is refused leaves the report of the run before.
         refused = code == BAD_INPUT and options.restart is not None
         unreported = DONE if refused else report(options, case, code, words)
+        tell(code, words, not options.no_report and not refused and unreported == DONE)
         # a restart repeats a failure of physics
         if code not in (DONE, BAD_INPUT, PHYSICS_FAILED) and newest_checkpoint(options.out):
             print(f"go on with: {go_on_with(arguments, options)}")

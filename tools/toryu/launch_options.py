@@ -43,15 +43,20 @@ def parse(arguments):
     parser.add_argument("--only", choices=["fluid", "solid"], help="the side of a replay that runs")
     parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
     parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
+    parser.add_argument("--watch", metavar="PORT", nargs="?", const="", help="serve the report of the run while it runs, to a "
+                        "browser on this machine, with a button that ends it; --watch OUT in place of a case watches the "
+                        "run that writes into the results folder OUT")
     add_options(parser)
     parser.add_argument("--no-report", action="store_true", help="leave report.html and frames.py out")
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
                         help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
-    if options.case is None and options.restart and any(
-            map(os.path.isfile, (options.restart, os.path.join(options.restart, "case.toml")))):
-        options.case, options.restart = options.restart, ""  # "--restart CASE": the case stands where a folder may
-    if options.case is None:
+    for name in ("restart", "watch"):  # "--restart CASE": the case stands where a folder may
+        value = getattr(options, name)
+        if options.case is None and value and any(map(os.path.isfile, (value, os.path.join(value, "case.toml")))):
+            options.case = value
+            setattr(options, name, "")
+    if options.case is None and not options.watch:
         parser.error("the following arguments are required: CASE")
     options.passed_on = [f"--set={pair}" for pair in options.set] + unknown
     for name in ("end_time", "threads", "log_level", "lost_after"):

@@ -27,24 +27,27 @@ def name_of(path, out, coupler):
         return pathlib.Path(os.path.abspath(out)).name
 
 
-def files(case_path, out, coupler, exit_code, words):
-    """The text of each file of the report."""
+def files(case_path, out, coupler, exit_code, words, live=None):
+    """The text of each file of the report. `live`: what the page of a running run has more, "markup", "scripts" and the
+    "cursor" in the series from which it goes on; it shows the newest frame alone."""
     faults = []  # of the files: those that are damaged are left out, and the page says so
     used, case_text = data.used_case(case_path, out, coupler)
     case, name = used.content, name_of(case_path, out, coupler)
     summaries = results.read_summaries(out, faults)
     comparisons = results.compare(used.references, out)
     faults += results.faults_of(used.references, out)
-    found = frames.read_bodies(out, faults)
+    found = frames.read_bodies(out, faults, newest=live is not None)
     bodies, boxes, step = frames.collect(found, case)
     end = scene.end_of(case, bodies)
     walls = scene.walls_of(case, used.outlines, used.motions)
-    file = along.read(out, faults)
+    file = None if live else along.read(out, faults)  # it is being written
     contours = surface.contours(file) if file else []
     times = sorted({time for body in bodies for time in body["times"]})
     view = scene.view_of(boxes)
     compared, others = data.charts(out, comparisons, faults)
     state = data.state(out, summaries, exit_code, words)
+    if live:
+        faults = []  # what is not there yet
     for fault in faults:
         print(f"report: {fault}", file=sys.stderr)
     content = {
@@ -52,13 +55,14 @@ def files(case_path, out, coupler, exit_code, words):
         "motions": scene.motion_charts(walls, end), "end": end,
         "along": along.collect(file, contours, times, frames.start_of(found, "solid")) if file else {},
         "compared": compared, "others": others, "telling": telling.moment(out, case, comparisons, found, state),
-    }
+    } | ({"live": live["cursor"]} if live else {})
     title = data.table(case, "case").get("title") or name
     page = string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html.escape(str(title)), name=html.escape(name),
-        style=(HERE / "style.css").read_text(encoding="utf-8"), script=player.script(HERE / f for f in SCRIPTS),
+        style=(HERE / "style.css").read_text(encoding="utf-8"), 
+        script=player.script([*(HERE / f for f in SCRIPTS), *(live["scripts"] if live else [])]),
         data=player.embedded(content), player=player.markup(EXAGGERATION),
-        state=tables.state(state) + tables.damage(faults) + tables.warnings(out),
+        state=tables.state(state) + (live["markup"] if live else "") + tables.damage(faults) + tables.warnings(out),
         figures=tables.figures(out, summaries, comparisons, state),
         frames_note=player.left_out(step),
         times=tables.times(summaries), terms=tables.terms(summaries), particles=tables.particles(summaries),

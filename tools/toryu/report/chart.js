@@ -129,20 +129,46 @@ class Plot {
   }
 }
 
+const MOST_POINTS = 3000;  // of a line that grows: more than a chart has pixels
+
+// Of every four points the smallest and the largest, in order; the last one always.
+function thinned(points) {
+  const kept = [];
+  for (let i = 0; i < points.length - 1; i += 4) {
+    const part = points.slice(i, Math.min(i + 4, points.length - 1)), values = part.map(([, v]) => v).filter((v) => v !== null);
+    const least = part.find(([, v]) => v === Math.min(...values)), most = part.find(([, v]) => v === Math.max(...values));
+    kept.push(...part.filter((point) => point === least || point === most || !values.length));
+  }
+  return [...kept, points.at(-1)];
+}
+
 // Lines over time.
 class Chart extends Plot {
   constructor(parent, content, [start, end], size) {
     const inside = content.lines.flatMap((line) => line.points.filter((p) => p[0] <= end).map((p) => p[1]));
     super(parent, content, "time  s", [start, end], range(inside), size);
     this.content = content;
+    this.drawLines();
+    for (const note of content.notes || []) html("div", {class: "note"}, this.figure, note);
+    this.listen((time) => this.show(time));
+    this.show(null);
+  }
+
+  drawLines() {
+    const {content} = this;
     content.lines.forEach((line, i) => this.draw(line, colourOf(i)));
     const {height, top, bottom} = this.size;
     this.mark = svg("line", {class: "now", y1: top, y2: height - bottom, visibility: "hidden"}, this.picture);
     this.dots = content.lines.map((line, i) => line.kind === "line" &&
       svg("circle", {class: "dot", r: 3.5, fill: colourOf(i), visibility: "hidden"}, this.picture));
-    for (const note of content.notes || []) html("div", {class: "note"}, this.figure, note);
-    this.listen((time) => this.show(time));
-    this.show(null);
+  }
+
+  // Draws anew after points were added, over the time from `start` to `end`; a line of too many is thinned.
+  grow([start, end]) {
+    for (const line of this.content.lines) if (line.points.length > MOST_POINTS) line.points = thinned(line.points);
+    const inside = this.content.lines.flatMap((line) => line.points.filter((p) => p[0] <= end).map((p) => p[1]));
+    this.span([start, end], range(inside));
+    this.drawLines();
   }
 
   draw(line, colour) {

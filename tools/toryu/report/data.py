@@ -1,6 +1,7 @@
 """What the page shows beside the particles: state, figures, charts, times; taken from the files of the run."""
 
 import contextlib
+import itertools
 import math
 import pathlib
 import re
@@ -120,14 +121,14 @@ def thinned(xs, ys):
     return [(xs[i], ys[i]) for i in sorted(kept)]
 
 
-def chart(title, unit, lines):
-    """`lines`: (label, times, values, kind), kind "line" or "points"."""
+def chart(title, unit, lines, columns=()):
+    """`lines`: (label, times, values, kind), kind "line" or "points"; the first are those of `columns`, "fluid:mass[kg]"."""
     finite = [abs(v) for _, _, values, _ in lines for v in values if math.isfinite(v)]
     factor, unit = scaled(unit, max(finite, default=0))
-    return {"title": title, "unit": unit, "lines": [
-        {"label": label, "kind": kind,
+    return {"title": title, "unit": unit, "factor": factor, "lines": [
+        {"label": label, "kind": kind, "column": column,
          "points": [[t, v * factor] if math.isfinite(v) else [t, None] for t, v in thinned(times, values)]}
-        for label, times, values, kind in lines]}
+        for (label, times, values, kind), column in itertools.zip_longest(lines, columns)]}
 
 
 FROM_BOUNDARY = re.compile(r"(force|impulse|friction|friction_impulse)_from_(\w+)_([xy])")
@@ -167,7 +168,7 @@ def charts(out, comparisons, faults=None):
         shown.add(key)
         lines = [("this run", series[comparison.series]["time[s]"], values, "line")]
         lines += [(c.label, [t for t, _ in c.reference], [v for _, v in c.reference], "points") for c in same]
-        compared.append(chart(comparison.quantity, comparison.unit, lines) | {
+        compared.append(chart(comparison.quantity, comparison.unit, lines, [":".join(key)]) | {
             "notes": [f"{c.label}: root mean square distance {100 * c.distance:.1f} % of its peak"
                       for c in same if math.isfinite(c.distance)]})
     others = {}
@@ -180,5 +181,6 @@ def charts(out, comparisons, faults=None):
             order = ["energy and work", "momentum"]
             keys = sorted(groups, key=lambda k: order.index(k[0]) if k[0] in order else 9)
             others[name] = [chart(group, unit, [(label_of(c), columns["time[s]"], v, "line")
-                                                for c, v in groups[group, unit]]) for group, unit in keys]
+                                                for c, v in groups[group, unit]],
+                                  [f"{name}:{c}" for c, _ in groups[group, unit]]) for group, unit in keys]
     return compared, others

@@ -55,12 +55,13 @@ class Quantity:
 class Body:
     """The frames of one participant, but for those that are damaged."""
 
-    def __init__(self, out, name, faults=None):
+    def __init__(self, out, name, faults=None, newest=False):
         self.name = name
         self.quantities = []
         self.count = 0
         self.typical_displacement = 0.0  # [m], of 95 % of the particles, at the time when it is largest
-        self.files = [(time, path) for time, path in results.list_frames(out, name, faults) if self.takes(path, faults)]
+        files = results.list_frames(out, name, faults)
+        self.files = [(time, path) for time, path in (files[-1:] if newest else files) if self.takes(path, faults)]
 
     def takes(self, path, faults):
         """Whether the frame can be read; the first one that can says what there is to draw."""
@@ -81,10 +82,11 @@ class Body:
         return self.count * (4 + 2 * len(self.quantities)) * SHARE_LEFT * 4 / 3
 
 
-def read_bodies(out, faults=None):
+def read_bodies(out, faults=None, newest=False):
+    """The bodies that left frames, with all of them or the `newest` alone."""
     names = [path.name.removesuffix(".hdf.series") for path in sorted(out.glob("*.hdf.series"))]
     names = [name for name in names if name != "walls"]  # drawn as they are, not as particles
-    bodies = [Body(out, name, faults) for name in names]
+    bodies = [Body(out, name, faults, newest) for name in names]
     return [body for body in bodies if body.files]
 
 

@@ -72,10 +72,11 @@ const charts = makeCharts(span());
 const bodies = content.bodies.map((body) => new Body(body));
 const times = [...new Set(bodies.flatMap((body) => body.times))].sort((a, b) => a - b);
 byId("motion").hidden = !times.length;
+let player = null;
 if (times.length) {
   const stages = makeStages(bodies), near = stages[1];
   if (content.telling.mark) for (const stage of stages) stage.over.push((_, time) => stage.mark(content.telling.mark, time));
-  const player = new Player(stages, times, [...followers, ...charts]);
+  player = new Player(stages, times, [...followers, ...charts]);
   new Saver(player);
   for (const body of bodies)
     if (body.quantities.length) player.bars.push(colourChoice(byId("colours"), [body], () => player.redraw()));

@@ -143,7 +143,7 @@ function colourChoice(parent, bodies, changed) {
   const row = html("div", {class: "row"}, box);
   html("span", {class: "who"}, row, name);
   const select = html("select", {"aria-label": `Colour of the ${name}`, "data-body": name}, row);
-  quantities.forEach((q, i) => html("option", {value: i}, select, q.unit ? `${q.label}  [${q.unit}]` : q.label));
+  const options = quantities.map((_, i) => html("option", {value: i}, select));
   const label = html("label", {}, row, "range of this frame ");
   const fitted = html("input", {type: "checkbox"}, label);
   const scale = html("div", {class: "scale"}, box), marks = html("div", {class: "marks"}, box);
@@ -159,6 +159,7 @@ function colourChoice(parent, bodies, changed) {
     const body = bodies.find((one) => one.style === "coloured") || bodies[0];
     const stops = Array.from({length: 17}, (_, i) => `rgb(${body.table[Math.round(i * 255 / 16)]})`);
     scale.style.background = `linear-gradient(to right, ${stops})`;
+    body.quantities.forEach((q, i) => { options[i].textContent = q.unit ? `${q.label}  [${q.unit}]` : q.label; });
     marks.replaceChildren();
     for (const mark of marksBetween(body.low, body.high)) html("span", {}, marks, mark);
   };

@@ -51,7 +51,7 @@ def number(value):
 def state(run):
     kind = "good" if run["code"] == DONE else "stopped" if run["code"] in (INTERRUPTED, None) else "bad"
     badge = f'<span class="badge {kind}">{html.escape(run["meaning"])}</span>'
-    if run["code"] == DONE:
+    if run["code"] == DONE or run["code"] is None and not run["words"]:
         return badge
     code = "" if run["code"] is None else f"<p>Exit code {run['code']}.</p>"
     words = "".join(f"<p>{html.escape(line)}</p>" for line in run["words"].splitlines())
@@ -65,14 +65,18 @@ def damage(faults):
     return f'<div class="words stopped"><p>Left out of this page:</p>{lines}{more}</div>' if faults else ""
 
 
-def warnings(out, most=20):
+def warning_lines(out, most=20):
     """What the programs warned of, each once: where a run failed, often what foretold it."""
     path = out / "log.txt"
     text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
     found = list(dict.fromkeys(re.findall(r"^\S+ \S+ (\w+ warning: .*)$", text, re.MULTILINE)))
     more = [f"and {len(found) - most} more, see log.txt"] if len(found) > most else []
-    lines = "".join(f"<p>{html.escape(line)}</p>" for line in found[:most] + more)
-    return f'<div class="words stopped" id="warnings">{lines}</div>' if found else ""
+    return found[:most] + more
+
+
+def warnings(out):
+    lines = "".join(f"<p>{html.escape(line)}</p>" for line in warning_lines(out))
+    return f'<div class="words stopped" id="warnings">{lines}</div>' if lines else ""
 
 
 def tile(label, value, note=""):
