@@ -199,14 +199,17 @@ Numbers Engine::give_state() {
 }
 
 Numbers Engine::take_state(const Numbers& in) {
-  double *rho = pair().custom("rho"), *drho = pair().custom("drho");
+  const auto of = [&](int i) { return &in[6 * static_cast<std::size_t>(lammps_->atom->tag[i] - 1)]; };
+  double* const rho = pair().custom("rho");
   over_fluid([&](int i) {
-    const double* values = &in[6 * static_cast<std::size_t>(lammps_->atom->tag[i] - 1)];
-    for (int a = 0; a < dim; ++a) lammps_->atom->x[i][a] = values[a], lammps_->atom->v[i][a] = values[2 + a];
-    rho[i] = values[4];
-    drho[i] = values[5];
+    for (int a = 0; a < dim; ++a) lammps_->atom->x[i][a] = of(i)[a], lammps_->atom->v[i][a] = of(i)[2 + a];
+    rho[i] = of(i)[4];
   });
   steps().interface.set_state(&in[6 * static_cast<std::size_t>(physics_.fluid_count)]);
+  steps().move_interface(steps().interface.end_time());
+  command("run 0 post no");  // whose lists are of these places
+  double* const drho = pair().custom("drho");
+  over_fluid([&](int i) { drho[i] = of(i)[5]; });
   return {};
 }
 

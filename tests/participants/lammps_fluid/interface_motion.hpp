@@ -50,7 +50,8 @@ class MovedInterface {
     for (auto* values : {&start_, &velocity_, &acceleration_})
       for (double& value : *values) value = *all++;
   }
-  std::size_t state_size() const { return 2 + 3 * start_.size(); }
+  /// Of the window at hand, or the last one [s].
+  double end_time() const { return time_ + last_dt_; }
 
  private:
   double response_time_ = 0, time_ = 0, last_dt_ = 0;  ///< [s]

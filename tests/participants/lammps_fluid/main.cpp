@@ -93,12 +93,19 @@ void compute_window(FluidLink& link, const FluidLink::Turn& turn, Run& run) {
             health_of(run));
 }
 
+/// From the start, or from where a checkpoint has the fluid.
+void begin(const std::filesystem::path& checkpoint, Start start, const Parameters& parameters, Run& run) {
+  if (checkpoint.empty()) return note_start(start, parameters, run);
+  Numbers state;
+  read_part(checkpoint, "fluid", role, [&](std::istream& stream) { read_states(stream, state); });
+  for (std::size_t i = 0; i < static_cast<std::size_t>(start.physics.fluid_count);
+       ++i)  // on the rank that has the place
+    for (std::size_t a = 0; a < dim; ++a) start.position[dim * i + a] = state[6 * i + a];
+  note_start(start, parameters, run);
+  run.set_state(std::move(state));
+}
+
 void take_turns(FluidLink& link, Run& run) {
-  if (const auto folder = link.restart(); !folder.empty()) {
-    Numbers state;
-    read_part(folder, "fluid", role, [&](std::istream& stream) { read_states(stream, state); });
-    run.set_state(std::move(state));
-  }
   Numbers kept;
   while (const auto turn = link.next_turn()) {
     if (turn->task == Task::checkpoint) {
@@ -134,7 +141,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Case& o
                                            .density = p.density,
                                            .sound_speed = p.sound_speed,
                                            .spacing = p.spacing});
-    note_start(fill(of, interface.position, interface.volume), p, run);
+    begin(link.restart(), fill(of, interface.position, interface.volume), p, run);
     take_turns(link, run);
   } catch (...) {
     link.leave();

@@ -70,6 +70,8 @@ class PairSph : public LAMMPS_NS::Pair {
   template <class W, bool of_density, bool of_velocity, bool renormalised>
   void rates(const W& kernel, bool beside_interface);
   template <class W>
+  bool reaches_interface(int i, const W& kernel) const;
+  template <class W>
   void reaction(const W& kernel);
   template <class W, class Add>
   void over(int i, int begin, int end, const W& kernel, Add&& add) const;

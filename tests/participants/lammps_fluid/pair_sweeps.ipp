@@ -82,6 +82,15 @@ void PairSph::density_gradients(const W& kernel) {
   }
 }
 
+/// Whether the interface is within the support of i: not in its list alone, which may be older or newer.
+template <class W>
+bool PairSph::reaches_interface(int i, const W& kernel) const {
+  bool reaches = false;
+  over(i, first_interface_[static_cast<std::size_t>(i)], neighbours(i), kernel,
+       [&](std::size_t, double, double, double, double) { reaches = true; });
+  return reaches;
+}
+
 /// P_ij of artificial viscosity times what - sum_j m_j P_ij gradW_ij takes, for v_ij . x_ij below 0.
 inline double artificial(const Physics& f, double v_x, double r2, double rho_sum) {
   const double theta = f.h * std::min(v_x, 0.0) / (r2 + 0.01 * f.h * f.h);
@@ -99,7 +108,7 @@ void PairSph::rates(const W& kernel, bool beside_interface) {
   for (int k = 0; k < list->inum; ++k) {
     const int i = list->ilist[k];
     const auto n = static_cast<std::size_t>(i);
-    if (atom->type[i] != Type::fluid || (beside_interface && first_interface_[n] == neighbours(i))) continue;
+    if (atom->type[i] != Type::fluid || (beside_interface && !reaches_interface(i, kernel))) continue;
     ++evaluations;
     const double rho_i = rho_[n], p_rho2_i = p_rho2_[n], vx = v[i][0], vy = v[i][1],
                  laminar = 2 * f.mu / rho_i;
