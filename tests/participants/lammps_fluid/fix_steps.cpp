@@ -45,7 +45,6 @@ void FixSteps::note(int i, char quantity, double value, double second) {
 bool FixSteps::is_sound(int i) {
   const Physics& f = pair().physics;
   const double *x = atom->x[i], *v = atom->v[i], speed = std::hypot(v[0], v[1]);
-  extremes.speed = std::max(extremes.speed, speed);
   bool is_inside = true;
   for (int a = 0; a < dim; ++a) is_inside = is_inside && x[a] >= f.low[a] && x[a] < f.high[a];
   if (!(speed <= f.largest_speed))
@@ -129,7 +128,11 @@ void FixSteps::final_integrate() {
   } else {
     thicken(0.5 * dt);
   }
-  if (last) time += dt;
+  if (last) {
+    time += dt;
+    over_fluid(
+        [&](int i) { extremes.speed = std::max(extremes.speed, std::hypot(atom->v[i][0], atom->v[i][1])); });
+  }
   half_ = 1;
 }
 

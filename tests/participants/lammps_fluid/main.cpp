@@ -31,6 +31,7 @@ struct Run {
   Parameters parameters;
   Extremes extremes;
   double time = 0;
+  long steps = 0;
 
   double limit() const { return parameters.time_step_limit(extremes.speed, extremes.acceleration); }
   /// In equal steps, as few as the limit allows; divided anew where it falls.
@@ -40,6 +41,7 @@ struct Run {
       const double left = end - time, count = std::ceil(left / limit() - 1e-9);
       const double dt = left / std::max(count, 1.0);
       extremes = fluid.step(time, dt);
+      ++steps;
       time = count <= 1 ? end : time + dt;
       taken();
     }
@@ -137,7 +139,7 @@ void compute_coupled(const Options& options, const CaseFile& file, const Case& o
     Run run;
     const Parameters& p = of.parameters;
     const Interface interface = link.join({.reach = 2 * p.h(),
-                                           .time_step_limit = p.time_step_limit(0, of.scene.gravity.norm()),
+                                           .time_step_limit = p.time_step_limit(0, 0),
                                            .density = p.density,
                                            .sound_speed = p.sound_speed,
                                            .spacing = p.spacing});
@@ -155,7 +157,7 @@ class Series {
   Series(const std::filesystem::path& out, const Parameters& parameters) : parameters_(parameters) {
     std::filesystem::create_directories(out);
     file_.open(out / "fluid.csv");
-    file_ << "time[s],kinetic_energy[J/m],potential_energy[J/m],largest_speed[m/s]";
+    file_ << "time[s],steps[1],kinetic_energy[J/m],potential_energy[J/m],largest_speed[m/s]";
     for (const Observer& o : parameters.observers) {
       const bool is_pressure = o.quantity == Observer::Quantity::pressure;
       file_ << fmt::format(",{}[{}]", o.name, is_pressure ? "Pa" : "m");
@@ -165,7 +167,8 @@ class Series {
   }
   void write(Run& run) {
     const Numbers found = run.fluid.call(Order::observe, points_);
-    file_ << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}", run.time, found[0], found[1], run.extremes.speed);
+    file_ << fmt::format("{:.17g},{},{:.17g},{:.17g},{:.17g}", run.time, run.steps, found[0], found[1],
+                         run.extremes.speed);
     std::size_t next = 5;
     for (const Observer& o : parameters_.observers)
       file_ << fmt::format(",{:.17g}", o.quantity == Observer::Quantity::pressure

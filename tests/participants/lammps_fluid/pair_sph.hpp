@@ -49,8 +49,6 @@ class PairSph : public LAMMPS_NS::Pair {
   double* custom(const char* name) const;  ///< the values of `fix property/atom`
   /// The place of a particle in the interface; below 0 if it belongs to fluid or walls.
   int place(int i) const { return atom->tag[i] - 1 - physics.fluid_count - physics.wall_count; }
-  /// How often rates of a particle were found on this rank.
-  long evaluations = 0;
 
  private:
   template <class Visit>

@@ -14,33 +14,19 @@ constexpr double smallest_moment = 0.1;
 /// A wall without suction thins the fluid by so much and no further.
 constexpr double most_thinned = 0.05;
 
-/// Calls add(j, x_ij, y_ij, r, G) for the neighbours of i from `begin` to `end` that are in reach. First
-/// these are picked without a branch, then the kernel is taken of all of them in the lanes of registers, and
-/// they are added one after the other.
+/// Calls add(j, x_ij, y_ij, r, G) for the neighbours of i from `begin` to `end` that are in reach.
 template <class W, class Add>
-inline void PairSph::over(int i, int begin, int end, const W& kernel, Add&& add) const {
-  double** const x = atom->x;
+inline __attribute__((always_inline)) void PairSph::over(int i, int begin, int end, const W& kernel,
+                                                         Add&& add) const {
+  const double* const x = atom->x[0];  // three a particle
   const int* const near = list->firstneigh[i];
-  const double x_i = x[i][0], y_i = x[i][1], reach = physics.support(), reach2 = reach * reach;
-  constexpr int most = 64;
-  alignas(64) double dx[most], dy[most], r[most], G[most];
-  int found[most];
-  while (begin < end) {
-    const int stop = std::min(end, begin + most - 1);
-    int count = 0;
-    for (; begin < stop; ++begin) {
-      const int j = near[begin];
-      found[count] = j;
-      dx[count] = x_i - x[j][0];
-      dy[count] = y_i - x[j][1];
-      r[count] = dx[count] * dx[count] + dy[count] * dy[count];
-      count += r[count] < reach2;
-    }
-    for (int k = 0; k < count; ++k) {
-      r[k] = std::sqrt(r[k]);
-      G[k] = kernel.gradient_over_r(r[k]);
-    }
-    for (int k = 0; k < count; ++k) add(static_cast<std::size_t>(found[k]), dx[k], dy[k], r[k], G[k]);
+  const double x_i = x[3 * i], y_i = x[3 * i + 1], reach = physics.support(), reach2 = reach * reach;
+  for (int k = begin; k < end; ++k) {
+    const int j = near[k];
+    const double dx = x_i - x[3 * j], dy = y_i - x[3 * j + 1], r2 = dx * dx + dy * dy;
+    if (r2 >= reach2) continue;
+    const double r = std::sqrt(r2);
+    add(static_cast<std::size_t>(j), dx, dy, r, kernel.gradient_over_r(r));
   }
 }
 
@@ -124,7 +110,6 @@ void PairSph::rates(const W& kernel, bool beside_interface) {
     const int i = list->ilist[k];
     const auto n = static_cast<std::size_t>(i);
     if (atom->type[i] != Type::fluid || (beside_interface && !reaches_interface(i, kernel))) continue;
-    ++evaluations;
     const double rho_i = rho_[n], p_rho2_i = p_rho2_[n], vx = v[i][0], vy = v[i][1],
                  laminar = 2 * f.mu / rho_i;
     double compression = 0, diffusion = 0, a[dim] = {};
