@@ -143,7 +143,7 @@ Numbers Engine::begin_window(const Numbers& in) {
   lammps_->comm->forward_comm();
   pair().give_impulse(impulse);
   lammps_->comm->forward_comm();
-  if (!physics_.midpoint) pair().evaluate(RatesOf::density, true);  // with the interface as it moves now
+  if (!physics_.midpoint) pair().evaluate(RatesOf::density);  // with the velocities as they are now
   return {};
 }
 

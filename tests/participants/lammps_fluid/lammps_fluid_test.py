@@ -18,7 +18,7 @@ from toryu_testing import trio
 LIMIT = 30  # [s] after which something that should have ended counts as hung
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 CASES = ROOT / "cases"
-BIN = pathlib.Path(sys.argv.pop(1)) if __name__ == "__main__" else None
+BIN = pathlib.Path(sys.argv.pop(1)).resolve() if __name__ == "__main__" else None
 
 
 def run(program, case, out, settings=(), ranks=1, limit=600):

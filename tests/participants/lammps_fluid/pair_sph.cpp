@@ -90,7 +90,7 @@ void PairSph::find_pressures() {
   }
 }
 
-void PairSph::evaluate(RatesOf rates_of, bool beside_interface) {
+void PairSph::evaluate(RatesOf rates_of) {
   if (first_wall_.empty() || neighbor->ago == 0) sort_lists();
   find_pressures();
   const bool density = rates_of != RatesOf::velocity, velocity = rates_of != RatesOf::density;
@@ -106,14 +106,13 @@ void PairSph::evaluate(RatesOf rates_of, bool beside_interface) {
       send({&gx_, &gy_});
     }
     if (density && velocity)
-      physics.renormalised ? rates<W, true, true, true>(kernel, false)
-                           : rates<W, true, true, false>(kernel, false);
+      physics.renormalised ? rates<W, true, true, true>(kernel) : rates<W, true, true, false>(kernel);
     else if (velocity)
-      rates<W, false, true, false>(kernel, false);
+      rates<W, false, true, false>(kernel);
     else if (physics.renormalised)
-      rates<W, true, false, true>(kernel, beside_interface);
+      rates<W, true, false, true>(kernel);
     else
-      rates<W, true, false, false>(kernel, beside_interface);
+      rates<W, true, false, false>(kernel);
     if (velocity && physics.interface_count > 0) reaction(kernel);
   });
 }

@@ -24,9 +24,8 @@ class PairSph : public LAMMPS_NS::Pair {
   RatesOf wanted = RatesOf::density;      ///< of the next evaluation
   std::vector<double> wall_acceleration;  ///< of the interface, dim values a particle [m/s2]
 
-  /// The rates of all own particles of the fluid, or of those alone that the interface is near. The
-  /// acceleration is in atom->f.
-  void evaluate(RatesOf rates, bool beside_interface = false);
+  /// The rates of all own particles of the fluid. The acceleration is in atom->f.
+  void evaluate(RatesOf rates);
   /// What the last evaluation's forces do over `dt` [s]: the load of own particles of the interface.
   void add_load(double dt);
   /// Takes the impulse of each particle of the interface, by its place in it, out of the fluid near it, in
@@ -66,9 +65,7 @@ class PairSph : public LAMMPS_NS::Pair {
   template <class W>
   void density_gradients(const W& kernel);
   template <class W, bool of_density, bool of_velocity, bool renormalised>
-  void rates(const W& kernel, bool beside_interface);
-  template <class W>
-  bool reaches_interface(int i, const W& kernel) const;
+  void rates(const W& kernel);
   template <class W>
   void reaction(const W& kernel);
   template <class W, class Add>

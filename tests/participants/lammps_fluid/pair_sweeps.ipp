@@ -16,8 +16,7 @@ constexpr double most_thinned = 0.05;
 
 /// Calls add(j, x_ij, y_ij, r, G) for the neighbours of i from `begin` to `end` that are in reach.
 template <class W, class Add>
-inline __attribute__((always_inline)) void PairSph::over(int i, int begin, int end, const W& kernel,
-                                                         Add&& add) const {
+inline void PairSph::over(int i, int begin, int end, const W& kernel, Add&& add) const {
   const double* const x = atom->x[0];  // three a particle
   const int* const near = list->firstneigh[i];
   const double x_i = x[3 * i], y_i = x[3 * i + 1], reach = physics.support(), reach2 = reach * reach;
@@ -83,15 +82,6 @@ void PairSph::density_gradients(const W& kernel) {
   }
 }
 
-/// Whether the interface is within the support of i: not in its list alone, which may be older or newer.
-template <class W>
-bool PairSph::reaches_interface(int i, const W& kernel) const {
-  bool reaches = false;
-  over(i, first_interface_[static_cast<std::size_t>(i)], neighbours(i), kernel,
-       [&](std::size_t, double, double, double, double) { reaches = true; });
-  return reaches;
-}
-
 /// P_ij of artificial viscosity times what - sum_j m_j P_ij gradW_ij takes, for v_ij . x_ij below 0.
 inline double artificial(const Physics& f, double v_x, double r2, double rho_sum) {
   const double theta = f.h * std::min(v_x, 0.0) / (r2 + 0.01 * f.h * f.h);
@@ -99,7 +89,7 @@ inline double artificial(const Physics& f, double v_x, double r2, double rho_sum
 }
 
 template <class W, bool of_density, bool of_velocity, bool renormalised>
-void PairSph::rates(const W& kernel, bool beside_interface) {
+void PairSph::rates(const W& kernel) {
   const Physics& f = physics;
   double** const v = atom->v;
   double* const drho = custom("drho");
@@ -109,7 +99,7 @@ void PairSph::rates(const W& kernel, bool beside_interface) {
   for (int k = 0; k < list->inum; ++k) {
     const int i = list->ilist[k];
     const auto n = static_cast<std::size_t>(i);
-    if (atom->type[i] != Type::fluid || (beside_interface && !reaches_interface(i, kernel))) continue;
+    if (atom->type[i] != Type::fluid) continue;
     const double rho_i = rho_[n], p_rho2_i = p_rho2_[n], vx = v[i][0], vy = v[i][1],
                  laminar = 2 * f.mu / rho_i;
     double compression = 0, diffusion = 0, a[dim] = {};
