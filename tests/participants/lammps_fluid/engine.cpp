@@ -78,7 +78,7 @@ Numbers Engine::obey(Order order, Numbers in) {
 
 /// In: the physics, then x, y, v_x, v_y, rho and m of each particle.
 Numbers Engine::fill(const Numbers& in) {
-  std::memcpy(&physics_, in.data(), sizeof physics_);
+  std::memcpy(static_cast<void*>(&physics_), in.data(), sizeof physics_);
   const Physics& f = physics_;
   const double *values = in.data() + (sizeof physics_ + 7) / 8, margin = 4 * f.support();
   const int count = f.fluid_count + f.wall_count + f.interface_count;

@@ -77,7 +77,7 @@ void FixSteps::thicken(double length) {
 
 /// x, v and rho from the start of the step, by the rates at hand: x by the velocity of the evaluation.
 void FixSteps::advance_from_start(double length) {
-  double *rho = custom("rho"), *drho = custom("drho"), *rho_0 = custom("rho_0");
+  double *rho = custom("rho"), *rho_0 = custom("rho_0");
   double *x_0[dim] = {custom("x_0"), custom("y_0")}, *v_0[dim] = {custom("vx_0"), custom("vy_0")};
   const bool begins = half_ == 0;
   over_fluid([&](int i) {
