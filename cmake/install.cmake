@@ -106,6 +106,7 @@ endif()
 set(parts toryu_link toryu_topics toryu_state toryu_files toryu_run toryu_scene toryu_case toryu_error)
 list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
 add_library(participant STATIC ${objects})
+add_library(toryu::participant ALIAS participant)
 set_target_properties(participant PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME toryu_participant)
 target_compile_features(participant INTERFACE cxx_std_20)
 target_link_libraries(participant INTERFACE Eigen3::Eigen cereal::cereal fmt::fmt
@@ -113,7 +114,7 @@ target_link_libraries(participant INTERFACE Eigen3::Eigen cereal::cereal fmt::fm
   $<LINK_ONLY:OpenMP::OpenMP_CXX> $<LINK_ONLY:ZLIB::ZLIB> $<LINK_ONLY:xxhash>)
 target_sources(participant INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES
   common/case/case_file.hpp common/case/input_file.hpp common/case/parameter_table.hpp common/error/failure.hpp
-  common/link/participant.hpp common/run/network.hpp common/run/options.hpp common/run/program.hpp common/run/provenance.hpp
+  common/link/participant.hpp common/run/interruption.hpp common/run/network.hpp common/run/options.hpp common/run/program.hpp common/run/provenance.hpp
   common/sph/lanes.hpp common/sph/points.hpp common/sph/tensor.hpp common/state/checkpoint.hpp common/state/field.hpp
   common/state/serialize.hpp common/vector.hpp)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/toryu)
