@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/case/nearest_word.hpp"
 #include "common/scene/worn_box.hpp"
 
 namespace toryu::solid {
@@ -40,6 +41,9 @@ void describe(ParameterTable& table, Region& region) {
   describe_shape(table, region.shape, region.box, "its corners");
   table.optional("initial_velocity", region.initial_velocity,
                  "velocity of this region at the start; absent: that of the whole solid");
+  if (table.wants(!region.material.empty()))
+    table.text("material", region.material,
+               {.help = "the [[solid.material]] that it is made of, by name; without it that of [solid]"});
   table.flag("observed", region.observed,
              "whether the displacement and the velocity of its centre of mass go to solid.csv");
   table.list("worn", region.worn, "faces that lie behind those of the box: what has come off");
@@ -72,8 +76,44 @@ void describe(ParameterTable& table, BoxLoad& load) {
 
 double Parameters::largest_speed() const {
   if (limits.speed > 0) return limits.speed;
-  return formulation == Formulation::rigid ? std::numeric_limits<double>::infinity()
-                                           : material.longitudinal_sound_speed();
+  return formulation == Formulation::rigid ? std::numeric_limits<double>::infinity() : fastest_sound();
+}
+
+std::vector<Material> Parameters::all_materials() const {
+  std::vector<Material> all{{.law = law, .yeoh = yeoh, .elastic = material}};
+  all.insert(all.end(), materials.begin(), materials.end());
+  return all;
+}
+
+std::vector<std::uint32_t> Parameters::materials_of_regions() const {
+  std::vector<std::uint32_t> indices;
+  for (const Region& region : regions) {
+    const auto named = std::find_if(materials.begin(), materials.end(),
+                                    [&](const Material& each) { return each.name == region.material; });
+    const bool own = region.material.empty() || named == materials.end();
+    indices.push_back(own ? 0 : static_cast<std::uint32_t>(named - materials.begin()) + 1);
+  }
+  return indices;
+}
+
+double Parameters::fastest_sound() const {
+  const auto all = all_materials();
+  double fastest = 0;
+  for (const auto index : materials_of_regions())
+    fastest = std::max(fastest, all[index].elastic.longitudinal_sound_speed());
+  return fastest;
+}
+
+ElasticMaterial Parameters::material_in_contact() const {
+  const auto all = all_materials();
+  std::optional<ElasticMaterial> softest;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const auto index : materials_of_regions()) {
+    const ElasticMaterial& each = all[index].elastic;
+    if (!softest || each.bulk_modulus() < softest->bulk_modulus()) softest = each;
+    lightest = std::min(lightest, each.density);
+  }
+  return {lightest, softest->youngs_modulus, softest->poissons_ratio};
 }
 
 void describe(ParameterTable& table, SolidLimits& limits) {
@@ -89,16 +129,17 @@ void describe(ParameterTable& table, SolidLimits& limits) {
 
 namespace {
 
-/// The elastic constants, or a law that has constants of its own.
-void describe_material(ParameterTable& table, Parameters& p) {
-  table.choice("law", p.law, {"saint_venant_kirchhoff", "neo_hookean"},
+constexpr double not_used = std::numeric_limits<double>::quiet_NaN();
+
+/// The elastic constants, or a law that has constants of its own. `elastic`: whether E and nu must be there.
+void describe_material(ParameterTable& table, Material& material, bool elastic) {
+  table.choice("law", material.law, {"saint_venant_kirchhoff", "neo_hookean"},
                {.help = "total Lagrangian: stress from strain, with E and nu for small strains"});
-  table.optional("yeoh", p.yeoh,
+  table.optional("yeoh", material.yeoh,
                  "rubber (total Lagrangian); takes the place of law, youngs_modulus and poissons_ratio");
-  constexpr double not_used = std::numeric_limits<double>::quiet_NaN();
-  ElasticMaterial given = p.material;
-  const bool rigid = p.formulation == Formulation::rigid, elastic = !rigid && !p.yeoh;
-  if (!elastic) given.youngs_modulus = given.poissons_ratio = not_used;
+  ElasticMaterial& given = material.elastic;
+  elastic = elastic && !material.yeoh;
+  if (material.yeoh) given.youngs_modulus = given.poissons_ratio = not_used;
   table.number("density", given.density,
                {.unit = "kg/m3",
                 .minimum = 0,
@@ -109,11 +150,59 @@ void describe_material(ParameterTable& table, Parameters& p) {
                {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = elastic, .help = "E"});
   table.number("poissons_ratio", given.poissons_ratio,
                {.minimum = -0.9, .maximum = 0.499, .required = elastic, .help = "nu; plane strain"});
+  if (material.yeoh) given = material.yeoh->small_strain(given.density);
+}
+
+/// What the whole solid is made of, but for regions that name another material.
+void describe_material(ParameterTable& table, Parameters& p) {
+  const bool rigid = p.formulation == Formulation::rigid;
+  Material own{.law = p.law, .yeoh = p.yeoh, .elastic = p.material};
+  if (rigid) own.elastic.youngs_modulus = own.elastic.poissons_ratio = not_used;
+  describe_material(table, own, !rigid);
+  ElasticMaterial& given = own.elastic;
   const std::string no_use = "a rigid body has a density alone: formulation = \"rigid\" takes no '";
-  table.require(!rigid || std::isnan(given.youngs_modulus), "youngs_modulus", no_use + "youngs_modulus'");
-  table.require(!rigid || std::isnan(given.poissons_ratio), "poissons_ratio", no_use + "poissons_ratio'");
-  if (rigid) given.youngs_modulus = given.poissons_ratio = 0;
-  p.material = p.yeoh ? p.yeoh->small_strain(given.density) : given;
+  table.require(!rigid || own.yeoh || std::isnan(given.youngs_modulus), "youngs_modulus",
+                no_use + "youngs_modulus'");
+  table.require(!rigid || own.yeoh || std::isnan(given.poissons_ratio), "poissons_ratio",
+                no_use + "poissons_ratio'");
+  if (rigid && !own.yeoh) given.youngs_modulus = given.poissons_ratio = 0;
+  p.law = own.law, p.yeoh = own.yeoh, p.material = given;
+  table.list("material", p.materials, "what regions are made of that name it");
+}
+
+/// The form knows several materials, and each has what the form needs.
+void require_materials(ParameterTable& table, const Parameters& p) {
+  const bool rigid = p.formulation == Formulation::rigid;
+  for (std::size_t k = 0; k < p.materials.size(); ++k) {
+    const auto& [name, law, yeoh, elastic] = p.materials[k];
+    const std::string place = fmt::format("material.{}", k);
+    table.require(p.formulation != Formulation::updated_lagrangian, place,
+                  "[[solid.material]] is for formulation = \"total_lagrangian\" or \"rigid\"; the updated "
+                  "form has one material");
+    for (const auto& [key, value] : {std::pair("youngs_modulus", elastic.youngs_modulus),
+                                     std::pair("poissons_ratio", elastic.poissons_ratio)})
+      table.require(rigid || !std::isnan(value), place,
+                    fmt::format("missing key '{}' in [[solid.material]] '{}'", key, name));
+    const bool density_alone = std::isnan(elastic.youngs_modulus) && std::isnan(elastic.poissons_ratio) &&
+                               law == Material{}.law && !yeoh;
+    table.require(!rigid || density_alone, place, "a material of a rigid body has a density alone");
+  }
+}
+
+/// The material of each region is there.
+void require_named_materials(ParameterTable& table, const Parameters& p) {
+  std::vector<std::string> names;
+  for (const Material& material : p.materials) names.push_back(material.name);
+  for (std::size_t k = 0; k < p.regions.size(); ++k) {
+    const std::string& asked = p.regions[k].material;
+    const bool found = asked.empty() || std::find(names.begin(), names.end(), asked) != names.end();
+    const std::string hint = did_you_mean(asked, names);
+    table.require(found, fmt::format("region.{}.material", k),
+                  fmt::format("no [[solid.material]] is named '{}'{}", asked,
+                              !hint.empty()   ? hint
+                              : names.empty() ? "; there is none"
+                                              : "; there are " + quoted_list(names)));
+  }
 }
 
 void describe_discretisation(ParameterTable& table, Parameters& p) {
@@ -247,6 +336,11 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
 
 }  // namespace
 
+void describe(ParameterTable& table, Material& material) {
+  table.text("name", material.name, {.required = true, .help = "as regions name it"});
+  describe_material(table, material, false);
+}
+
 void describe(ParameterTable& table, Parameters& p) {
   table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian", "rigid"},
                {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
@@ -258,6 +352,8 @@ void describe(ParameterTable& table, Parameters& p) {
   describe_terms(table, p);
   table.group("limits", p.limits, "bounds beyond which the run stops");
   table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
+  require_materials(table, p);
+  require_named_materials(table, p);
   require_consistency(table, p);
 }
 

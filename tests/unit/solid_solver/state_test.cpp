@@ -66,6 +66,12 @@ const std::vector<Change>& terms_of_both_forms() {
 
 const std::vector<Change>& terms_of_total_form() {
   static const std::vector<Change> changes{
+      {"materials",
+       [](Sample& s) {
+         s.p.materials = {{.name = "stiff", .elastic = {3000, 8e6, 0.2}}};
+         s.p.regions[1].material = "stiff";
+         s.p.artificial_viscosity = ArtificialViscosity{};
+       }},
       {"bodies",
        [](Sample& s) {
          s.p.body_contact = Contact{};
