@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "common/run/log.hpp"
@@ -214,10 +215,16 @@ double Body::total_volume() const {
 }
 
 double Body::total_mass() const {
+  std::vector<std::uint32_t> all(size());
+  std::iota(all.begin(), all.end(), 0u);
+  return mass_of(all);
+}
+
+double Body::mass_of(const std::vector<std::uint32_t>& particles) const {
   double sum = 0;
   for (std::size_t m = 0; m < density.size(); ++m) {
     double volume_of = 0;
-    for (std::size_t i = 0; i < size(); ++i)
+    for (const auto i : particles)
       if (material[i] == m) volume_of += volume(i);
     sum += density[m] * volume_of;
   }

@@ -48,6 +48,7 @@ struct Body {
   double mass(std::size_t i) const { return density[material[i]] * volume(i); }  ///< [kg per metre depth]
   double total_volume() const;
   double total_mass() const;
+  double mass_of(const std::vector<std::uint32_t>& particles) const;  ///< [kg per metre depth]
   bool has_outline() const { return !outlines.empty(); }
   /// Whether `x` [m] lies in one of the outlines or of their images.
   bool contains(const Vec& x) const;

@@ -44,6 +44,8 @@ void describe(ParameterTable& table, Region& region) {
   if (table.wants(!region.material.empty()))
     table.text("material", region.material,
                {.help = "the [[solid.material]] that it is made of, by name; without it that of [solid]"});
+  if (table.wants(!region.body.empty()))
+    table.text("body", region.body, {.help = "the [[solid.body]] that it belongs to, of several rigid ones"});
   table.flag("observed", region.observed,
              "whether the displacement and the velocity of its centre of mass go to solid.csv");
   table.list("worn", region.worn, "faces that lie behind those of the box: what has come off");
@@ -254,6 +256,7 @@ void describe_terms(ParameterTable& table, Parameters& p) {
   table.optional("body_contact", p.body_contact,
                  "bodies that are not joined push each other (total Lagrangian)");
   table.optional("mounting", p.mounting, "what holds a rigid body: fixed coordinates, springs, dampers");
+  table.list("body", p.bodies, "rigid bodies, where there are several");
   table.optional("detachment", p.detachment,
                  "looks for particles that no chain of neighbours joins to a clamp");
   table.optional(
@@ -262,8 +265,40 @@ void describe_terms(ParameterTable& table, Parameters& p) {
       "at the start");
 }
 
+/// Each of several rigid bodies has regions, and each region has a body.
+void require_bodies(ParameterTable& table, const Parameters& p) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) {
+    const std::string& name = names.emplace_back(p.bodies[k].name);
+    const bool used = std::any_of(p.regions.begin(), p.regions.end(),
+                                  [&](const Region& region) { return region.body == name; });
+    table.require(used, fmt::format("body.{}", k),
+                  fmt::format("no [[solid.region]] has body = \"{}\"", name));
+  }
+  for (std::size_t k = 0; k < p.regions.size(); ++k) {
+    const std::string& asked = p.regions[k].body;
+    const std::string place = fmt::format("region.{}", k);
+    if (asked.empty()) {
+      table.require(
+          names.empty(), place,
+          fmt::format("region '{}' needs a 'body': there are {}", p.regions[k].name, quoted_list(names)));
+      continue;
+    }
+    const std::string hint = did_you_mean(asked, names);
+    table.require(std::find(names.begin(), names.end(), asked) != names.end(), place + ".body",
+                  fmt::format("no [[solid.body]] is named '{}'{}", asked,
+                              !hint.empty()   ? hint
+                              : names.empty() ? "; there is none"
+                                              : "; there are " + quoted_list(names)));
+  }
+  table.require(p.bodies.empty() || !p.mounting, "mounting",
+                "[solid.mounting] is of a rigid body that is the only one: each [[solid.body]] has its own "
+                "[solid.body.mounting]");
+}
+
 /// A rigid body has neither stress nor bonds, and moves in three coordinates alone.
 void require_rigid(ParameterTable& table, const Parameters& p) {
+  require_bodies(table, p);
   table.require(p.clamps.empty(), "clamp",
                 "[[solid.clamp]] holds particles of a solid that deforms; what holds a body of formulation = "
                 "\"rigid\" is [solid.mounting]");
@@ -306,6 +341,10 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
   if (p.formulation == Formulation::rigid) return require_rigid(table, p);
   const bool total = p.formulation == Formulation::total_lagrangian;
   table.require(
+      p.bodies.empty(), "body",
+      "[[solid.body]] is for formulation = \"rigid\" only; elastic regions that do not touch are bodies "
+      "of their own");
+  table.require(
       !p.mounting, "mounting",
       "[solid.mounting] is for formulation = \"rigid\" only; what deforms is held by [[solid.clamp]]");
   table.require(total || (p.law == ElasticLaw::saint_venant_kirchhoff && !p.yeoh), p.yeoh ? "yeoh" : "law",
@@ -335,6 +374,11 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
 }
 
 }  // namespace
+
+void describe(ParameterTable& table, NamedBody& body) {
+  table.text("name", body.name, {.required = true, .help = "as its columns begin", .names_columns = true});
+  table.optional("mounting", body.mounting, "what holds it: fixed coordinates, springs, dampers");
+}
 
 void describe(ParameterTable& table, Material& material) {
   table.text("name", material.name, {.required = true, .help = "as regions name it"});

@@ -59,8 +59,16 @@ struct Region {
   BodyShape shape = {};
   std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box, across one axis
   std::string material = {};        ///< its name; none: that of [solid]
+  std::string body = {};            ///< of several rigid ones, the name of that to which it belongs
 };
 void describe(ParameterTable& table, Region& region);
+
+/// One of several rigid bodies.
+struct NamedBody {
+  std::string name;
+  std::optional<Mounting> mounting = std::nullopt;
+};
+void describe(ParameterTable& table, NamedBody& body);
 
 /// What a solid is made of.
 struct Material {
@@ -122,7 +130,8 @@ struct Parameters {
   std::optional<Contact> body_contact;
   std::optional<Detachment> detachment;
   std::optional<BondLimits> bonds;
-  std::optional<Mounting> mounting = {};  ///< of a rigid body
+  std::optional<Mounting> mounting = {};  ///< of a rigid body that is the only one
+  std::vector<NamedBody> bodies = {};     ///< rigid ones, where there are several
   SolidLimits limits;
 
   double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]

@@ -89,6 +89,28 @@ TEST_F(SolidSection, RefusesMaterialsThatAreNotThere) {
       "updated form has one material");
 }
 
+TEST_F(SolidSection, NamesSeveralRigidBodies) {
+  const std::string rigid = "[solid]\nformulation = 'rigid'\ndensity = 1000.0\nspacing = 0.005\n";
+  const std::string region =
+      "[[solid.region]]\nname = 'plate'\nbox = { min = [0.0, 0.0], max = [0.2, 0.02] }\n";
+  const std::string flap = "[[solid.body]]\nname = 'flap'\nmounting = { fixed = ['x'] }\n";
+  EXPECT_EQ(read(rigid + region + "body = 'flap'\n" + flap).bodies[0].mounting->fixed.size(), 1u);
+  EXPECT_EQ(faults(rigid + region + "body = 'flab'\n" + flap),
+            "case.toml:8:1: error: no [[solid.body]] is named 'flab'; did you mean 'flap'?\n"
+            "case.toml:9:1: error: no [[solid.region]] has body = \"flap\"");
+  EXPECT_EQ(faults(rigid + region + flap),
+            "case.toml:5:1: error: region 'plate' needs a 'body': there are 'flap'\n"
+            "case.toml:8:1: error: no [[solid.region]] has body = \"flap\"");
+  EXPECT_EQ(
+      faults(rigid + "mounting = {}\n" + region + "body = 'flap'\n" + flap),
+      "case.toml:5:1: error: [solid.mounting] is of a rigid body that is the only one: each [[solid.body]] "
+      "has its own [solid.body.mounting]");
+  EXPECT_EQ(faults(plate + "body = 'flap'\n" + flap),
+            "case.toml:10:9: error: [[solid.body]] is for formulation = \"rigid\" only; elastic regions that "
+            "do not "
+            "touch are bodies of their own");
+}
+
 TEST_F(SolidSection, RefusesTwoObserversOfOneName) {
   const std::string observer = "[[solid.observer]]\nname = 'tip'\npoint = [0.1, 0.01]\n";
   EXPECT_EQ(faults(plate + observer), "");
