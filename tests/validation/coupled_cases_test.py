@@ -121,6 +121,16 @@ class FloatingBox(unittest.TestCase):
         self.assertLess(figures["largest_impulse_error"], 1e-12)
 
 
+    def test_two_boxes_float_as_deep_as_each_is_heavy(self):
+        rows, figures, _ = run("floating_box/two_boxes.toml", **{"case.end_time": 2, "fluid.spacing": 0.0125, "solid.spacing": 0.0125})
+        late = [row for row in rows if row["time[s]"] >= 1.5]
+        heavy, light = (sum(row[f"{name}_displacement_y[m]"] for row in late) / len(late) for name in ("heavy", "light"))
+        level = (0.9 * 0.3 - 2 * 0.2 * 0.05 - 0.2 * (0.5 + heavy + light)) / (0.9 - 2 * 0.2)  # of as much water as there is
+        self.assertLess(abs((level - 0.25 - heavy) / 0.06 - 1), 0.025)  # -1.7 %
+        self.assertLess(abs((level - 0.25 - light) / 0.04 - 1), 0.025)  # -1.8 %
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
 class FloatingSquare(unittest.TestCase):
     def test_turns_until_a_corner_points_down(self):
         rows, _, _ = run("floating_box/square.toml", **{"fluid.spacing": 0.0125, "solid.spacing": 0.0125})

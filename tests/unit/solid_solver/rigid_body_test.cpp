@@ -373,21 +373,17 @@ TEST(RigidBody, MovesBitByBitAsAloneBesideAnother) {
 TEST(RigidBody, BringsTheMassOfItsOwnToItsInterface) {
   const RigidBody both = rigid(two_bars());
   const Interface touched = both.interface(0.006);
-  double lower = 0, upper = 0;
-  for (std::size_t n = 0; n < touched.size(); ++n)
-    (both.body().region[touched.id[n]] == 0 ? lower : upper) += touched.mass[n];
-  EXPECT_NEAR(lower, m, 1e-12);
-  EXPECT_NEAR(upper, 3 * m, 1e-12);
+  Vec mass = Vec::Zero();
+  for (std::size_t n = 0; n < touched.size(); ++n) mass[both.body().region[touched.id[n]]] += touched.mass[n];
+  EXPECT_LT((mass - Vec(m, 3 * m)).norm(), 1e-12);
 }
 
 TEST(RigidBody, EndsTheRunWhereItMeetsAnother) {
   Scene scene = empty_scene();
   scene.gravity = Vec(0, 10);  // upwards, against the one on a spring
   RigidBody both = rigid(two_bars(), scene);
-  step_to(both, 0.05, 100);
-  both.check(0.05);
   try {
-    for (double t = 0.05; t < 0.3; t += 1e-3) {
+    for (double t = 0; t < 0.3; t += 1e-3) {
       both.advance(1e-3);
       both.check(t);
     }
