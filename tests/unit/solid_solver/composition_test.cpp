@@ -205,6 +205,25 @@ TEST(Composition, LetsNoBodyFeelOneThatItDoesNotTouch) {
   EXPECT_EQ(resting->displacement(2 * count - 1).norm(), 0);
 }
 
+TEST(Composition, KeepsMomentumAndEnergyWhereBodiesOfTwoMaterialsCollide) {
+  Parameters p = two_layers(0);
+  p.regions[1].box = {Vec(0.061, 0), Vec(0.121, 0.12)};  // a millimetre apart
+  p.regions[0].initial_velocity = InitialVelocity{.velocity = Vec(1, 0)};
+  p.body_contact = Contact{.stiffness = 0.5};
+  const auto model = model_of(p);
+  const double first = 0.06 * 0.12 * 1000 * 1;
+  EXPECT_NEAR(observed(*model, "momentum_x"), first, 1e-12 * first);
+  double pressed = 0;
+  while (model->velocity(model->particle_count() - 1)[0] < 0.1) {
+    model->advance(0.5 * model->time_step_limit());
+    pressed = std::max(pressed, observed(*model, "contact_energy"));
+    ASSERT_LT(model->displacement(0)[0], 0.1) << "the bodies pass through each other";
+  }
+  EXPECT_GT(pressed, 0);
+  EXPECT_NEAR(observed(*model, "momentum_x"), first, 1e-12 * first);
+  EXPECT_NEAR(observed(*model, "dissipated_energy"), 0, 2e-3 * 0.5 * first);
+}
+
 TEST(Composition, FramesSayWhatAParticleIsMadeOf) {
   const auto both = model_of(beams({beam("light", 0), beam("rubber", 0.1)}));
   for (const auto& field : both->frame().fields) {
