@@ -86,7 +86,10 @@ std::vector<std::string> stability_warnings(const CaseFile& file, const Paramete
       2 * file.value<double>("fluid.smoothing_ratio").value_or(usual_smoothing_ratio) * fluid.spacing;
   // No deeper than the kernel sees, but for a rigid body, which moves as a whole.
   const double depth = rigid ? thickness(file) : std::min(thickness(file), layer_depth(fluid));
-  const double ratio = number("solid.density") * depth / (fluid.density * fluid.spacing);
+  double density = number("solid.density");
+  for (int k = 0; const auto lighter = file.value<double>(fmt::format("solid.material[{}].density", k)); ++k)
+    density = std::min(density, *lighter);
+  const double ratio = density * depth / (fluid.density * fluid.spacing);
   const double least =
       least_mass_ratio(coupling.scheme, fluid, foreseen_window(file, fluid, coupling.fluid_steps_per_window));
   if (ratio > 0 && ratio < least) said.push_back(too_light(ratio, least));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "common/run/log.hpp"
@@ -213,6 +214,23 @@ double Body::total_volume() const {
   return sum;
 }
 
+double Body::total_mass() const {
+  std::vector<std::uint32_t> all(size());
+  std::iota(all.begin(), all.end(), 0u);
+  return mass_of(all);
+}
+
+double Body::mass_of(const std::vector<std::uint32_t>& particles) const {
+  double sum = 0;
+  for (std::size_t m = 0; m < density.size(); ++m) {
+    double volume_of = 0;
+    for (const auto i : particles)
+      if (material[i] == m) volume_of += volume(i);
+    sum += density[m] * volume_of;
+  }
+  return sum;
+}
+
 bool Body::contains(const Vec& x) const {
   return std::any_of(shifts.begin(), shifts.end(), [&](const Vec& shift) {
     return std::any_of(outlines.begin(), outlines.end(),
@@ -297,6 +315,10 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault, const
                                                regions[a].name, regions[b].name));
     body.counts.emplace_back("region " + regions[a].name, body.size() - before);
   }
+  const auto of_region = parameters.materials_of_regions();
+  for (const auto region : body.region) body.material.push_back(of_region[region]);
+  for (const Material& material : parameters.all_materials())
+    body.density.push_back(material.elastic.density);
   body.held.assign(body.size(), 0);
   for (const auto& clamp : parameters.clamps) {
     const auto particles = body.inside(clamp.box);

@@ -27,13 +27,15 @@ namespace toryu::solid {
 /// how. The surface of a body that has such a region is its outline, each piece of which belongs to the
 /// particle nearest to it.
 struct Body {
-  std::vector<Vec> X;                 ///< positions [m]
-  std::vector<Vec> cell;              ///< sides of each particle's cell; of a fitted one as if square [m]
-  std::vector<std::uint32_t> region;  ///< index of each particle's region
-  std::vector<char> held;             ///< by a clamp
-  std::vector<Vec> area_vector;       ///< outward faces of the surface [m per metre depth]; zero inside
-  Shape shape;                        ///< where there is material
-  std::vector<Vec> outside;           ///< empty lattice sites, or places as far beyond the surface [m]
+  std::vector<Vec> X;                   ///< positions [m]
+  std::vector<Vec> cell;                ///< sides of each particle's cell; of a fitted one as if square [m]
+  std::vector<std::uint32_t> region;    ///< index of each particle's region
+  std::vector<std::uint32_t> material;  ///< and of what it is made of: Parameters::all_materials
+  std::vector<double> density;          ///< by material [kg/m3]
+  std::vector<char> held;               ///< by a clamp
+  std::vector<Vec> area_vector;         ///< outward faces of the surface [m per metre depth]; zero inside
+  Shape shape;                          ///< where there is material
+  std::vector<Vec> outside;             ///< empty lattice sites, or places as far beyond the surface [m]
   /// Of all regions without the holes, if one is fitted or a pressure acts on the body; else none.
   std::vector<Outline> outlines;
   std::vector<Vec> shifts{Vec::Zero()};  ///< by which it repeats itself (Period) [m]
@@ -42,8 +44,11 @@ struct Body {
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log
 
   std::size_t size() const { return X.size(); }
-  double volume(std::size_t i) const { return cell[i].prod(); }  ///< [m2 per metre depth]
+  double volume(std::size_t i) const { return cell[i].prod(); }                  ///< [m2 per metre depth]
+  double mass(std::size_t i) const { return density[material[i]] * volume(i); }  ///< [kg per metre depth]
   double total_volume() const;
+  double total_mass() const;
+  double mass_of(const std::vector<std::uint32_t>& particles) const;  ///< [kg per metre depth]
   bool has_outline() const { return !outlines.empty(); }
   /// Whether `x` [m] lies in one of the outlines or of their images.
   bool contains(const Vec& x) const;

@@ -8,7 +8,6 @@ namespace toryu::solid {
 
 DetachmentObserver::DetachmentObserver(const Body& body, const Parameters& parameters)
     : body_(&body),
-      density_(parameters.material.density),
       bond_length_(parameters.detachment->bond_length > 0 ? parameters.detachment->bond_length * body.spacing
                                                           : 2.0 * parameters.h()),
       interval_(parameters.detachment->interval) {}
@@ -47,7 +46,7 @@ bool DetachmentObserver::record(State& state, const std::vector<Vec>& x, double 
     state.detached[i] = !reached[i];
     if (!state.detached[i] || state.ever_detached[i]) continue;
     state.ever_detached[i] = 1;
-    state.list.push_back({i, time, density_ * body_->volume(i), body_->X[i], x[i]});
+    state.list.push_back({i, time, body_->mass(i), body_->X[i], x[i]});
   }
   return state.list.size() > before;
 }

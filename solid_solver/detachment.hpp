@@ -47,7 +47,7 @@ class DetachmentObserver {
   std::vector<char> reached_from_clamps(const std::vector<Vec>& x) const;
 
   const Body* body_;
-  double density_, bond_length_, interval_;
+  double bond_length_, interval_;
 };
 
 template <class Archive>

@@ -21,7 +21,7 @@ Drive::Drive(const Parameters& parameters, const Body& body, const Scene& scene)
     const auto particles = body.inside(load.box);
     if (load.changes()) changing_.push_back({load, particles});
     for (const auto i : particles) {
-      const double mass = parameters.material.density * body.volume(i);
+      const double mass = body.mass(i);
       if (!load.force.isZero(0)) forced_[i] = 1;
       if (load.changes())
         changing_.back().masses.push_back(mass);
@@ -49,7 +49,7 @@ void Drive::bear_pressures(const Parameters& parameters, const Body& body) {
     for (const SurfacePiece& piece : body.surface(load.box)) {
       const MaterialPoint point(piece.place, body.X, 2.0 * parameters.h(), body.shape, body.shifts);
       point.share([&](std::uint32_t i, double weight) {
-        steady_[i] -= weight * load.pressure / (parameters.material.density * body.volume(i)) * piece.area;
+        steady_[i] -= weight * load.pressure / body.mass(i) * piece.area;
       });
     }
   }

@@ -160,6 +160,12 @@ Frame SolidModel::frame() const {
   frame.fields = {std::move(velocity_field), std::move(displacement_field)};
   if (has_stress()) append_stress(frame.fields);
   frame.fields.push_back(std::move(held_field));
+  if (!parameters_.materials.empty())
+    frame.fields.push_back({"material",
+                            "1",
+                            "0: that of [solid]; else the place in the list of [[solid.material]], from 1",
+                            1,
+                            {body_.material.begin(), body_.material.end()}});
   if (detachment_) {
     const auto& detached = state_.detachment.detached;
     frame.fields.push_back({"detached",
@@ -180,11 +186,14 @@ std::vector<ActiveTerm> SolidModel::active_terms() const {
     terms.push_back({"loads", "f_i = F/N on the N particles of a box, or -p A_i on their surface", "",
                      fmt::format("{} boxes", parameters_.loads.size())});
   if (parameters_.artificial_viscosity)
-    terms.push_back(
-        {"artificial viscosity", "Pi_ij = (-A c theta_ij + B theta_ij^2)/rho_0 where particles approach",
-         "Monaghan 1992; thesis eq. 23-24",
-         fmt::format("A {:g}, B {:g}, c {:.4g} m/s", parameters_.artificial_viscosity->alpha,
-                     parameters_.artificial_viscosity->beta, parameters_.material.bulk_sound_speed())});
+    terms.push_back({"artificial viscosity",
+                     "Pi_ij = (-A c theta_ij + B theta_ij^2)/rho_0 where particles approach",
+                     "Monaghan 1992; thesis eq. 23-24",
+                     fmt::format("A {:g}, B {:g}, {}", parameters_.artificial_viscosity->alpha,
+                                 parameters_.artificial_viscosity->beta,
+                                 parameters_.materials.empty()
+                                     ? fmt::format("c {:.4g} m/s", parameters_.material.bulk_sound_speed())
+                                     : "c of each material, means between two")});
   if (walls_)
     terms.push_back(
         {"wall contact", "p_i = stiffness K max(0, S_i/S_0 - 1), Dv_i/Dt = -p_i/rho_0 grad S_i",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/case/nearest_word.hpp"
 #include "common/scene/worn_box.hpp"
 
 namespace toryu::solid {
@@ -40,6 +41,11 @@ void describe(ParameterTable& table, Region& region) {
   describe_shape(table, region.shape, region.box, "its corners");
   table.optional("initial_velocity", region.initial_velocity,
                  "velocity of this region at the start; absent: that of the whole solid");
+  if (table.wants(!region.material.empty()))
+    table.text("material", region.material,
+               {.help = "the [[solid.material]] that it is made of, by name; without it that of [solid]"});
+  if (table.wants(!region.body.empty()))
+    table.text("body", region.body, {.help = "the [[solid.body]] that it belongs to, of several rigid ones"});
   table.flag("observed", region.observed,
              "whether the displacement and the velocity of its centre of mass go to solid.csv");
   table.list("worn", region.worn, "faces that lie behind those of the box: what has come off");
@@ -70,12 +76,6 @@ void describe(ParameterTable& table, BoxLoad& load) {
                 "a 'pressure' is constant: 'factor' and 'sine' go with a 'force'");
 }
 
-double Parameters::largest_speed() const {
-  if (limits.speed > 0) return limits.speed;
-  return formulation == Formulation::rigid ? std::numeric_limits<double>::infinity()
-                                           : material.longitudinal_sound_speed();
-}
-
 void describe(ParameterTable& table, SolidLimits& limits) {
   table.number("speed", limits.speed,
                {.unit = "m/s",
@@ -89,16 +89,17 @@ void describe(ParameterTable& table, SolidLimits& limits) {
 
 namespace {
 
-/// The elastic constants, or a law that has constants of its own.
-void describe_material(ParameterTable& table, Parameters& p) {
-  table.choice("law", p.law, {"saint_venant_kirchhoff", "neo_hookean"},
+constexpr double not_used = std::numeric_limits<double>::quiet_NaN();
+
+/// The elastic constants, or a law that has constants of its own. `elastic`: whether E and nu must be there.
+void describe_material(ParameterTable& table, Material& material, bool elastic) {
+  table.choice("law", material.law, {"saint_venant_kirchhoff", "neo_hookean"},
                {.help = "total Lagrangian: stress from strain, with E and nu for small strains"});
-  table.optional("yeoh", p.yeoh,
+  table.optional("yeoh", material.yeoh,
                  "rubber (total Lagrangian); takes the place of law, youngs_modulus and poissons_ratio");
-  constexpr double not_used = std::numeric_limits<double>::quiet_NaN();
-  ElasticMaterial given = p.material;
-  const bool rigid = p.formulation == Formulation::rigid, elastic = !rigid && !p.yeoh;
-  if (!elastic) given.youngs_modulus = given.poissons_ratio = not_used;
+  ElasticMaterial& given = material.elastic;
+  elastic = elastic && !material.yeoh;
+  if (material.yeoh) given.youngs_modulus = given.poissons_ratio = not_used;
   table.number("density", given.density,
                {.unit = "kg/m3",
                 .minimum = 0,
@@ -109,11 +110,59 @@ void describe_material(ParameterTable& table, Parameters& p) {
                {.unit = "Pa", .minimum = 0, .above_minimum = true, .required = elastic, .help = "E"});
   table.number("poissons_ratio", given.poissons_ratio,
                {.minimum = -0.9, .maximum = 0.499, .required = elastic, .help = "nu; plane strain"});
+  if (material.yeoh) given = material.yeoh->small_strain(given.density);
+}
+
+/// What the whole solid is made of, but for regions that name another material.
+void describe_material(ParameterTable& table, Parameters& p) {
+  const bool rigid = p.formulation == Formulation::rigid;
+  Material own{.law = p.law, .yeoh = p.yeoh, .elastic = p.material};
+  if (rigid) own.elastic.youngs_modulus = own.elastic.poissons_ratio = not_used;
+  describe_material(table, own, !rigid);
+  ElasticMaterial& given = own.elastic;
   const std::string no_use = "a rigid body has a density alone: formulation = \"rigid\" takes no '";
-  table.require(!rigid || std::isnan(given.youngs_modulus), "youngs_modulus", no_use + "youngs_modulus'");
-  table.require(!rigid || std::isnan(given.poissons_ratio), "poissons_ratio", no_use + "poissons_ratio'");
-  if (rigid) given.youngs_modulus = given.poissons_ratio = 0;
-  p.material = p.yeoh ? p.yeoh->small_strain(given.density) : given;
+  table.require(!rigid || own.yeoh || std::isnan(given.youngs_modulus), "youngs_modulus",
+                no_use + "youngs_modulus'");
+  table.require(!rigid || own.yeoh || std::isnan(given.poissons_ratio), "poissons_ratio",
+                no_use + "poissons_ratio'");
+  if (rigid && !own.yeoh) given.youngs_modulus = given.poissons_ratio = 0;
+  p.law = own.law, p.yeoh = own.yeoh, p.material = given;
+  table.list("material", p.materials, "what regions are made of that name it");
+}
+
+/// The form knows several materials, and each has what the form needs.
+void require_materials(ParameterTable& table, const Parameters& p) {
+  const bool rigid = p.formulation == Formulation::rigid;
+  for (std::size_t k = 0; k < p.materials.size(); ++k) {
+    const auto& [name, law, yeoh, elastic] = p.materials[k];
+    const std::string place = fmt::format("material.{}", k);
+    table.require(p.formulation != Formulation::updated_lagrangian, place,
+                  "[[solid.material]] is for formulation = \"total_lagrangian\" or \"rigid\"; the updated "
+                  "form has one material");
+    for (const auto& [key, value] : {std::pair("youngs_modulus", elastic.youngs_modulus),
+                                     std::pair("poissons_ratio", elastic.poissons_ratio)})
+      table.require(rigid || !std::isnan(value), place,
+                    fmt::format("missing key '{}' in [[solid.material]] '{}'", key, name));
+    const bool density_alone = std::isnan(elastic.youngs_modulus) && std::isnan(elastic.poissons_ratio) &&
+                               law == Material{}.law && !yeoh;
+    table.require(!rigid || density_alone, place, "a material of a rigid body has a density alone");
+  }
+}
+
+/// The material of each region is there.
+void require_named_materials(ParameterTable& table, const Parameters& p) {
+  std::vector<std::string> names;
+  for (const Material& material : p.materials) names.push_back(material.name);
+  for (std::size_t k = 0; k < p.regions.size(); ++k) {
+    const std::string& asked = p.regions[k].material;
+    const bool found = asked.empty() || std::find(names.begin(), names.end(), asked) != names.end();
+    const std::string hint = did_you_mean(asked, names);
+    table.require(found, fmt::format("region.{}.material", k),
+                  fmt::format("no [[solid.material]] is named '{}'{}", asked,
+                              !hint.empty()   ? hint
+                              : names.empty() ? "; there is none"
+                                              : "; there are " + quoted_list(names)));
+  }
 }
 
 void describe_discretisation(ParameterTable& table, Parameters& p) {
@@ -165,6 +214,7 @@ void describe_terms(ParameterTable& table, Parameters& p) {
   table.optional("body_contact", p.body_contact,
                  "bodies that are not joined push each other (total Lagrangian)");
   table.optional("mounting", p.mounting, "what holds a rigid body: fixed coordinates, springs, dampers");
+  table.list("body", p.bodies, "rigid bodies, where there are several");
   table.optional("detachment", p.detachment,
                  "looks for particles that no chain of neighbours joins to a clamp");
   table.optional(
@@ -173,8 +223,40 @@ void describe_terms(ParameterTable& table, Parameters& p) {
       "at the start");
 }
 
+/// Each of several rigid bodies has regions, and each region has a body.
+void require_bodies(ParameterTable& table, const Parameters& p) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k) {
+    const std::string& name = names.emplace_back(p.bodies[k].name);
+    const bool used = std::any_of(p.regions.begin(), p.regions.end(),
+                                  [&](const Region& region) { return region.body == name; });
+    table.require(used, fmt::format("body.{}", k),
+                  fmt::format("no [[solid.region]] has body = \"{}\"", name));
+  }
+  for (std::size_t k = 0; k < p.regions.size(); ++k) {
+    const std::string& asked = p.regions[k].body;
+    const std::string place = fmt::format("region.{}", k);
+    if (asked.empty()) {
+      table.require(
+          names.empty(), place,
+          fmt::format("region '{}' needs a 'body': there are {}", p.regions[k].name, quoted_list(names)));
+      continue;
+    }
+    const std::string hint = did_you_mean(asked, names);
+    table.require(std::find(names.begin(), names.end(), asked) != names.end(), place + ".body",
+                  fmt::format("no [[solid.body]] is named '{}'{}", asked,
+                              !hint.empty()   ? hint
+                              : names.empty() ? "; there is none"
+                                              : "; there are " + quoted_list(names)));
+  }
+  table.require(p.bodies.empty() || !p.mounting, "mounting",
+                "[solid.mounting] is of a rigid body that is the only one: each [[solid.body]] has its own "
+                "[solid.body.mounting]");
+}
+
 /// A rigid body has neither stress nor bonds, and moves in three coordinates alone.
 void require_rigid(ParameterTable& table, const Parameters& p) {
+  require_bodies(table, p);
   table.require(p.clamps.empty(), "clamp",
                 "[[solid.clamp]] holds particles of a solid that deforms; what holds a body of formulation = "
                 "\"rigid\" is [solid.mounting]");
@@ -217,6 +299,10 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
   if (p.formulation == Formulation::rigid) return require_rigid(table, p);
   const bool total = p.formulation == Formulation::total_lagrangian;
   table.require(
+      p.bodies.empty(), "body",
+      "[[solid.body]] is for formulation = \"rigid\" only; elastic regions that do not touch are bodies "
+      "of their own");
+  table.require(
       !p.mounting, "mounting",
       "[solid.mounting] is for formulation = \"rigid\" only; what deforms is held by [[solid.clamp]]");
   table.require(total || (p.law == ElasticLaw::saint_venant_kirchhoff && !p.yeoh), p.yeoh ? "yeoh" : "law",
@@ -247,6 +333,16 @@ void require_consistency(ParameterTable& table, const Parameters& p) {
 
 }  // namespace
 
+void describe(ParameterTable& table, NamedBody& body) {
+  table.text("name", body.name, {.required = true, .help = "as its columns begin", .names_columns = true});
+  table.optional("mounting", body.mounting, "what holds it: fixed coordinates, springs, dampers");
+}
+
+void describe(ParameterTable& table, Material& material) {
+  table.text("name", material.name, {.required = true, .help = "as regions name it"});
+  describe_material(table, material, false);
+}
+
 void describe(ParameterTable& table, Parameters& p) {
   table.choice("formulation", p.formulation, {"total_lagrangian", "updated_lagrangian", "rigid"},
                {.help = "total: neighbours of the unloaded body for ever, stiff plates of few rows come out "
@@ -258,6 +354,8 @@ void describe(ParameterTable& table, Parameters& p) {
   describe_terms(table, p);
   table.group("limits", p.limits, "bounds beyond which the run stops");
   table.require(!p.regions.empty(), "region", "[solid] needs at least one [[solid.region]]");
+  require_materials(table, p);
+  require_named_materials(table, p);
   require_consistency(table, p);
 }
 

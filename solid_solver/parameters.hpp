@@ -2,6 +2,8 @@
 /// sub-section.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,8 +58,28 @@ struct Region {
   bool observed = false;  ///< whether a run reports where its centre of mass is and how fast
   BodyShape shape = {};
   std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box, across one axis
+  std::string material = {};        ///< its name; none: that of [solid]
+  std::string body = {};            ///< of several rigid ones, the name of that to which it belongs
 };
 void describe(ParameterTable& table, Region& region);
+
+/// One of several rigid bodies.
+struct NamedBody {
+  std::string name;
+  std::optional<Mounting> mounting = std::nullopt;
+};
+void describe(ParameterTable& table, NamedBody& body);
+
+/// What a solid is made of.
+struct Material {
+  std::string name = {};  ///< none: that of [solid]
+  ElasticLaw law = ElasticLaw::saint_venant_kirchhoff;
+  std::optional<Yeoh> yeoh = std::nullopt;  ///< in the place of `law`
+  /// For small strains; E and nu are no numbers where the case does not say them.
+  ElasticMaterial elastic{1000.0, std::numeric_limits<double>::quiet_NaN(),
+                          std::numeric_limits<double>::quiet_NaN()};
+};
+void describe(ParameterTable& table, Material& material);
 
 /// A force, shared equally by the particles of a box, or a constant pressure on their share of the surface,
 /// as large and directed as the surface is in the unloaded body. Over time a force is multiplied by a factor,
@@ -93,6 +115,7 @@ struct Parameters {
   double courant_number = 0.25;                ///< of the acoustic limit of the updated Lagrangian form
   Gradients gradients = Gradients::plain;
   Integrator integrator = Integrator::midpoint;  ///< of the updated Lagrangian form
+  std::vector<Material> materials = {};          ///< beside that of [solid], for regions that name them
   std::vector<Region> regions;
   std::vector<NamedBox> holes;
   std::vector<Clamp> clamps;
@@ -107,11 +130,19 @@ struct Parameters {
   std::optional<Contact> body_contact;
   std::optional<Detachment> detachment;
   std::optional<BondLimits> bonds;
-  std::optional<Mounting> mounting = {};  ///< of a rigid body
+  std::optional<Mounting> mounting = {};  ///< of a rigid body that is the only one
+  std::vector<NamedBody> bodies = {};     ///< rigid ones, where there are several
   SolidLimits limits;
 
   double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]
   double largest_speed() const;                           ///< beyond which a run stops [m/s]
+  /// That of [solid], then those that have names.
+  std::vector<Material> all_materials() const;
+  /// Index among all of them of what each region is made of.
+  std::vector<std::uint32_t> materials_of_regions() const;
+  double fastest_sound() const;  ///< largest longitudinal sound speed of what the regions are made of [m/s]
+  /// What bodies and walls that touch need: the bulk modulus of the softest, the density of the lightest.
+  ElasticMaterial material_in_contact() const;
 };
 void describe(ParameterTable& table, Parameters& parameters);
 

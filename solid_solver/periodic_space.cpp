@@ -40,6 +40,7 @@ std::vector<std::pair<std::string, std::string>> periodic_faults(const Parameter
   if (p.formulation == Formulation::updated_lagrangian)
     refuse("solid.formulation", "only a solid by \"total_lagrangian\" or \"rigid\" can be");
   if (p.detachment) refuse("solid.detachment", "particles that come off are not looked for");
+  if (!p.bodies.empty()) refuse("solid.body", "a rigid body is the only one");
   if (p.formulation == Formulation::rigid && !(p.mounting && p.mounting->is_fixed(dim)) &&
       meets_its_image(p, period))
     faults.emplace_back(

@@ -39,6 +39,7 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
   resize_fields(state_, size);
   resize(X_, size);
   mobile_.resize(size);
+  inverse_rho_.resize(size);
   find_slots();
   for (std::size_t k = 0; k < size; ++k)
     set(state_.v, k, mobile_[k] * initial_velocity(state_.number[std::min(k, count - 1)]));
@@ -53,7 +54,7 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
     observers_.emplace_back(
         observer, MaterialPoint(observer.point, body_.X, 2.0 * parameters_.h(), body_.shape, body_.shifts));
   if (parameters_.wall_contact) {
-    walls_.emplace(scene.walls, *parameters_.wall_contact, parameters_.material, body_.spacing,
+    walls_.emplace(scene.walls, *parameters_.wall_contact, parameters_.material_in_contact(), body_.spacing,
                    parameters_.h(), period_);
     state_.walls = walls_->start();
     resize(state_.push, size);
@@ -106,6 +107,7 @@ void SolidModel::find_slots() {
     const std::size_t i = number[std::min(k, number.size() - 1)];  // padding repeats the last particle
     set(X_, k, body_.X[i]);
     mobile_[k] = body_.held[i] ? 0.0 : 1.0;
+    inverse_rho_[k] = 1.0 / body_.density[body_.material[i]];
   }
 }
 
@@ -273,7 +275,7 @@ void SolidModel::add_wall_contact(const VecField& x) {
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
     const std::size_t i = c * lane_count;
-    const VecLanes push = walls_->acceleration(state_.walls, x, c);
+    const VecLanes push = walls_->acceleration(state_.walls, x, c, load(inverse_rho_, i));
     store(push, state_.push, i);
     for (int a = 0; a < dim; ++a) store(load(state_.a[a], i) + push[a], state_.a[a], i);
   }
@@ -338,7 +340,7 @@ void SolidModel::find_detached() {
 /// Positions that are rounded in the last of 53 bits give accelerations, and these velocities of about 1e-16
 /// of the sound speed a step; ten thousand times that is no motion yet [J per metre of depth].
 double SolidModel::energy_of_rounding() const {
-  const double v = 1e-12 * parameters_.material.longitudinal_sound_speed();
+  const double v = 1e-12 * parameters_.fastest_sound();
   return 0.5 * total_mass() * v * v;
 }
 

@@ -98,8 +98,8 @@ class SolidModel : public Solver {
   Vec displacement(std::size_t particle) const { return at(state_.u, slot_[particle]); }  ///< [m]
   Vec velocity(std::size_t particle) const { return at(state_.v, slot_[particle]); }      ///< [m/s]
   Vec acceleration(std::size_t particle) const;                                           ///< [m/s2]
-  double mass(std::size_t particle) const { return parameters_.material.density * body_.volume(particle); }
-  double total_mass() const { return parameters_.material.density * body_.total_volume(); }  ///< [kg/m]
+  double mass(std::size_t particle) const { return body_.mass(particle); }                ///< [kg/m]
+  double total_mass() const { return body_.total_mass(); }                                ///< [kg/m]
   virtual bool has_stress() const { return true; }        ///< whether the form knows any
   virtual Stress stress(std::size_t particle) const = 0;  ///< Cauchy, as it drives the particles
   /// Cauchy, as near to that of the body as the particles tell: what frames show.
@@ -201,6 +201,7 @@ class SolidModel : public Solver {
   std::vector<std::uint32_t> slot_;  ///< of a particle
   VecField X_;                       ///< reference position [m]
   Field mobile_;                     ///< 0 where a clamp holds, else 1
+  Field inverse_rho_;                ///< of the unloaded particle [m3/kg]
   Timers timers_;
   std::optional<ContactWalls> walls_;     ///< if walls act on the solid
   std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other

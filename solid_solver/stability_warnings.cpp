@@ -67,7 +67,10 @@ double fewest_rows(const Parameters& p) {
 }
 
 void guard_thin_plates(const Parameters& p, std::vector<std::string>& said) {
-  const double rows = fewest_rows(p), nu = p.material.poissons_ratio;
+  const double rows = fewest_rows(p);
+  double nu = -1;
+  const auto all = p.all_materials();
+  for (const auto index : p.materials_of_regions()) nu = std::max(nu, all[index].elastic.poissons_ratio);
   if (rows < (p.hourglass ? 3 : 12))
     said.push_back(
         fmt::format("a plate of {}{} bends by 6 % too little or too much, or more; see "

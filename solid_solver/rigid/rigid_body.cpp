@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "common/sph/sorted_points.hpp"
 #include "common/state/serialize.hpp"
 
 namespace toryu::solid {
@@ -24,11 +23,8 @@ constexpr double step_of_jump = 1e-3;
 /// Of a particle that touches a wall firmly. The wall begins and ends to push within a step: a bounce is then
 /// within half a percent of its energy, at 2, where a step is just stable, within 20 % [rad].
 constexpr double contact_phase_of_step = 0.5;
-
-/// A force at the end of an arm, as it drives the coordinates.
-Coordinates at_arm(const Vec& arm, const Vec& force) {
-  return {force[0], force[1], cross(arm, force)};
-}
+/// Particles of two bodies that are nearer, over the spacing: the bodies have met.
+constexpr double least_gap = 0.5;
 
 double longest_step(const Scene& scene) {
   if (scene.frame_interval > 0) return scene.frame_interval / steps_of_frame;
@@ -39,60 +35,48 @@ double longest_step(const Scene& scene) {
 
 RigidBody::RigidBody(const Parameters& parameters, const Body& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
-      mounting_(parameters.mounting.value_or(Mounting{})),
+      parts_(rigid_parts(parameters, body_)),
+      part_of_(particle_count()),
       longest_step_(longest_step(scene)) {
-  for (int n = 0; n <= dim; ++n) free_[n] = mounting_.is_fixed(n) ? 0.0 : 1.0;
-  find_inertia();
-  find_start();
+  form_.q.assign(parts_.size(), Coordinates::Zero());
+  form_.v = form_.q;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    for (const auto i : parts_[b].particles) part_of_[i] = static_cast<std::uint32_t>(b);
+    find_start(b);
+  }
   if (walls_) resize(x_, padded(particle_count()));
   place_particles();
   first_energy_ = kinetic_energy() + spring_energy();
   first_momentum_ = momentum();
 }
 
-void RigidBody::find_inertia() {
-  if (mounting_.has_pivot())
-    reference_ = mounting_.pivot;
-  else
-    for (std::size_t i = 0; i < particle_count(); ++i) reference_ += mass(i) / total_mass() * body_.X[i];
-  inertia_ << total_mass(), total_mass(), 0;
-  for (std::size_t i = 0; i < particle_count(); ++i)
-    inertia_[dim] += mass(i) * ((body_.X[i] - reference_).squaredNorm() + body_.cell[i].squaredNorm() / 12);
-}
-
-void RigidBody::find_start() {
+void RigidBody::find_start(std::size_t b) {
+  const RigidPart& part = parts_[b];
   Coordinates momentum = Coordinates::Zero();
   double of_centres = 0;  // moment of inertia without that of the cells, which the particles' motion has not
-  for (std::size_t i = 0; i < particle_count(); ++i) {
-    const Vec r = body_.X[i] - reference_;
+  for (const auto i : part.particles) {
+    const Vec r = body_.X[i] - part.reference;
     momentum += at_arm(r, mass(i) * SolidModel::velocity(i));
     of_centres += mass(i) * r.squaredNorm();
   }
-  form_.v = momentum.cwiseQuotient(inertia_).cwiseProduct(free_);
-  form_.v[dim] = free_[dim] * (of_centres > 0 ? momentum[dim] / of_centres : 0.0);
-}
-
-Pose RigidBody::pose() const {
-  return {.about = reference_,
-          .centre = reference_ + form_.q.head<dim>(),
-          .angle = form_.q[dim],
-          .velocity = form_.v.head<dim>(),
-          .angular_velocity = form_.v[dim],
-          .rotation = Eigen::Rotation2Dd(form_.q[dim]).toRotationMatrix()};
+  form_.v[b] = momentum.cwiseQuotient(part.inertia).cwiseProduct(part.free);
+  form_.v[b][dim] = part.free[dim] * (of_centres > 0 ? momentum[dim] / of_centres : 0.0);
 }
 
 void RigidBody::move_particles() {
-  const Pose now = pose();
-  for (std::size_t k = 0; k < X_[0].size(); ++k) set(state_.v, k, now.velocity_of(at(X_, k)));
+  std::vector<Pose> now;
+  for (std::size_t b = 0; b < parts_.size(); ++b) now.push_back(pose(b));
+  for (std::size_t k = 0; k < X_[0].size(); ++k) set(state_.v, k, now[part_in(k)].velocity_of(at(X_, k)));
 }
 
 void RigidBody::place_particles() {
-  const Pose now = pose();
+  std::vector<Pose> now;
+  for (std::size_t b = 0; b < parts_.size(); ++b) now.push_back(pose(b));
   move_particles();
   for (std::size_t k = 0; k < X_[0].size(); ++k) {
-    const Vec X = at(X_, k);
-    set(state_.u, k, now.place(X) - X);
-    if (walls_) set(x_, k, period_.inside(now.place(X)));
+    const Vec X = at(X_, k), x = now[part_in(k)].place(X);
+    set(state_.u, k, x - X);
+    if (walls_) set(x_, k, period_.inside(x));
   }
   if (!walls_) return;
   for (int n = 0; n < dim; ++n) std::fill(state_.a[n].begin(), state_.a[n].end(), 0.0);
@@ -100,35 +84,39 @@ void RigidBody::place_particles() {
   add_wall_contact(x_);
 }
 
-Coordinates RigidBody::force() const {
-  const Pose now = pose();
-  Coordinates sum = -mounting_.stiffnesses().cwiseProduct(form_.q - mounting_.rests());
-  for (std::size_t i = 0; i < particle_count(); ++i) {
+Coordinates RigidBody::force(std::size_t b) const {
+  const RigidPart& part = parts_[b];
+  const Pose now = pose(b);
+  Coordinates sum = -part.mounting.stiffnesses().cwiseProduct(form_.q[b] - part.mounting.rests());
+  for (const auto i : part.particles) {
     const std::size_t k = slot_[i];
     sum += at_arm(arm(now, i), mass(i) * (at(state_.a, k) + at(state_.external, k)));
   }
   return sum;
 }
 
-RigidBody::Resistance RigidBody::resist(double dt) {
+RigidBody::Resistance RigidBody::resist(std::size_t b, double dt) {
   using Matrix = Eigen::Matrix<double, dim + 1, dim + 1>;
-  const Pose now = pose();
-  const Coordinates damping = mounting_.dampings();
+  const RigidPart& part = parts_[b];
+  const Pose now = pose(b);
+  const Coordinates damping = part.mounting.dampings();
   Matrix resistance = damping.asDiagonal();  // C + Z
   Coordinates pull = Coordinates::Zero();    // Z w_c
   for (std::size_t n = 0; n < state_.impedance.size(); ++n) {
+    if (part_of_[state_.loaded[n]] != b) continue;
     const Impedance& z = state_.impedance[n];
     const Coordinates g = at_arm(arm(now, state_.loaded[n]), z.normal);
     resistance += z.value * g * g.transpose();
     pull += z.value * z.normal.dot(z.velocity) * g;
   }
   // What is fixed has a row of its own, with nothing on its right side.
-  Matrix A = inertia_.asDiagonal();
-  A += 0.5 * dt * (free_ * free_.transpose()).cwiseProduct(resistance);
-  const Coordinates impulse = inertia_.cwiseProduct(form_.v) + 0.5 * dt * (force() + pull);
-  const Coordinates w = A.ldlt().solve(free_.cwiseProduct(impulse));
+  Matrix A = part.inertia.asDiagonal();
+  A += 0.5 * dt * (part.free * part.free.transpose()).cwiseProduct(resistance);
+  const Coordinates impulse = part.inertia.cwiseProduct(form_.v[b]) + 0.5 * dt * (force(b) + pull);
+  const Coordinates w = A.ldlt().solve(part.free.cwiseProduct(impulse));
   Coordinates force = -damping.cwiseProduct(w);
   for (std::size_t n = 0; n < state_.impedance.size(); ++n) {
+    if (part_of_[state_.loaded[n]] != b) continue;
     Impedance& z = state_.impedance[n];
     const Coordinates g = at_arm(arm(now, state_.loaded[n]), z.normal);
     const double taken = dt * z.value * (z.normal.dot(z.velocity) - g.dot(w));
@@ -145,14 +133,20 @@ void RigidBody::advance(double dt) {
   begin_drive(dt);
   state_.time += dt;
   count_impulses(0.5 * dt);  // of the first kick
-  const Resistance resistance = resist(dt);
-  form_.q += dt * resistance.drift;
-  form_.v = resistance.drift;
+  std::vector<Resistance> resistances;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    const Resistance& resistance = resistances.emplace_back(resist(b, dt));
+    form_.q[b] += dt * resistance.drift;
+    form_.v[b] = resistance.drift;
+  }
   place_particles();
-  form_.v += 0.5 * dt * free_.cwiseProduct(force() + resistance.force).cwiseQuotient(inertia_);
+  for (std::size_t b = 0; b < parts_.size(); ++b)
+    form_.v[b] +=
+        0.5 * dt *
+        parts_[b].free.cwiseProduct(force(b) + resistances[b].force).cwiseQuotient(parts_[b].inertia);
   move_particles();
   count_impulses(0.5 * dt);
-  if (parameters_.mounting)
+  if (std::any_of(parts_.begin(), parts_.end(), [](const RigidPart& part) { return part.mounted; }))
     state_.impulses.clamps = momentum() - first_momentum_ - state_.impulses.loads - state_.impulses.walls;
   end_drive();
   end_step();
@@ -178,28 +172,28 @@ void RigidBody::read_state(std::istream& stream) {
   read_states(stream, form_);
 }
 
-Coordinates RigidBody::natural_frequencies() const {
-  return mounting_.stiffnesses().cwiseQuotient(inertia_).cwiseSqrt();
-}
-
-double RigidBody::frequency_of_loads() const {
+double RigidBody::frequency_of_loads(const RigidPart& part) const {
   // The moment of forces that keep their direction is a cos(angle) - b sin(angle).
   double a = 0, b = 0;
-  for (std::size_t i = 0; i < particle_count(); ++i) {
-    const Vec r = body_.X[i] - reference_, f = mass(i) * steady_acceleration(i);
+  for (const auto i : part.particles) {
+    const Vec r = body_.X[i] - part.reference, f = mass(i) * steady_acceleration(i);
     a += cross(r, f);
     b += r.dot(f);
   }
-  return std::sqrt(std::hypot(a, b) / inertia_[dim]);
+  return std::sqrt(std::hypot(a, b) / part.inertia[dim]);
 }
 
 double RigidBody::time_step_limit() const {
-  const Coordinates damping = mounting_.dampings().cwiseQuotient(inertia_);
-  const double turning = std::hypot(frequency_of_loads(), form_.v[dim]);
-  const Coordinates rates =
-      (natural_frequencies() + damping + Coordinates(0, 0, turning)).cwiseProduct(free_);
-  double limit =
-      std::min(longest_step_, largest_turn_of_step / std::max(rates.maxCoeff(), drive_.fastest_sine()));
+  double fastest = drive_.fastest_sine();
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    const RigidPart& part = parts_[b];
+    const Coordinates damping = part.mounting.dampings().cwiseQuotient(part.inertia);
+    const double turning = std::hypot(frequency_of_loads(part), form_.v[b][dim]);
+    const Coordinates rates =
+        (part.natural_frequencies() + damping + Coordinates(0, 0, turning)).cwiseProduct(part.free);
+    fastest = std::max(fastest, rates.maxCoeff());
+  }
+  double limit = std::min(longest_step_, largest_turn_of_step / fastest);
   limit = std::min(limit,
                    std::max(largest_turn_of_step * drive_.shortest_interval(), step_of_jump * longest_step_));
   if (walls_) limit = std::min(limit, contact_phase_of_step / walls_->highest_frequency());
@@ -207,8 +201,16 @@ double RigidBody::time_step_limit() const {
 }
 
 double RigidBody::spring_energy() const {
-  const Coordinates stretch = form_.q - mounting_.rests();
-  return 0.5 * stretch.dot(mounting_.stiffnesses().cwiseProduct(stretch));
+  double sum = 0;
+  for (std::size_t b = 0; b < parts_.size(); ++b) sum += parts_[b].spring_energy(form_.q[b]);
+  return sum;
+}
+
+double RigidBody::kinetic_energy() const {
+  double sum = 0;
+  for (std::size_t b = 0; b < parts_.size(); ++b)
+    sum += 0.5 * form_.v[b].dot(parts_[b].inertia.cwiseProduct(form_.v[b]));
+  return sum;
 }
 
 std::vector<Observation> RigidBody::internal_energies() const {
@@ -216,45 +218,51 @@ std::vector<Observation> RigidBody::internal_energies() const {
 }
 
 std::vector<Observation> RigidBody::observe() const {
-  std::vector<Observation> row{
-      {"body_displacement_x", "m", form_.q[0]}, {"body_displacement_y", "m", form_.q[1]},
-      {"body_angle", "rad", form_.q[dim]},      {"body_velocity_x", "m/s", form_.v[0]},
-      {"body_velocity_y", "m/s", form_.v[1]},   {"body_angular_velocity", "rad/s", form_.v[dim]}};
+  std::vector<Observation> row;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    const std::string name = parts_[b].name.empty() ? "body" : parts_[b].name;
+    const Coordinates &q = form_.q[b], &v = form_.v[b];
+    row.insert(row.end(), {{name + "_displacement_x", "m", q[0]},
+                           {name + "_displacement_y", "m", q[1]},
+                           {name + "_angle", "rad", q[dim]},
+                           {name + "_velocity_x", "m/s", v[0]},
+                           {name + "_velocity_y", "m/s", v[1]},
+                           {name + "_angular_velocity", "rad/s", v[dim]}});
+  }
   for (Observation& observation : SolidModel::observe()) row.push_back(std::move(observation));
   return row;
 }
 
 Interface RigidBody::interface(double reach) const {
   Interface touched = SolidModel::interface(reach);
-  double sum = 0;
-  for (const double mass : touched.mass) sum += mass;
-  for (double& mass : touched.mass) mass *= total_mass() / sum;
+  std::vector<double> sums(parts_.size(), 0.0);
+  for (std::size_t n = 0; n < touched.size(); ++n) sums[part_of_[touched.id[n]]] += touched.mass[n];
+  for (std::size_t n = 0; n < touched.size(); ++n) {
+    const auto b = part_of_[touched.id[n]];
+    touched.mass[n] *= parts_[b].inertia[0] / sums[b];
+  }
   return touched;
+}
+
+void RigidBody::check_strain(double time) const {
+  if (parts_.size() == 1) return;
+  std::vector<Vec> x(particle_count());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = period_.inside(body_.X[i] + displacement(i));
+  const double nearest = least_gap * body_.spacing;
+  const SortedPoints points(x, nearest);
+  for (std::uint32_t i = 0; i < x.size(); ++i)
+    points.near(x[i], nearest, [&](std::uint32_t j) {
+      if (part_of_[i] != part_of_[j])
+        fail(slot_[i], time,
+             fmt::format("distance of '{}' and '{}'", parts_[part_of_[i]].name, parts_[part_of_[j]].name),
+             fmt::format("{:.4g} m", (x[i] - x[j]).norm()),
+             fmt::format("above {:.4g} m: rigid bodies do not push each other", nearest));
+    });
 }
 
 std::vector<ActiveTerm> RigidBody::active_terms() const {
   std::vector<ActiveTerm> terms;
-  terms.push_back({"rigid body", "m Dv/Dt = sum f_i, I domega/dt = sum r_i x f_i", "",
-                   fmt::format("mass {:.6g} kg/m, moment of inertia {:.6g} kg.m2/m about ({:.6g}, {:.6g}) m",
-                               inertia_[0], inertia_[dim], reference_[0], reference_[1])});
-  if (parameters_.mounting) {
-    std::vector<std::string> parts;
-    for (int n = 0; n <= dim; ++n) {
-      const std::string& name = coordinate_names[n];
-      const double k = mounting_.stiffnesses()[n], c = mounting_.dampings()[n];
-      const double omega = natural_frequencies()[n];
-      if (mounting_.is_fixed(n)) parts.push_back(name + " fixed");
-      if (k > 0)
-        parts.push_back(
-            fmt::format("natural frequency in {} {:.6g} Hz", name, omega / (2 * std::numbers::pi)));
-      if (c > 0 && k > 0)
-        parts.push_back(fmt::format("damping ratio in {} {:.4g}", name, 0.5 * c / (inertia_[n] * omega)));
-      else if (c > 0)
-        parts.push_back(fmt::format("decay time in {} {:.4g} s", name, inertia_[n] / c));
-    }
-    terms.push_back({"mounting", "F = -k (q - q_rest) - c dq/dt", "",
-                     parts.empty() ? "holds nothing" : fmt::format("{}", fmt::join(parts, ", "))});
-  }
+  for (const RigidPart& part : parts_) part.append_terms(terms);
   for (auto& term : SolidModel::active_terms()) terms.push_back(std::move(term));
   return terms;
 }

@@ -1,5 +1,6 @@
-/// The solid as one rigid body: x, y and angle of its point of reference, the centre of mass or the pivot of
-/// its mounting. All its regions are one with each other, whether they touch or not.
+/// The solid as rigid bodies, one unless the case names several: x, y and angle of the point of reference of
+/// each, the centre of mass or the pivot of its mounting. All regions of a body are one with each other,
+/// whether they touch or not. Bodies do not push each other: where two meet the run ends.
 ///
 ///     m Dv/Dt = sum_i f_i + F,   I domega/dt = sum_i r_i x f_i + M
 ///
@@ -19,6 +20,7 @@
 /// moment of inertia, that of its cell, m (a^2 + b^2)/12.
 #pragma once
 
+#include "solid_solver/rigid/rigid_part.hpp"
 #include "solid_solver/solid_model.hpp"
 
 namespace toryu::solid {
@@ -39,23 +41,27 @@ class RigidBody final : public SolidModel {
   void read_state(std::istream& stream) override;
   std::vector<ActiveTerm> active_terms() const override;
   std::vector<Observation> observe() const override;
-  /// With the mass of the whole body, which moves with whatever the fluid touches, shared out to it.
+  /// With the mass of each whole body, which moves with whatever the fluid touches, shared out to it.
   Interface interface(double reach) const override;
   bool has_stress() const override { return false; }
   Stress stress(std::size_t /*particle*/) const override { return {}; }
   std::vector<Observation> internal_energies() const override;
 
-  const Coordinates& coordinates() const { return form_.q; }  ///< since the start [m], [m], [rad]
-  const Coordinates& velocities() const { return form_.v; }   ///< [m/s], [m/s], [rad/s]
-  const Coordinates& inertia() const { return inertia_; }     ///< m, m [kg/m], I [kg.m2/m]
+  /// Of a body: since the start [m], [m], [rad].
+  const Coordinates& coordinates(std::size_t body = 0) const { return form_.q[body]; }
+  /// [m/s], [m/s], [rad/s].
+  const Coordinates& velocities(std::size_t body = 0) const { return form_.v[body]; }
+  /// m, m [kg/m], I [kg.m2/m].
+  const Coordinates& inertia(std::size_t body = 0) const { return parts_[body].inertia; }
 
  protected:
-  void check_strain(double /*time*/) const override {}
-  double kinetic_energy() const override { return 0.5 * form_.v.dot(inertia_.cwiseProduct(form_.v)); }
+  /// Throws where two bodies have met.
+  void check_strain(double time) const override;
+  double kinetic_energy() const override;
 
  private:
   struct FormState {
-    Coordinates q = Coordinates::Zero(), v = Coordinates::Zero();
+    std::vector<Coordinates> q, v;  ///< by body
     template <class Archive>
     friend void serialize(Archive& archive, FormState& state) {
       auto& [q, v] = state;
@@ -68,29 +74,29 @@ class RigidBody final : public SolidModel {
     Coordinates force;  ///< - C w + Z (w_c - w)
   };
 
-  void find_inertia();
-  void find_start();
-  Pose pose() const;
+  void find_start(std::size_t body);
+  Pose pose(std::size_t body) const { return parts_[body].pose(form_.q[body], form_.v[body]); }
+  /// Of the particle in a slot; padding repeats the last.
+  std::uint32_t part_in(std::size_t slot) const {
+    return part_of_[state_.number[std::min(slot, particle_count() - 1)]];
+  }
   Vec arm(const Pose& pose, std::size_t particle) const {
     return pose.turned(body_.X[particle] - pose.about);
   }
-  Coordinates force() const;  ///< at the present place [N/m], [N.m/m]
+  Coordinates force(std::size_t body) const;  ///< at the present place [N/m], [N.m/m]
   /// Finds w and what goes with it; counts what the impedance takes.
-  Resistance resist(double dt);
+  Resistance resist(std::size_t body, double dt);
   void place_particles();  ///< with their velocities, and what walls do to them there
   void move_particles();   ///< their velocities alone
   double spring_energy() const;
-  Coordinates natural_frequencies() const;  ///< by the springs, undamped [rad/s]
   /// How fast the angle would swing by the moments of gravity and loads alone, at most [rad/s].
-  double frequency_of_loads() const;
+  double frequency_of_loads(const RigidPart& part) const;
 
-  Mounting mounting_;
-  Coordinates free_;             ///< 0 where fixed, else 1
-  Vec reference_ = Vec::Zero();  ///< in the unloaded body [m]
-  Coordinates inertia_ = Coordinates::Zero();
-  double longest_step_;               ///< [s]
-  Vec first_momentum_ = Vec::Zero();  ///< [N.s/m]
-  VecField x_;                        ///< present positions in the domain, if walls act on the solid [m]
+  std::vector<RigidPart> parts_;
+  std::vector<std::uint32_t> part_of_;  ///< of a particle
+  double longest_step_;                 ///< [s]
+  Vec first_momentum_ = Vec::Zero();    ///< [N.s/m]
+  VecField x_;                          ///< present positions in the domain, if walls act on the solid [m]
   FormState form_, saved_form_;
 };
 

@@ -16,12 +16,12 @@ TouchingBodies::TouchingBodies(const VecField& X, const Field& volume, std::size
       shifts_(shifts),
       W_(h),
       pressure_scale_(term.pressure_scale(material)),
-      inverse_rho_(1.0 / material.density),
       skin_(0.5 * h) {
   S_0_ = half_plane(W_, spacing, spacing).sum;
   // Pressed in by half a spacing. Both sides push, and both move: four times the stiffness at a wall.
+  const double inverse_rho = 1.0 / material.density;
   highest_frequency_ =
-      2.0 * half_plane(W_, spacing, 0.5 * spacing).slope * std::sqrt(pressure_scale_ * inverse_rho_ / S_0_);
+      2.0 * half_plane(W_, spacing, 0.5 * spacing).slope * std::sqrt(pressure_scale_ * inverse_rho / S_0_);
   find_bodies(points(X), shape);
 }
 
@@ -78,7 +78,7 @@ double TouchingBodies::pressure(const State& state, std::size_t i) const {
   return pressure_scale_ * std::max(0.0, state.S[i] / S_0_ - 1.0);
 }
 
-void TouchingBodies::push(State& state, const VecField& x, VecField& a) const {
+void TouchingBodies::push(State& state, const VecField& x, const Field& inverse_rho, VecField& a) const {
   find_pairs_if_moved(state, x);
   state.S.assign(count_, 0.0);
   for (const Pair& pair : state.pairs) {
@@ -92,9 +92,11 @@ void TouchingBodies::push(State& state, const VecField& x, VecField& a) const {
     if (p == 0.0) continue;
     const Vec x_ij = pair.between(x);
     const double r = std::max(x_ij.norm(), 1e-8 * W_.h());
-    const Vec f = -inverse_rho_ * p * W_.gradient_over_r(r, 1.0 / r) * x_ij;
-    set(a, i, at(a, i) + V_[j] * f);
-    set(a, j, at(a, j) - V_[i] * f);
+    const auto f = [&](double inverse_rho_k) -> Vec {
+      return -inverse_rho_k * p * W_.gradient_over_r(r, 1.0 / r) * x_ij;
+    };
+    set(a, i, at(a, i) + V_[j] * f(inverse_rho[i]));
+    set(a, j, at(a, j) - V_[i] * f(inverse_rho[j]));
   }
 }
 

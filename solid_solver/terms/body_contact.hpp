@@ -5,7 +5,8 @@
 ///     S_i = sum_j V_j W_ij,   p_i = stiffness K max(0, S_i/S_0 - 1)
 ///     Dv_i/Dt = ... - 1/rho_0 sum_j V_j (p_i + p_j) gradW_ij
 ///
-/// S_0 is the sum of a particle whose body touches another with plane faces. The force is the gradient of the
+/// S_0 is the sum of a particle whose body touches another with plane faces, K that of the softest of several
+/// materials. The force is the gradient of the
 /// energy sum_i V_i stiffness K S_0/2 max(0, S_i/S_0 - 1)^2, so momentum and energy are kept. There is no
 /// friction, and a body does not touch itself, nor its images where space repeats itself.
 #pragma once
@@ -42,8 +43,9 @@ class TouchingBodies {
                  const ElasticMaterial& material, double spacing, double h, const Shape& shape = {},
                  const std::vector<Vec>& shifts = {Vec::Zero()});
 
-  /// Adds the push at positions x [m] to the accelerations a [m/s2].
-  void push(State& state, const VecField& x, VecField& a) const;
+  /// Adds the push at positions x [m] to the accelerations a [m/s2] of particles of the density
+  /// 1/inverse_rho.
+  void push(State& state, const VecField& x, const Field& inverse_rho, VecField& a) const;
   /// Finds anew the pairs, which a checkpoint leaves out.
   void find_pairs(State& state) const;
   /// After `push` [J per metre depth].
@@ -64,7 +66,7 @@ class TouchingBodies {
   std::size_t count_;
   std::vector<Vec> shifts_;
   CubicSpline W_;
-  double pressure_scale_, inverse_rho_, skin_;
+  double pressure_scale_, skin_;
   double S_0_ = 0, highest_frequency_ = 0;
   std::size_t bodies_ = 0;
   std::vector<std::uint32_t> body_;  ///< of each particle

@@ -24,11 +24,11 @@ ContactWalls::ContactWalls(const std::vector<Wall>& walls, const Contact& term,
       W_(h),
       spacing_(spacing),
       pressure_scale_(term.pressure_scale(material)),
-      inverse_rho_(1.0 / material.density),
       skin_(0.3 * h) {
   const double slope = half_plane(W_, spacing, 0.5 * spacing).slope;  // pressed in by half a spacing
   S_0_ = half_plane(W_, spacing, spacing).sum;
-  highest_frequency_ = slope * std::sqrt(pressure_scale_ * inverse_rho_ / S_0_);
+  const double inverse_rho = 1.0 / material.density;
+  highest_frequency_ = slope * std::sqrt(pressure_scale_ * inverse_rho / S_0_);
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (const Vec& X : fill({walls_[w].box}, {}, spacing)) {
       X_.push_back(X);
@@ -96,11 +96,12 @@ Lanes ContactWalls::overlap(const State& state, const VecField& x, std::size_t c
   return S;
 }
 
-VecLanes ContactWalls::acceleration(const State& state, const VecField& x, std::size_t cluster) const {
+VecLanes ContactWalls::acceleration(const State& state, const VecField& x, std::size_t cluster,
+                                    const Lanes& inverse_rho) const {
   VecLanes gradient;
   const Lanes S = overlap(state, x, cluster, gradient);
   const Lanes p = pressure_scale_ * positive_part(S * (1.0 / S_0_) - 1.0);
-  return product(-inverse_rho_ * p, gradient);
+  return product(-inverse_rho * p, gradient);
 }
 
 Lanes ContactWalls::energy_density(const State& state, const VecField& x, std::size_t cluster) const {

@@ -6,9 +6,10 @@
 ///     Dv_i/Dt = ... - (p_i/rho_0) sum_w V_w gradW_iw
 ///
 /// S_0 is the sum of a particle half a spacing off a plane wall, where body and wall touch; p_i stands for
-/// the pressure of the solid at the wall, that of Adami et al. (2012) taken from the one particle i. Walls
-/// push but do not pull, and there is no friction. The force is the gradient of the energy V_i stiffness K
-/// S_0/2 max(0, S_i/S_0 - 1)^2. A body pressed by p enters the wall by about 0.4 h p/(stiffness K).
+/// the pressure of the solid at the wall, that of Adami et al. (2012) taken from the one particle i. K is
+/// that of the softest of several materials. Walls push but do not pull, and there is no friction. The force
+/// is the gradient of the energy V_i stiffness K S_0/2 max(0, S_i/S_0 - 1)^2. A body pressed by p enters the
+/// wall by about 0.4 h p/(stiffness K).
 #pragma once
 
 #include "common/scene/period.hpp"
@@ -45,8 +46,9 @@ class ContactWalls {
   void prepare(State& state, const VecField& x, std::size_t count, double time) const;
   /// Finds anew what a checkpoint leaves out.
   void complete(State& state, std::size_t count) const;
-  /// Acceleration [m/s2] of the particles of a cluster, after `prepare`.
-  VecLanes acceleration(const State& state, const VecField& x, std::size_t cluster) const;
+  /// Acceleration [m/s2] of the particles of a cluster, of density rho_0 = 1/inverse_rho, after `prepare`.
+  VecLanes acceleration(const State& state, const VecField& x, std::size_t cluster,
+                        const Lanes& inverse_rho) const;
   /// Energy of the contact per volume of a particle [J/m3].
   Lanes energy_density(const State& state, const VecField& x, std::size_t cluster) const;
 
@@ -65,7 +67,7 @@ class ContactWalls {
   std::vector<Wall> walls_;
   Period period_;
   CubicSpline W_;
-  double spacing_, pressure_scale_, inverse_rho_, skin_;
+  double spacing_, pressure_scale_, skin_;
   double S_0_ = 0, highest_frequency_ = 0;
   std::vector<Vec> X_;                ///< at t = 0, by number [m]
   std::vector<std::size_t> wall_of_;  ///< index in walls_

@@ -18,7 +18,7 @@ namespace toryu::solid {
 
 using Law = std::variant<SaintVenantKirchhoff, NeoHookean, Yeoh>;
 
-Law law_of(const Parameters& parameters);
-ActiveTerm active_law(const Parameters& parameters);
+Law law_of(const Material& material);
+ActiveTerm active_law(const Material& of);
 
 }  // namespace toryu::solid

@@ -124,8 +124,28 @@ void ReferencePairs::displacement_gradient(const VecField& u, std::size_t cluste
   H = product(sum, shape(cluster));
 }
 
-VecLanes ReferencePairs::force_density(const VecField& u, const Tensor<Field>& T, double k,
-                                       std::size_t cluster) const {
+namespace {
+
+/// How stiff the pair penalty of a cluster is: alike everywhere,
+struct SameStiffness {
+  double k;
+  Lanes weighted(std::uint32_t /*j*/, const Lanes& weight) const { return weight; }
+  Lanes times(const Lanes& sum) const { return k * sum; }
+};
+/// or the mean of both particles.
+struct MeanStiffness {
+  const double* k;
+  Lanes k_i;
+  Lanes weighted(std::uint32_t j, const Lanes& weight) const { return 0.5 * (k_i + k[j]) * weight; }
+  Lanes times(const Lanes& sum) const { return sum; }
+};
+
+}  // namespace
+
+template <class Stiffness>
+TORYU_INLINE VecLanes ReferencePairs::force_density_of(const VecField& u, const Tensor<Field>& T,
+                                                       std::size_t cluster,
+                                                       const Stiffness& stiffness) const {
   const std::size_t i = cluster * lane_count;
   const VecLanes u_i = load(u, i);
   const Positions u_of = pointers(u);
@@ -136,10 +156,20 @@ VecLanes ReferencePairs::force_density(const VecField& u, const Tensor<Field>& T
     for (int a = 0; a < dim; ++a) wX_sum[a] += wX[a];
     f[0] += T_xx[j] * wX[0] + T_xy[j] * wX[1];
     f[1] += T_yx[j] * wX[0] + T_yy[j] * wX[1];
-    add_product(penalty, weight, difference(u_i, u_of, j));
+    add_product(penalty, stiffness.weighted(j, weight), difference(u_i, u_of, j));
   });
-  return {f[0] + load(T[0], i) * wX_sum[0] + load(T[1], i) * wX_sum[1] + k * penalty[0],
-          f[1] + load(T[2], i) * wX_sum[0] + load(T[3], i) * wX_sum[1] + k * penalty[1]};
+  return {f[0] + load(T[0], i) * wX_sum[0] + load(T[1], i) * wX_sum[1] + stiffness.times(penalty[0]),
+          f[1] + load(T[2], i) * wX_sum[0] + load(T[3], i) * wX_sum[1] + stiffness.times(penalty[1])};
+}
+
+VecLanes ReferencePairs::force_density(const VecField& u, const Tensor<Field>& T, double k,
+                                       std::size_t cluster) const {
+  return force_density_of(u, T, cluster, SameStiffness{k});
+}
+
+VecLanes ReferencePairs::force_density(const VecField& u, const Tensor<Field>& T, const Field& k,
+                                       std::size_t cluster) const {
+  return force_density_of(u, T, cluster, MeanStiffness{k.data(), load(k, cluster * lane_count)});
 }
 
 Lanes ReferencePairs::unseen_motion(const VecField& u, const Tensor<Lanes>& H_i, std::size_t cluster) const {

@@ -33,8 +33,12 @@ class ReferencePairs {
   /// f_i/V_i = sum_j V_j [(T_i + T_j) gradW_ij + k (u_i - u_j) W'_ij/R_ij]: equal and opposite for a pair.
   /// T [Pa] is any tensor of a particle, k [Pa] the stiffness of the pair penalty.
   VecLanes force_density(const VecField& u, const Tensor<Field>& T, double k, std::size_t cluster) const;
+  /// The same with (k_i + k_j)/2 for k.
+  VecLanes force_density(const VecField& u, const Tensor<Field>& T, const Field& k,
+                         std::size_t cluster) const;
 
-  /// sum_j V_j g(x_ij, v_ij) x_ij W'_ij/R_ij: central forces between present positions, for viscosity.
+  /// sum_j V_j g(j, v_ij.x_ij, r_ij^2) x_ij W'_ij/R_ij: central forces between present positions, for
+  /// viscosity.
   template <class Central>
   VecLanes central_force_density(const VecField& u, const VecField& v, std::size_t cluster,
                                  Central&& g) const;
@@ -43,6 +47,16 @@ class ReferencePairs {
   Lanes unseen_motion(const VecField& u, const Tensor<Lanes>& H, std::size_t cluster) const;
 
   Tensor<Lanes> shape(std::size_t cluster) const;  ///< L
+
+  const ClusterList& neighbours() const { return list_; }
+  /// Calls use(j, V_j W'_ij/R_ij, X_ij) for what is near the particle in slot i.
+  template <class Use>
+  void over_neighbours(std::size_t i, Use&& use) const {
+    const std::size_t lane = i % lane_count;
+    over_pairs(i / lane_count, [&](std::uint32_t j, const Lanes& weight, const VecLanes& X_ij) {
+      if (weight[lane] != 0) use(j, weight[lane], Vec(X_ij[0][lane], X_ij[1][lane]));
+    });
+  }
 
  private:
   /// Calls add(j, V_j W'_ij/R_ij, X_ij) for the sources of a cluster.
@@ -62,6 +76,9 @@ class ReferencePairs {
                    [&](std::uint32_t j, const VecLanes& X_ij)
                        TORYU_INLINE_LAMBDA { add(j, next(w), shared ? product(next(s), X_ij) : X_ij); });
   }
+  template <class Stiffness>
+  VecLanes force_density_of(const VecField& u, const Tensor<Field>& T, std::size_t cluster,
+                            const Stiffness& stiffness) const;
   /// Puts the shares of X_ij into `share_` where a particle of the cluster, or a source, is held.
   void find_shares(const ClampFaces& faces, std::size_t cluster, std::size_t count);
   /// V_j W'_ij/R_ij, and the moment of the pairs.
@@ -86,7 +103,7 @@ VecLanes ReferencePairs::central_force_density(const VecField& u, const VecField
   VecLanes f = zero_vector();
   over_pairs(cluster, [&](std::uint32_t j, const Lanes& weight, const VecLanes& X_ij) TORYU_INLINE_LAMBDA {
     const VecLanes u_ij = difference(u_i, u_of, j), x_ij{X_ij[0] + u_ij[0], X_ij[1] + u_ij[1]};
-    add_product(f, weight * g(dot(difference(v_i, v_of, j), x_ij), dot(x_ij, x_ij)), x_ij);
+    add_product(f, weight * g(j, dot(difference(v_i, v_of, j), x_ij), dot(x_ij, x_ij)), x_ij);
   });
   return f;
 }

@@ -25,14 +25,17 @@ double weight(double r_over_reach) {
   return q > 0 ? q * q : 0.0;
 }
 
-/// Those of `near` that neighbours join to the one nearest to `point`, and none that is held.
+/// Those of `near` that neighbours of one material join to the one nearest to `point`, which is the first,
+/// and none that is held.
 std::vector<std::uint32_t> joined(const Body& body, std::vector<std::uint32_t> near, const Vec& point) {
   std::erase_if(near, [&](std::uint32_t j) { return body.held[j]; });
   const auto distance = [&](std::uint32_t j) { return (body.X[j] - point).norm(); };
   const auto nearest =
       std::min_element(near.begin(), near.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
   if (nearest == near.end()) return {};
+  const std::uint32_t material = body.material[*nearest];
   std::iter_swap(near.begin(), nearest);
+  std::erase_if(near, [&](std::uint32_t j) { return body.material[j] != material; });
   std::size_t found = 1;
   for (std::size_t k = 0; k < found; ++k)
     for (std::size_t l = found; l < near.size(); ++l)

@@ -15,8 +15,8 @@
 ///
 /// t = -p N at the surface under a constant pressure.
 ///
-/// Held particles take no part, as their displacement has a kink at the clamp, and none that a gap parts from
-/// the point.
+/// Held particles take no part, as their displacement has a kink at the clamp, nor those of another material
+/// than the nearest one has, and none that a gap parts from the point.
 #pragma once
 
 #include <Eigen/LU>
@@ -58,6 +58,7 @@ class GradientFit {
 
   /// Whether the particles about the point have a gradient at all.
   bool found() const { return !particles_.empty(); }
+  std::uint32_t nearest() const { return particles_.front(); }  ///< particle to the point
   /// H of the displacements u(particle number).
   template <class Displacement>
   Tensor<double> gradient(const Displacement& u) const {

@@ -11,8 +11,7 @@ namespace toryu::solid {
 
 TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body, const Scene& scene)
     : SolidModel(parameters, body, scene),
-      law_(law_of(parameters)),
-      penalty_(parameters.hourglass ? parameters.hourglass->stiffness(parameters.material) : 0.0) {
+      composition_(parameters, body_, state_.number, padded(particle_count())) {
   const std::size_t size = padded(particle_count());
   volume_.resize(size);
   VecField cells;
@@ -22,17 +21,20 @@ TotalLagrangian::TotalLagrangian(const Parameters& parameters, const Body& body,
     volume_[k] = body_.volume(i);
     set(cells, k, body_.cell[i]);
   }
-  pairs_ =
-      std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
-                                       Held{mobile_, cells, body_.has_outline()}, body_.shape, body_.shifts);
+  const Held held{mobile_, cells, body_.has_outline()};
+  pairs_ = std::make_unique<ReferencePairs>(X_, volume_, particle_count(), parameters_.h(), strip_width(),
+                                            held, body_.shape, body_.shifts);
+  composition_.find_laminates(X_, particle_count(), held, volume_, *pairs_,
+                              CubicSpline(parameters_.h()).support());
   resize_fields(form_, size);
   resize(T_, size);
   if (drive_.turns()) resize(turned_back_, size);
   find_recovered_points();
   highest_frequency_ = find_highest_frequency();
   if (parameters_.body_contact)
-    bodies_.emplace(X_, volume_, particle_count(), *parameters_.body_contact, parameters_.material,
-                    body_.spacing, parameters_.h(), body_.shape, body_.shifts);
+    bodies_.emplace(X_, volume_, particle_count(), *parameters_.body_contact,
+                    parameters_.material_in_contact(), body_.spacing, parameters_.h(), body_.shape,
+                    body_.shifts);
   if (!walls_ && !bodies_) return;
   resize(x_, size);
 #pragma omp parallel
@@ -123,7 +125,7 @@ void TotalLagrangian::touch() {
   for (std::size_t c = 0; c < clusters(); ++c) place_in_domain(x_, c);
   if (walls_) add_wall_contact(x_);
 #pragma omp single
-  if (bodies_) bodies_->push(state_.bodies, x_, state_.a);
+  if (bodies_) bodies_->push(state_.bodies, x_, inverse_rho_, state_.a);
 }
 
 void TotalLagrangian::turn_back() {
@@ -135,24 +137,33 @@ void TotalLagrangian::turn_back() {
   }
 }
 
+template <class Stress>
+void TotalLagrangian::find_stresses_by(const Stress& stress) {
+#pragma omp for schedule(static)
+  for (std::size_t c = 0; c < clusters(); ++c) {
+    const std::size_t i = c * lane_count;
+    Tensor<Lanes> H;
+    pairs_->displacement_gradient(seen(), c, H);
+    Tensor<Lanes> strained = H;  // what is held bears no stress
+    for (Lanes& component : strained) component *= load(mobile_, i);
+    if (!all_of(volume_change(strained) > -1.0)) record_inverted(strained, i);
+    const Tensor<Lanes> T = product(stress(c, strained), pairs_->shape(c));
+    store(strained, form_.H, i);
+    const Lanes k = load(composition_.penalty(), i);
+    for (std::size_t n = 0; n < H.size(); ++n) store(T[n] - 0.5 * k * H[n], T_[n], i);
+  }
+}
+
 void TotalLagrangian::find_stresses() {
   if (drive_.turns()) turn_back();
+  if (!composition_.is_uniform())
+    return find_stresses_by([&](std::size_t c, const Tensor<Lanes>& H) { return composition_.stress(c, H); });
   std::visit(
       [&](const auto& law) {
-#pragma omp for schedule(static)
-        for (std::size_t c = 0; c < clusters(); ++c) {
-          const std::size_t i = c * lane_count;
-          Tensor<Lanes> H;
-          pairs_->displacement_gradient(seen(), c, H);
-          Tensor<Lanes> strained = H;  // what is held bears no stress
-          for (Lanes& component : strained) component *= load(mobile_, i);
-          if (!all_of(volume_change(strained) > -1.0)) record_inverted(strained, i);
-          const Tensor<Lanes> T = product(law.stress(strained), pairs_->shape(c));
-          store(strained, form_.H, i);
-          for (std::size_t n = 0; n < H.size(); ++n) store(T[n] - 0.5 * penalty_ * H[n], T_[n], i);
-        }
+        find_stresses_by([&](std::size_t, const Tensor<Lanes>& H)
+                             TORYU_INLINE_LAMBDA { return law.stress(H); });
       },
-      law_);
+      composition_.law(0));
 }
 
 void TotalLagrangian::record_inverted(const Tensor<Lanes>& H, std::size_t first_slot) {
@@ -165,22 +176,40 @@ void TotalLagrangian::record_inverted(const Tensor<Lanes>& H, std::size_t first_
   }
 }
 
+VecLanes TotalLagrangian::viscous(std::size_t cluster) const {
+  const Field &rho = composition_.density(), &c = composition_.sound_speed();
+  const auto [alpha, beta] = *parameters_.artificial_viscosity;
+  if (composition_.is_uniform()) {
+    const PairViscosity<> Pi{alpha * c[0], beta, parameters_.h(), 1.0 / rho[0]};
+    return pairs_->central_force_density(state_.u, state_.v, cluster,
+                                         [&](std::uint32_t, const Lanes& v_dot_x, const Lanes& r_squared)
+                                             TORYU_INLINE_LAMBDA { return Pi(v_dot_x, r_squared); });
+  }
+  const Lanes rho_i = load(rho, cluster * lane_count), c_i = load(c, cluster * lane_count);
+  return pairs_->central_force_density(
+      state_.u, state_.v, cluster, [&](std::uint32_t j, const Lanes& v_dot_x, const Lanes& r_squared) {
+        const PairViscosity<Lanes> Pi{alpha * 0.5 * (c_i + c[j]), beta, parameters_.h(),
+                                      2.0 / (rho_i + rho[j])};
+        return rho[j] / rho_i * Pi(v_dot_x, r_squared);
+      });
+}
+
 void TotalLagrangian::find_accelerations() {
-  const double inverse_rho = 1.0 / parameters_.material.density;
   const Mat R = drive_.pose(state_.time).rotation;
-  const auto& viscosity = parameters_.artificial_viscosity;
-  const PairViscosity Pi =
-      pair_viscosity(viscosity.value_or(ArtificialViscosity{}), parameters_.material, parameters_.h());
+  const Field& k_of = composition_.penalty();
+  const bool uniform = composition_.is_uniform();
 #pragma omp for schedule(static)
   for (std::size_t c = 0; c < clusters(); ++c) {
-    VecLanes a = pairs_->force_density(seen(), T_, penalty_, c);
+    const std::size_t i = c * lane_count;
+    VecLanes a =
+        uniform ? pairs_->force_density(seen(), T_, k_of[0], c) : pairs_->force_density(seen(), T_, k_of, c);
     if (drive_.turns()) a = {R(0, 0) * a[0] + R(0, 1) * a[1], R(1, 0) * a[0] + R(1, 1) * a[1]};
-    for (int k = 0; k < dim; ++k) a[k] *= inverse_rho;
-    if (viscosity) {
-      const VecLanes damped = pairs_->central_force_density(state_.u, state_.v, c, Pi);
-      for (int k = 0; k < dim; ++k) a[k] -= parameters_.material.density * damped[k];
+    for (int k = 0; k < dim; ++k) a[k] *= load(inverse_rho_, i);
+    if (parameters_.artificial_viscosity) {
+      const VecLanes damped = viscous(c);
+      for (int k = 0; k < dim; ++k) a[k] -= load(composition_.density(), i) * damped[k];
     }
-    store(a, state_.a, c * lane_count);
+    store(a, state_.a, i);
   }
 }
 
@@ -223,29 +252,12 @@ double TotalLagrangian::find_highest_frequency() {
   return std::sqrt(square);
 }
 
-double TotalLagrangian::stiffening() const {
-  return std::visit(
-      [&](const auto& law) {
-        double stiffest = law.longitudinal_modulus(1.0, 1.0);
-        const double unloaded = stiffest;
-        for (std::size_t i = 0; i < particle_count(); i += lane_count) {
-          const auto [larger, smaller] = principal_stretches(load(form_.H, i));
-          const Lanes modulus =
-              max(law.longitudinal_modulus(larger, smaller), law.longitudinal_modulus(smaller, larger));
-          // idle lanes stand still among particles that move: what they hold is no stretch
-          for (std::size_t lane = 0; lane < std::min(lane_count, particle_count() - i); ++lane)
-            stiffest = std::max(stiffest, modulus[lane]);
-        }
-        return stiffest / unloaded;
-      },
-      law_);
-}
-
 double TotalLagrangian::time_step_limit() const {
   const double contact =
       std::hypot(walls_ ? walls_->highest_frequency() : 0.0, bodies_ ? bodies_->highest_frequency() : 0.0);
   const double frequency =
-      std::sqrt(stiffening() * highest_frequency_ * highest_frequency_ + contact * contact);
+      std::sqrt(composition_.stiffening(form_.H, particle_count()) * highest_frequency_ * highest_frequency_ +
+                contact * contact);
   if (frequency == 0) return 1.0;  // all held: nothing moves
   const double damping =
       parameters_.artificial_viscosity ? 1.0 + parameters_.artificial_viscosity->alpha : 1.0;
@@ -285,77 +297,6 @@ void TotalLagrangian::check_strain(double time) const {
   }
 }
 
-Stress TotalLagrangian::stress(std::size_t particle) const {
-  return stress_of(gradient(slot_[particle]));
-}
-
-Stress TotalLagrangian::recovered_stress(std::size_t particle) const {
-  const std::size_t index = surface_index_[particle];
-  return index < of_surface_.size() ? recovered(of_surface_[index]) : stress(particle);
-}
-
-Stress TotalLagrangian::stress_at(std::size_t observer) const {
-  const RecoveredPoint& point = of_observers_[observer];
-  return point.fit.found() ? recovered(point) : SolidModel::stress_at(observer);
-}
-
-Stress TotalLagrangian::stress_of(const Tensor<double>& H) const {
-  const Tensor<double> F_T{1.0 + H[0], H[2], H[1], 1.0 + H[3]};
-  const double J = 1.0 + volume_change(H);
-  return std::visit(
-      [&](const auto& law) -> Stress {
-        const Tensor<double> sigma = product(law.stress(H), F_T);
-        return {sigma[0] / J, sigma[3] / J, law.stress_across(H) / J, sigma[1] / J};
-      },
-      law_);
-}
-
-void TotalLagrangian::find_recovered_points() {
-  const BodyIndex index(body_);
-  const auto know_pressure = [&](RecoveredPoint& point) {
-    for (const auto& load : parameters_.loads)
-      if (point.surface && load.pressure != 0 && load.box.contains(point.surface->place))
-        point.surface->pressure += load.pressure;
-  };
-  for (const auto& observer : parameters_.observers)
-    know_pressure(of_observers_.emplace_back(index, observer.point));
-  surface_index_.assign(particle_count(), particle_count());
-  for (std::size_t i = 0; i < particle_count(); ++i) {
-    if (body_.held[i] || body_.area_vector[i].isZero()) continue;
-    RecoveredPoint point(index, body_.X[i]);
-    if (!point.fit.found() || !point.surface) continue;
-    know_pressure(point);
-    surface_index_[i] = of_surface_.size();
-    of_surface_.push_back(std::move(point));
-  }
-}
-
-bool TotalLagrangian::is_free(const FreeSurface& surface) const {
-  if (bodies_) return false;
-  return std::all_of(surface.faces.begin(), surface.faces.end(), [&](std::uint32_t i) {
-    const bool pushed = walls_ && !at(state_.push, slot_[i]).isZero();
-    return !pushed && !drive_.is_forced(i) && at(state_.external, slot_[i]) == steady_acceleration(i);
-  });
-}
-
-Stress TotalLagrangian::recovered(const RecoveredPoint& point) const {
-  const auto u = [&](std::uint32_t i) { return displacement(i); };
-  Tensor<double> H = point.fit.gradient(u);
-  if (point.surface && is_free(*point.surface)) {
-    const Vec& normal = point.surface->normal;
-    std::visit(
-        [&](const auto& law) {
-          const auto P = [&](const Tensor<double>& gradient) { return law.stress(gradient); };
-          const double share = point.surface->share;
-          Vec t = share * traction(P(point.surface->deeper.gradient(u)), normal);
-          if (point.surface->pressure != 0) t -= (1 - share) * point.surface->pressure * normal;
-          H = with_traction(P, H, normal, t);
-        },
-        law_);
-  }
-  return stress_of(H);
-}
-
 std::vector<Observation> TotalLagrangian::internal_energies() const {
   double elastic = 0, penalty = 0;
   for (std::size_t c = 0; c < clusters(); ++c) {
@@ -364,8 +305,8 @@ std::vector<Observation> TotalLagrangian::internal_energies() const {
     const Lanes unseen = pairs_->unseen_motion(seen(), H, c);
     for (std::size_t lane = 0; lane < lane_count && c * lane_count + lane < particle_count(); ++lane) {
       const std::size_t k = c * lane_count + lane;
-      elastic += volume_[k] * std::visit([&](const auto& law) { return law.energy(gradient(k)); }, law_);
-      penalty += volume_[k] * 0.25 * penalty_ * unseen[lane];
+      elastic += volume_[k] * composition_.energy(k, gradient(k));
+      penalty += volume_[k] * 0.25 * composition_.penalty()[k] * unseen[lane];
     }
   }
   return {{"elastic_energy", "J/m", elastic}, {"hourglass_energy", "J/m", penalty}};
@@ -377,12 +318,19 @@ std::vector<ActiveTerm> TotalLagrangian::active_terms() const {
       {"total Lagrangian stress", "rho_0 V_i Dv_i/Dt = sum_j V_i V_j (P_i L_i + P_j L_j) gradW_ij",
        "Rabczuk, Belytschko & Xiao 2004; L: Randles & Libersky 1996",
        fmt::format("h {:g} m, leapfrog, highest frequency {:.4g} 1/s", parameters_.h(), highest_frequency_)});
-  terms.push_back(active_law(parameters_));
+  for (std::size_t m = 0; m < composition_.materials().size(); ++m)
+    if (composition_.uses(m)) terms.push_back(active_law(composition_.materials()[m]));
   if (parameters_.hourglass)
-    terms.push_back({"hourglass penalty",
-                     "f_i = -(k/2) V_i sum_j V_j w_ij (2 x_ij - (F_i + F_j) X_ij), w_ij = -W'/R_ij",
-                     "after Ganzenmueller 2015",
-                     fmt::format("alpha {:g}: k {:.4g} Pa", parameters_.hourglass->coefficient, penalty_)});
+    terms.push_back(
+        {"hourglass penalty", "f_i = -(k/2) V_i sum_j V_j w_ij (2 x_ij - (F_i + F_j) X_ij), w_ij = -W'/R_ij",
+         "after Ganzenmueller 2015",
+         fmt::format("alpha {:g}: k {}", parameters_.hourglass->coefficient,
+                     composition_.is_uniform() ? fmt::format("{:.4g} Pa", composition_.penalty()[0])
+                                               : "of each material")});
+  if (!composition_.laminates().empty())
+    terms.push_back({"bonded materials", "[P_1(H - phi c N) - P_2(H + (1 - phi) c N)] N = 0",
+                     "laminates of rank one: Milton 2002",
+                     fmt::format("{} particles see another material", composition_.laminates().size())});
   for (auto& term : SolidModel::active_terms()) terms.push_back(std::move(term));
   return terms;
 }

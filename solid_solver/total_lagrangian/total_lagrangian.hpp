@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "solid_solver/solid_model.hpp"
+#include "solid_solver/total_lagrangian/composition.hpp"
 #include "solid_solver/total_lagrangian/laws.hpp"
 #include "solid_solver/total_lagrangian/reference_pairs.hpp"
 #include "solid_solver/total_lagrangian/stress_recovery.hpp"
@@ -54,15 +55,17 @@ class TotalLagrangian final : public SolidModel {
   const VecField& seen() const { return drive_.turns() ? turned_back_ : state_.u; }
   void find_stresses();
   void find_accelerations();
+  /// sum_j V_j rho_j/rho_i Pi_ij gradW_ij of a cluster.
+  VecLanes viscous(std::size_t cluster) const;
   void kick(double dt);
   /// All accelerations from u and v, within a parallel region.
   void evaluate();
-  /// Largest longitudinal modulus of a particle over that of the unloaded solid, at least 1.
-  double stiffening() const;
   Tensor<double> gradient(std::size_t slot) const;
   void find_recovered_points();
   Stress recovered(const RecoveredPoint& point) const;
-  Stress stress_of(const Tensor<double>& H) const;
+  Stress stress_of(std::size_t slot, const Tensor<double>& H) const;  ///< by the law of a particle
+  template <class Stress>
+  void find_stresses_by(const Stress& stress);     ///< P = stress(cluster, H)
   bool is_free(const FreeSurface& surface) const;  ///< nothing but gravity acts on its particles at present
   void touch();
   void record_inverted(const Tensor<Lanes>& H, std::size_t first_slot);
@@ -93,8 +96,7 @@ class TotalLagrangian final : public SolidModel {
   std::vector<std::size_t> surface_index_;  ///< of a particle in `of_surface_`; its size where it has none
   Field volume_;
   std::unique_ptr<ReferencePairs> pairs_;
-  Law law_;
-  double penalty_;                ///< k of the hourglass penalty [Pa]
+  Composition composition_;
   Tensor<Field> T_;               ///< P L - (k/2) H: what a particle brings to the pairs [Pa]
   VecField turned_back_;          ///< displacement, if clamps turn [m]
   VecField x_;                    ///< present positions, if walls or other bodies act on the solid [m]

@@ -89,7 +89,7 @@ class PairSweeps {
   HookesLaw law_;
   bool renormalised_;
   std::optional<ArtificialStress> stress_;
-  std::optional<PairViscosity> viscosity_;
+  std::optional<PairViscosity<>> viscosity_;
   double inverse_W_d0_;  ///< 1/W(d0) [m2]
 };
 

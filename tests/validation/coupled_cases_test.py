@@ -14,6 +14,7 @@ import unittest
 import array_drag
 import mounted_cylinder
 import path_difference
+import paddle
 import turek_hron_fsi
 
 PATHS = {}
@@ -50,6 +51,24 @@ class HydrostaticPlate(unittest.TestCase):
         late = [row["body_angle[rad]"] for row in rows if row["time[s]"] >= 0.6]
         self.assertLess(abs(sum(late) / len(late) / -0.011787 - 1), 0.01)
         self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+class RotatingPaddle(unittest.TestCase):
+    def test_stiff_blades_take_the_moment_of_a_wall_that_turns(self):
+        rows, figures, _ = run("rotating_paddle", **{"case.end_time": 0.5, "solid.youngs_modulus": 5e6})
+        moment = paddle.moment_of_work(rows, 0.4, 0.5)
+        with tempfile.TemporaryDirectory() as folder:
+            done = launch("rotating_paddle/rigid.toml", folder, "--set=case.end_time=0.5", "--set=case.frame_interval=0")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            of_wall = paddle.moment_of_wall(paddle.rows(pathlib.Path(folder) / "fluid.csv"), 0.4, 0.5)
+        self.assertLess(abs(moment / of_wall - 1), 0.04)
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+        last = rows[-1]
+        for axis in "xy":  # the blades are alike, but for what the coupling leaves
+            self.assertLess(abs(last[f"right tip_displacement_{axis}[m]"] + last[f"left tip_displacement_{axis}[m]"]), 1e-7)
+        held = last["kinetic_energy[J/m]"] + last["elastic_energy[J/m]"] + last["hourglass_energy[J/m]"]
+        given = last["work_of_clamps[J/m]"] + last["interface_work[J/m]"]
+        self.assertLess(abs(held - given), 0.01 * last["work_of_clamps[J/m]"])
 
 
 class ElasticObstacle(unittest.TestCase):
@@ -99,6 +118,16 @@ class FloatingBox(unittest.TestCase):
         risen = sum(row["body_displacement_y[m]"] for row in late) / len(late)
         self.assertLess(abs((0.05 - 1.5 * risen) / 0.06 - 1), 0.025)  # -1.5 %
         self.assertLess(max(abs(row["body_angle[rad]"]) for row in rows), 1e-3)
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+    def test_two_boxes_float_as_deep_as_each_is_heavy(self):
+        rows, figures, _ = run("floating_box/two_boxes.toml", **{"case.end_time": 2, "fluid.spacing": 0.0125, "solid.spacing": 0.0125})
+        late = [row for row in rows if row["time[s]"] >= 1.5]
+        heavy, light = (sum(row[f"{name}_displacement_y[m]"] for row in late) / len(late) for name in ("heavy", "light"))
+        level = (0.9 * 0.3 - 2 * 0.2 * 0.05 - 0.2 * (0.5 + heavy + light)) / (0.9 - 2 * 0.2)  # of as much water as there is
+        self.assertLess(abs((level - 0.25 - heavy) / 0.06 - 1), 0.025)  # -1.7 %
+        self.assertLess(abs((level - 0.25 - light) / 0.04 - 1), 0.025)  # -1.8 %
         self.assertLess(figures["largest_impulse_error"], 1e-12)
 
 

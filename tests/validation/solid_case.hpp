@@ -13,6 +13,7 @@ inline std::unique_ptr<SolidModel> solid_case(const std::string& name,
   const Scene scene = read_scene(file);
   Parameters parameters;
   file.read("solid", parameters, "");
+  file.ignore_sections({"fluid", "coupling"});
   take_motions(file, scene, parameters);
   file.throw_if_faulty();
   return model_of(parameters, scene);

@@ -170,6 +170,12 @@ TEST(StabilityWarnings, SeeNoDeeperThanTheKernel) {
                   testing::HasSubstr("weighs 0.28 of a row")));  // 140 x 2 rows: from half a spacing off
 }
 
+TEST(StabilityWarnings, WeighTheLightestOfSeveralMaterials) {
+  const std::string with_foam = std::string(damped) + "\n[[solid.material]]\nname = 'foam'\ndensity = 100\n";
+  EXPECT_TRUE(said_of(1000, serial_explicit()).empty());
+  EXPECT_THAT(said_of(1000, serial_explicit(), "", with_foam), testing::SizeIs(1));
+}
+
 TEST(StabilityWarnings, WeighARigidBodyAsAWhole) {
   const std::string rigid = "formulation = \"rigid\"";
   EXPECT_TRUE(said_of(200, serial_explicit(), "", rigid).empty()) << "it has no modes that a lag could feed";

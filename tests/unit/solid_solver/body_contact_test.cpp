@@ -28,20 +28,20 @@ TEST(BodyContact, PushesByTheGradientOfItsEnergyEqualAndOpposite) {
   const Body body = body_of(p);
   const std::size_t count = body.size(), size = padded(count);
   VecField x, a;
-  Field V(size, body.volume(0));
+  Field V(size, body.volume(0)), inverse_rho(size, 1.0 / p.material.density);
   resize(x, size);
   resize(a, size);
   for (std::size_t i = 0; i < count; ++i) set(x, i, body.X[i]);
   const TouchingBodies bodies(x, V, count, *p.body_contact, p.material, p.spacing, p.h());
   TouchingBodies::State state;
   EXPECT_EQ(bodies.body_count(), 2u);
-  bodies.push(state, x, a);
+  bodies.push(state, x, inverse_rho, a);
   EXPECT_EQ(bodies.energy(state), 0) << "apart";
 
   for (std::size_t i = 16; i < count; ++i) x[0][i] -= 0.0115;  // 2.5 mm into each other
   resize(a, size);
   for (auto& component : a) std::fill(component.begin(), component.end(), 0.0);
-  bodies.push(state, x, a);
+  bodies.push(state, x, inverse_rho, a);
   ASSERT_GT(bodies.energy(state), 0);
   Vec sum = Vec::Zero();
   double largest = 0;
@@ -55,10 +55,10 @@ TEST(BodyContact, PushesByTheGradientOfItsEnergyEqualAndOpposite) {
     for (int axis = 0; axis < dim; ++axis) {
       VecField moved = x, unused = a;
       moved[axis][i] += step;
-      bodies.push(state, moved, unused);
+      bodies.push(state, moved, inverse_rho, unused);
       const double ahead = bodies.energy(state);
       moved[axis][i] -= 2 * step;
-      bodies.push(state, moved, unused);
+      bodies.push(state, moved, inverse_rho, unused);
       EXPECT_NEAR(-(ahead - bodies.energy(state)) / (2 * step), mass * at(a, i)[axis], 1e-5 * mass * largest);
     }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -52,6 +53,63 @@ class SolidSection : public testing::Test {
   std::filesystem::path folder_;
   std::string used_, described_;
 };
+
+TEST_F(SolidSection, GivesRegionsMaterialsOfTheirOwn) {
+  const std::string made = plate +
+                           "material = 'steel'\n[[solid.region]]\nname = 'base'\n"
+                           "box = { min = [0.0, -0.02], max = [0.2, 0.0] }\n";
+  const std::string steel =
+      "[[solid.material]]\nname = 'steel'\ndensity = 7800.0\nyoungs_modulus = 2e11\npoissons_ratio = 0.3\n";
+  const Parameters p = read(made + steel);
+  EXPECT_EQ(p.materials_of_regions(), (std::vector<std::uint32_t>{1, 0}));
+  EXPECT_EQ(p.all_materials()[1].elastic.density, 7800);
+  EXPECT_NEAR(p.fastest_sound(), std::sqrt(2e11 * 0.7 / (1.3 * 0.4) / 7800), 1e-9 * p.fastest_sound());
+  EXPECT_EQ(p.material_in_contact().density, 1000) << "of the lightest";
+  EXPECT_EQ(p.material_in_contact().youngs_modulus, 2e6) << "of the softest";
+  const std::string used = used_;
+  EXPECT_NE(used.find("material = \"steel\""), std::string::npos) << used;
+  read(used);
+  EXPECT_EQ(used_, used) << "what is written reads as it was";
+}
+
+TEST_F(SolidSection, RefusesMaterialsThatAreNotThere) {
+  const std::string steel =
+      "[[solid.material]]\nname = 'steel'\ndensity = 7800.0\nyoungs_modulus = 2e11\npoissons_ratio = 0.3\n";
+  EXPECT_EQ(faults(plate + "material = 'stel'\n" + steel),
+            "case.toml:9:1: error: no [[solid.material]] is named 'stel'; did you mean 'steel'?");
+  EXPECT_EQ(faults(plate + "material = 'steel'\n"),
+            "case.toml:9:1: error: no [[solid.material]] is named 'steel'; there is none");
+  EXPECT_EQ(faults(plate + steel + steel),
+            "case.toml:15:1: error: two [[solid.material]] are named 'steel'; names must differ");
+  EXPECT_EQ(faults(plate + "[[solid.material]]\nname = 'lead'\ndensity = 11000.0\npoissons_ratio = 0.4\n"),
+            "case.toml:9:1: error: missing key 'youngs_modulus' in [[solid.material]] 'lead'");
+  EXPECT_EQ(
+      faults(plate + steel, {"solid.formulation=updated_lagrangian"}),
+      "case.toml:9:1: error: [[solid.material]] is for formulation = \"total_lagrangian\" or \"rigid\"; the "
+      "updated form has one material");
+}
+
+TEST_F(SolidSection, NamesSeveralRigidBodies) {
+  const std::string rigid = "[solid]\nformulation = 'rigid'\ndensity = 1000.0\nspacing = 0.005\n";
+  const std::string region =
+      "[[solid.region]]\nname = 'plate'\nbox = { min = [0.0, 0.0], max = [0.2, 0.02] }\n";
+  const std::string flap = "[[solid.body]]\nname = 'flap'\nmounting = { fixed = ['x'] }\n";
+  EXPECT_EQ(read(rigid + region + "body = 'flap'\n" + flap).bodies[0].mounting->fixed.size(), 1u);
+  EXPECT_EQ(faults(rigid + region + "body = 'flab'\n" + flap),
+            "case.toml:8:1: error: no [[solid.body]] is named 'flab'; did you mean 'flap'?\n"
+            "case.toml:9:1: error: no [[solid.region]] has body = \"flap\"");
+  EXPECT_EQ(faults(rigid + region + flap),
+            "case.toml:5:1: error: region 'plate' needs a 'body': there are 'flap'\n"
+            "case.toml:8:1: error: no [[solid.region]] has body = \"flap\"");
+  EXPECT_EQ(
+      faults(rigid + "mounting = {}\n" + region + "body = 'flap'\n" + flap),
+      "case.toml:5:1: error: [solid.mounting] is of a rigid body that is the only one: each [[solid.body]] "
+      "has its own [solid.body.mounting]");
+  EXPECT_EQ(faults(plate + "body = 'flap'\n" + flap),
+            "case.toml:10:9: error: [[solid.body]] is for formulation = \"rigid\" only; elastic regions that "
+            "do not "
+            "touch are bodies of their own");
+}
 
 TEST_F(SolidSection, RefusesTwoObserversOfOneName) {
   const std::string observer = "[[solid.observer]]\nname = 'tip'\npoint = [0.1, 0.01]\n";

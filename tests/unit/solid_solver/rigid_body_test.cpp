@@ -320,5 +320,79 @@ TEST(RigidBody, ShowsNoStress) {
   }
 }
 
+/// Two bars, one above the other, each a body of its own.
+Parameters two_bars() {
+  Parameters p = bar();
+  p.materials = {{.name = "heavy", .elastic = {3000, 0, 0}}};
+  p.regions[0].body = "lower";
+  p.regions.push_back(
+      {.name = "second", .box = {Vec(0, 0.1), Vec(0.08, 0.12)}, .material = "heavy", .body = "upper"});
+  p.bodies = {{"lower"}, {"upper", Mounting{.fixed = {"x"}, .stiffness = Vec(0, 500)}}};
+  return p;
+}
+
+TEST(RigidBody, IsOneOfSeveralWithAMassAndAMountingOfItsOwn) {
+  Scene scene = empty_scene();
+  scene.gravity = Vec(2, -10);
+  RigidBody both = rigid(two_bars(), scene);
+  EXPECT_NEAR(both.inertia(0)[0], m, 1e-14);
+  EXPECT_NEAR(both.inertia(1)[0], 3 * m, 1e-13);
+  EXPECT_NEAR(both.inertia(1)[2], 3 * I, 1e-15);
+  step_to(both, 0.1, 2000);
+  EXPECT_NEAR(both.coordinates(0)[0], 0.5 * 2 * 0.01, 1e-12);
+  EXPECT_NEAR(both.coordinates(0)[1], -0.5 * 10 * 0.01, 1e-12);
+  EXPECT_EQ(both.coordinates(1)[0], 0);
+  const double omega = std::sqrt(500 / (3 * m));
+  EXPECT_NEAR(both.coordinates(1)[1], -10 / (omega * omega) * (1 - std::cos(0.1 * omega)), 1e-7);
+  EXPECT_EQ(observed(both, "lower_displacement_y"), both.coordinates(0)[1]);
+  EXPECT_NEAR(observed(both, "upper_angular_velocity"), 0, 1e-10);
+  EXPECT_NEAR(observed(both, "dissipated_energy"), 0, 1e-6);
+}
+
+TEST(RigidBody, MovesBitByBitAsAloneBesideAnother) {
+  Parameters alone = two_bars();
+  alone.regions.pop_back(), alone.bodies.pop_back();
+  RigidBody both = rigid(two_bars()), single = rigid(alone);
+  const Interface touched = single.interface(0.01);
+  std::vector<Vec> forces;
+  for (std::size_t n = 0; n < touched.size(); ++n) forces.emplace_back(std::cos(1.0 * n), std::sin(3.0 * n));
+  for (RigidBody* body : {&both, &single}) {
+    InterfaceLoad load = load_of(forces);
+    for (std::size_t n = 0; n < touched.size(); ++n) {
+      load.impedance.insert(load.impedance.end(), {0.0, 2.0});
+      load.velocity.insert(load.velocity.end(), {0.1, -0.2});
+    }
+    body->set_interface_load(touched.id, load);
+    step_to(*body, 0.05, 100);
+  }
+  EXPECT_EQ(both.coordinates(0), single.coordinates(0));
+  EXPECT_GT(std::abs(single.coordinates(0)[2]), 1e-4);
+  EXPECT_EQ(both.coordinates(1), Coordinates(0, 0, 0)) << "nothing has acted on it";
+}
+
+TEST(RigidBody, BringsTheMassOfItsOwnToItsInterface) {
+  const RigidBody both = rigid(two_bars());
+  const Interface touched = both.interface(0.006);
+  Vec mass = Vec::Zero();
+  for (std::size_t n = 0; n < touched.size(); ++n) mass[both.body().region[touched.id[n]]] += touched.mass[n];
+  EXPECT_LT((mass - Vec(m, 3 * m)).norm(), 1e-12);
+}
+
+TEST(RigidBody, EndsTheRunWhereItMeetsAnother) {
+  Scene scene = empty_scene();
+  scene.gravity = Vec(0, 10);  // upwards, against the one on a spring
+  RigidBody both = rigid(two_bars(), scene);
+  try {
+    for (double t = 0; t < 0.3; t += 1e-3) {
+      both.advance(1e-3);
+      both.check(t);
+    }
+    FAIL() << "they pass through each other";
+  } catch (const PhysicsFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("rigid bodies do not push each other"), std::string::npos)
+        << failure.what();
+  }
+}
+
 }  // namespace
 }  // namespace toryu::solid::of_rigid_bodies

@@ -66,6 +66,12 @@ const std::vector<Change>& terms_of_both_forms() {
 
 const std::vector<Change>& terms_of_total_form() {
   static const std::vector<Change> changes{
+      {"materials",
+       [](Sample& s) {
+         s.p.materials = {{.name = "stiff", .elastic = {3000, 8e6, 0.2}}};
+         s.p.regions[1].material = "stiff";
+         s.p.artificial_viscosity = ArtificialViscosity{};
+       }},
       {"bodies",
        [](Sample& s) {
          s.p.body_contact = Contact{};
@@ -119,13 +125,28 @@ Sample rigid_block() {
   return sample;
 }
 
+/// Two of them, each a body that is held in its own way.
+Sample rigid_blocks() {
+  Sample sample = rigid_block();
+  sample.name = "rigid_bodies";
+  Parameters& p = sample.p;
+  p.bodies = {{"left", p.mounting}, {"right"}};
+  p.mounting.reset();
+  p.loads[0].box = {Vec(0.02, 0), Vec(0.04, 0.02)};
+  p.materials = {{.name = "heavy", .elastic = {2000, 0, 0}}};
+  p.regions = {
+      {.name = "block", .box = {Vec(0, 0), Vec(0.045, 0.025)}, .body = "left"},
+      {.name = "other", .box = {Vec(0.08, 0), Vec(0.1, 0.025)}, .material = "heavy", .body = "right"}};
+  return sample;
+}
+
 /// Each form with each term alone, and with all of its terms together.
 std::vector<Sample> samples() {
   const std::tuple<const char*, Formulation, Integrator> forms[] = {
       {"total", Formulation::total_lagrangian, Integrator::midpoint},
       {"midpoint", Formulation::updated_lagrangian, Integrator::midpoint},
       {"symplectic", Formulation::updated_lagrangian, Integrator::symplectic}};
-  std::vector<Sample> all{rigid_block()};
+  std::vector<Sample> all{rigid_block(), rigid_blocks()};
   for (const auto& [form, formulation, integrator] : forms) {
     auto changes = terms_of_both_forms();
     const auto& own =
