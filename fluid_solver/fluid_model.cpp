@@ -141,11 +141,11 @@ void FluidModel::move_back_into_domain() {
 
 void FluidModel::update_neighbours(double dt) {
   const auto timer = timers_.measure("neighbours");
-  if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt)) return;
+  if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt, ranks_)) return;
   move_back_into_domain();
   if (state_.open_ends) let_through_open_ends();
   if (scene_.geometry == Geometry::plane) {
-    state_.neighbours.build(state_.fluid, state_.boundaries, dt);
+    state_.neighbours.build(state_.fluid, state_.boundaries, dt, ranks_);
     if (state_.open_ends) state_.open_ends->find(state_.fluid);
     return;
   }
