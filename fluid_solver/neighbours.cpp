@@ -58,7 +58,7 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, doub
   // An own particle sees one reach far, to ghosts and walls whose gradients and pressures see one more.
   if (ranks) ranks->divide(fluid, 2 * (support_ + state_.skin));
   sort(fluid, strips_);
-  if (ranks) ranks->find(fluid);
+  if (ranks) ranks->find(fluid, strips_);
   state_.fluid = fluid.x;
   state_.boundaries.resize(boundaries.size());
   for (std::size_t b = 0; b < boundaries.size(); ++b) {

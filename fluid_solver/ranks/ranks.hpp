@@ -2,6 +2,7 @@
 /// and, as ghosts in the same arrays, those of others that are near. A fluid in one process has no ranks.
 #pragma once
 
+#include "common/sph/strip_order.hpp"
 #include "fluid_solver/particles.hpp"
 
 namespace toryu::fluid {
@@ -11,11 +12,11 @@ class Ranks {
   virtual ~Ranks() = default;
   /// Of the values of all processes.
   virtual double largest(double value) const = 0;
-  /// Gives each process its own particles, with ghosts up to `depth` [m] around them, in the order of their
-  /// numbers. The first time every process has the whole fluid.
+  /// Gives each process its own particles, with ghosts up to `depth` [m] around them, in the order in which
+  /// the whole fluid was stored. The first time every process has all of it.
   virtual void divide(Particles& fluid, double depth) = 0;
-  /// Finds the ghosts and those of whom others have ghosts again, after sorting.
-  virtual void find(const Particles& fluid) = 0;
+  /// Finds the ghosts, and those of whom others have ghosts, where they are after sorting by `strips`.
+  virtual void find(const Particles& fluid, const StripOrder& strips) = 0;
   /// Gives the ghosts the rates that their owners have found.
   virtual void share_rates(Particles& fluid) const = 0;
 };

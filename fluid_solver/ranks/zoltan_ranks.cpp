@@ -1,8 +1,10 @@
 #include "fluid_solver/ranks/zoltan_ranks.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "fluid_solver/ranks/all_to_all.hpp"
 
@@ -58,48 +60,53 @@ void for_each_carried(Fluid& fluid, Visit&& visit) {
   });
 }
 
-/// The state of the particles at `places`, field by field, after their numbers and one `label` each.
-void pack(Particles& fluid, const std::vector<std::uint32_t>& places, const std::vector<int>& labels,
-          std::vector<double>& message) {
+/// The state of the particles at `places`, field by field, after the owner, the place in the whole fluid and
+/// the number of each.
+void pack(Particles& fluid, const std::vector<std::uint32_t>& places, const std::vector<int>& owners,
+          const std::vector<std::uint32_t>& place_in_whole, std::vector<double>& message) {
   message.push_back(static_cast<double>(places.size()));
+  message.insert(message.end(), owners.begin(), owners.end());
+  for (const auto i : places) message.push_back(place_in_whole[i]);
   for (const auto i : places) message.push_back(fluid.id[i]);
-  message.insert(message.end(), labels.begin(), labels.end());
   for_each_carried(fluid, [&](const Field& component) {
     for (const auto i : places) message.push_back(component[i]);
   });
 }
 
-/// What `pack` has made of the particles of all ranks becomes `fluid`, in the order of the numbers.
-std::vector<int> unpack(const std::vector<std::vector<double>>& messages, Particles& fluid) {
-  struct Place {
-    std::uint32_t id;
-    std::size_t message, entry;
+/// What `pack` has made of the particles of all ranks becomes `fluid`, in the order of the whole.
+void unpack(const std::vector<std::vector<double>>& messages, Particles& fluid, std::vector<int>& owners,
+            std::vector<std::uint32_t>& place_in_whole) {
+  struct Entry {
+    double place_in_whole;
+    std::size_t message, number;
   };
-  std::vector<Place> order;
-  for (std::size_t r = 0; r < messages.size(); ++r)
-    for (std::size_t k = 0; !messages[r].empty() && k < static_cast<std::size_t>(messages[r][0]); ++k)
-      order.push_back({static_cast<std::uint32_t>(messages[r][1 + k]), r, k});
-  std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
+  std::vector<Entry> order;
+  for (std::size_t r = 0; r < messages.size(); ++r) {
+    const std::size_t count = messages[r].empty() ? 0 : static_cast<std::size_t>(messages[r][0]);
+    for (std::size_t k = 0; k < count; ++k) order.push_back({messages[r][1 + count + k], r, k});
+  }
+  std::sort(order.begin(), order.end(),
+            [](const Entry& a, const Entry& b) { return a.place_in_whole < b.place_in_whole; });
   // the value in column `c` of the messages
-  const auto value = [&](const Place& place, std::size_t c) {
-    const std::vector<double>& message = messages[place.message];
-    return message[1 + c * static_cast<std::size_t>(message[0]) + place.entry];
+  const auto value = [&](const Entry& entry, std::size_t c) {
+    const std::vector<double>& message = messages[entry.message];
+    return message[1 + c * static_cast<std::size_t>(message[0]) + entry.number];
   };
-  std::vector<int> labels;
   fluid.count = order.size();
   fluid.id.clear();
-  resize_present_fields(fluid,
-                        padded(std::max<std::size_t>(fluid.count, 1)));  // empty ones would count as absent
-  for (const Place& place : order) {
-    fluid.id.push_back(place.id);
-    labels.push_back(static_cast<int>(value(place, 1)));
+  owners.clear();
+  place_in_whole.clear();
+  resize_present_fields(fluid, padded(std::max<std::size_t>(fluid.count, 1)));  // without values: absent
+  for (const Entry& entry : order) {
+    owners.push_back(static_cast<int>(value(entry, 0)));
+    place_in_whole.push_back(static_cast<std::uint32_t>(value(entry, 1)));
+    fluid.id.push_back(static_cast<std::uint32_t>(value(entry, 2)));
   }
-  std::size_t c = 2;
+  std::size_t c = 3;
   for_each_carried(fluid, [&](Field& component) {
     for (std::size_t i = 0; i < order.size(); ++i) component[i] = value(order[i], c);
     ++c;
   });
-  return labels;
 }
 
 }  // namespace
@@ -155,6 +162,8 @@ void ZoltanRanks::divide(Particles& fluid, double depth) {
     own_.clear();
     for (std::size_t i = static_cast<std::size_t>(rank_); i < fluid.count; i += ranks)
       own_.push_back(static_cast<std::uint32_t>(i));
+    place_in_whole_.resize(fluid.count);
+    std::iota(place_in_whole_.begin(), place_in_whole_.end(), 0u);
   }
   if (balancings_ == 0 || !is_balanced()) balance(fluid);
   std::vector<std::vector<std::uint32_t>> there(ranks);
@@ -178,33 +187,71 @@ void ZoltanRanks::divide(Particles& fluid, double depth) {
   }
   std::vector<std::vector<double>> messages(ranks);
   for (std::size_t r = 0; r < ranks; ++r)
-    if (!there[r].empty()) pack(fluid, there[r], owners[r], messages[r]);
-  owners_ = unpack(all_to_all(messages, communicator_), fluid);
-  ids_ = fluid.id;
+    if (!there[r].empty()) pack(fluid, there[r], owners[r], place_in_whole_, messages[r]);
+  unpack(all_to_all(messages, communicator_), fluid, owners_, place_in_whole_);
+  held_ = fluid.id;
 }
 
-std::vector<std::uint32_t> ZoltanRanks::places(const std::vector<std::uint32_t>& ids,
-                                               const Particles& fluid) const {
-  std::vector<std::uint32_t> place_of(ids_.size()), found;
-  const auto number = [&](std::uint32_t id) {
-    return static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
-  };
-  for (std::size_t i = 0; i < fluid.count; ++i) place_of[number(fluid.id[i])] = static_cast<std::uint32_t>(i);
-  for (const auto id : ids) found.push_back(place_of[number(id)]);
-  return found;
-}
-
-void ZoltanRanks::find(const Particles& fluid) {
+void ZoltanRanks::find(const Particles& fluid, const StripOrder& strips) {
   const auto ranks = static_cast<std::size_t>(size_);
-  std::vector<std::vector<std::uint32_t>> wanted(ranks);
-  std::vector<std::uint32_t> own;
-  for (std::size_t k = 0; k < ids_.size(); ++k)
-    (owners_[k] == rank_ ? own : wanted[static_cast<std::size_t>(owners_[k])]).push_back(ids_[k]);
-  own_ = places(own, fluid);
-  ghosts_here_.clear();
-  ghosts_there_.clear();
-  for (const auto& ids : all_to_all(wanted, communicator_)) ghosts_there_.push_back(places(ids, fluid));
-  for (const auto& ids : wanted) ghosts_here_.push_back(places(ids, fluid));
+  std::unordered_map<std::uint32_t, std::uint32_t> place_of;  // by number
+  for (std::size_t i = 0; i < fluid.count; ++i) place_of[fluid.id[i]] = static_cast<std::uint32_t>(i);
+  std::vector<std::vector<std::uint32_t>> wanted(ranks);  // numbers, by owner
+  std::vector<std::uint32_t> places_before(fluid.count);
+  own_.clear();
+  ghosts_here_.assign(ranks, {});
+  for (std::size_t k = 0; k < fluid.count; ++k) {
+    const std::uint32_t i = place_of.at(held_[k]);
+    places_before[i] = place_in_whole_[k];
+    if (owners_[k] == rank_) {
+      own_.push_back(i);
+      continue;
+    }
+    wanted[static_cast<std::size_t>(owners_[k])].push_back(held_[k]);
+    ghosts_here_[static_cast<std::size_t>(owners_[k])].push_back(i);
+  }
+  place_in_whole_ = std::move(places_before);
+  ghosts_there_ = all_to_all(wanted, communicator_);
+  for (auto& numbers : ghosts_there_)
+    for (auto& number : numbers) number = place_of.at(number);
+  number_all(fluid, strips);
+}
+
+/// Finds the places in the whole fluid, as it is sorted now: each rank sorts the particles of some strips.
+void ZoltanRanks::number_all(const Particles& fluid, const StripOrder& strips) {
+  const auto ranks = static_cast<std::size_t>(size_);
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  const auto strip_of = [&](std::uint32_t i) {
+    return static_cast<double>(strips.place(fluid.x[0][i], fluid.x[1][i]).first);
+  };
+  for (const auto i : own_) first = std::min(first, strip_of(i)), last = std::max(last, strip_of(i));
+  first = -largest(-first), last = largest(last);
+  using Key = std::array<double, 3>;  // strip, along it, place before
+  std::vector<std::vector<double>> keys(ranks);
+  std::vector<std::vector<std::uint32_t>> asked(ranks);
+  for (const auto i : own_) {
+    const auto r = static_cast<std::size_t>((strip_of(i) - first) * size_ / (last - first + 1));
+    const double along = strips.place(fluid.x[0][i], fluid.x[1][i]).second;
+    keys[r].insert(keys[r].end(), {strip_of(i), along, static_cast<double>(place_in_whole_[i])});
+    asked[r].push_back(i);
+  }
+  const auto received = all_to_all(keys, communicator_);
+  std::vector<std::pair<Key, std::uint32_t*>> order;
+  std::vector<std::vector<std::uint32_t>> answers(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    answers[r].resize(received[r].size() / 3);
+    for (std::size_t k = 0; k < answers[r].size(); ++k)
+      order.push_back({{received[r][3 * k], received[r][3 * k + 1], received[r][3 * k + 2]}, &answers[r][k]});
+  }
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto count = static_cast<std::uint32_t>(order.size());
+  std::uint32_t before = 0;  // on lower ranks
+  MPI_Exscan(&count, &before, 1, MPI_UINT32_T, MPI_SUM, communicator_);
+  if (rank_ == 0) before = 0;  // MPI leaves it undefined there
+  for (const auto& [key, answer] : order) *answer = before++;
+  const auto places = all_to_all(answers, communicator_);
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (std::size_t k = 0; k < places[r].size(); ++k) place_in_whole_[asked[r][k]] = places[r][k];
 }
 
 void ZoltanRanks::share_rates(Particles& fluid) const {
@@ -225,8 +272,11 @@ void ZoltanRanks::share_rates(Particles& fluid) const {
 Particles ZoltanRanks::gather(const Particles& fluid) const {
   Particles whole = fluid;
   std::vector<std::vector<double>> messages(static_cast<std::size_t>(size_));
-  if (!own_.empty()) pack(whole, own_, std::vector<int>(own_.size(), rank_), messages[0]);
-  unpack(all_to_all(messages, communicator_), whole);
+  const std::vector<int> owners(own_.size(), rank_);
+  if (!own_.empty()) pack(whole, own_, owners, place_in_whole_, messages[0]);
+  std::vector<int> owners_there;
+  std::vector<std::uint32_t> places_there;
+  unpack(all_to_all(messages, communicator_), whole, owners_there, places_there);
   return whole;
 }
 

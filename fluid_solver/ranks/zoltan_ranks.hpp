@@ -17,9 +17,10 @@ class ZoltanRanks final : public Ranks {
 
   double largest(double value) const override;
   void divide(Particles& fluid, double depth) override;
-  void find(const Particles& fluid) override;
+  void find(const Particles& fluid, const StripOrder& strips) override;
   void share_rates(Particles& fluid) const override;
-  /// The state of the whole fluid in the order of the particles' numbers, on rank 0; no particles elsewhere.
+  /// The state of the whole fluid in the order in which one process stores it, on rank 0; no particles
+  /// elsewhere.
   Particles gather(const Particles& fluid) const;
 
   int size() const { return size_; }
@@ -36,15 +37,16 @@ class ZoltanRanks final : public Ranks {
   };
   void balance(const Particles& fluid);
   bool is_balanced() const;
-  /// The places of the particles of these numbers.
-  std::vector<std::uint32_t> places(const std::vector<std::uint32_t>& ids, const Particles& fluid) const;
+  void number_all(const Particles& fluid, const StripOrder& strips);
 
   MPI_Comm communicator_;
   int rank_ = 0, size_ = 1;
   std::unique_ptr<Zoltan_Struct, Destroy> zoltan_;
   long balancings_ = 0;
-  std::vector<std::uint32_t> ids_;       ///< of the own particles and the ghosts, in order
-  std::vector<int> owners_;              ///< of each of these
+  std::vector<std::uint32_t> held_;  ///< numbers of the particles as `divide` leaves them
+  std::vector<int> owners_;          ///< of these
+  /// By place: the place in the whole fluid. Sorting keeps the order of ties, so it must be known.
+  std::vector<std::uint32_t> place_in_whole_;
   std::vector<std::uint32_t> own_ = {};  ///< places of the own particles
   /// Places, by rank: of own particles of which it has ghosts, and of ghosts that it owns.
   std::vector<std::vector<std::uint32_t>> ghosts_there_, ghosts_here_;

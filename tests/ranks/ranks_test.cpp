@@ -57,6 +57,7 @@ Seen expect_the_same(const std::string& name, const std::vector<std::string>& ov
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
     EXPECT_EQ(gathered.count, whole.particle_count());
+    EXPECT_EQ(gathered.id, whole.particles().id) << "in the same order";
     const auto found = states(gathered), expected = states(whole.particles());
     std::size_t others = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) others += i >= found.size() || found[i] != expected[i];
