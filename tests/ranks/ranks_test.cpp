@@ -85,6 +85,11 @@ TEST(FluidOverRanks, DiffusesItsDensityPlainly) {
   expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.density_diffusion.gradient=\"none\""});
 }
 
+TEST(FluidOverRanks, IsViscous) {
+  expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.laminar_viscosity.dynamic_viscosity=1.0",
+                                "fluid.wall_model.slip=\"no_slip\""});
+}
+
 TEST(FluidOverRanks, IsAtRestInATank) {
   expect_the_same("hydrostatic_tank", {});
 }
