@@ -63,8 +63,9 @@ class FluidModel : public Solver {
   void record_surface(const std::filesystem::path& out);
 
   /// From the next step on the fluid is spread over `ranks`: this model holds a part of it. What is summed
-  /// over particles, loads and what is found of the free surface is of that part then.
-  void spread_over(Ranks& ranks) { ranks_ = &ranks; }
+  /// over particles, loads and what is found of the free surface is of that part then. Throws BadInput where
+  /// the case has what does not go over ranks.
+  void spread_over(Ranks& ranks);
 
   // the coupled run's side
   /// How far the kernel sees [m].

@@ -90,6 +90,13 @@ TEST(FluidOverRanks, IsViscous) {
                                 "fluid.wall_model.slip=\"no_slip\""});
 }
 
+TEST(FluidOverRanks, RefusesWhatDoesNotGo) {
+  const FluidCase the_case("dam_break", {"fluid.spacing=0.0114", "fluid.particle_shifting={}"});
+  ZoltanRanks ranks(MPI_COMM_WORLD);
+  WeaklyCompressible solver = the_case.solver();
+  EXPECT_THROW(solver.spread_over(ranks), BadInput);
+}
+
 TEST(FluidOverRanks, IsAtRestInATank) {
   expect_the_same("hydrostatic_tank", {});
 }
