@@ -1,5 +1,7 @@
 #include "fluid_solver/fluid_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -42,6 +44,32 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
   start_momentum_ = momentum();
   start_energy_ = energy();
   start_potential_ = potential_energy();
+}
+
+void FluidModel::spread_over(Ranks& ranks) {
+  std::vector<InputError> faults;
+  const auto refuse = [&](bool is_there, std::string_view place, std::string_view what) {
+    if (is_there)
+      faults.push_back(
+          {.place = std::string(place), .message = fmt::format("{} does not go over ranks", what)});
+  };
+  for_each_term(parameters_, [&]<class Term>(const std::optional<Term>& term) {
+    if constexpr (!is_one_of<Term, DensityDiffusion, ArtificialViscosity, LaminarViscosity>)
+      refuse(term.has_value(), "[fluid]", Term::section);
+  });
+  refuse(parameters_.model != Model::weakly_compressible, "[fluid]", "the implicit model");
+  refuse(parameters_.has_open_ends(), "[fluid]", "an open end");
+  refuse(parameters_.wall_model.extrapolation == WallExtrapolation::fit, "[fluid.wall_model]",
+         "extrapolation by a fit");
+  refuse(scene_.geometry != Geometry::plane, "[case]", "an axis");
+  refuse(scene_.periodic != Periodic::none, "[case]", "periodic space");
+  for (const Boundary& boundary : state_.boundaries) {
+    refuse(boundary.is_interface(), "[solid]", "a solid");
+    refuse(std::holds_alternative<PressedMotion>(boundary.motion), "[[wall]]", "a wall that is pressed");
+    refuse(boundary.turns(), "[[wall]]", "a wall that turns");
+  }
+  if (!faults.empty()) throw BadInput(faults);
+  ranks_ = &ranks;
 }
 
 void FluidModel::save() {
@@ -141,11 +169,11 @@ void FluidModel::move_back_into_domain() {
 
 void FluidModel::update_neighbours(double dt) {
   const auto timer = timers_.measure("neighbours");
-  if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt)) return;
+  if (!state_.neighbours.exhausted(state_.fluid, state_.boundaries, dt, ranks_)) return;
   move_back_into_domain();
   if (state_.open_ends) let_through_open_ends();
   if (scene_.geometry == Geometry::plane) {
-    state_.neighbours.build(state_.fluid, state_.boundaries, dt);
+    state_.neighbours.build(state_.fluid, state_.boundaries, dt, ranks_);
     if (state_.open_ends) state_.open_ends->find(state_.fluid);
     return;
   }

@@ -62,6 +62,11 @@ class FluidModel : public Solver {
   /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.
   void record_surface(const std::filesystem::path& out);
 
+  /// From the next step on the fluid is spread over `ranks`: this model holds a part of it. What is summed
+  /// over particles, loads and what is found of the free surface is of that part then. Throws BadInput where
+  /// the case has what does not go over ranks.
+  void spread_over(Ranks& ranks);
+
   // the coupled run's side
   /// How far the kernel sees [m].
   double reach() const { return kernel_.support(); }
@@ -158,6 +163,7 @@ class FluidModel : public Solver {
   State state_;
   FreeSurface free_surface_;
   Timers timers_;
+  Ranks* ranks_ = nullptr;  ///< over which the fluid is spread
 
  private:
   void fill_regions();

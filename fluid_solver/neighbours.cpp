@@ -29,9 +29,11 @@ constexpr double smallest_skin = 0.02;
 
 }  // namespace
 
-bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const {
+bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
+                           const Ranks* ranks) const {
   if (state_.builds == 0) return true;
-  const double moved_fluid = largest_distance(fluid.x, state_.fluid, fluid.count) + farthest_step(fluid, dt);
+  double moved_fluid = largest_distance(fluid.x, state_.fluid, fluid.count) + farthest_step(fluid, dt);
+  if (ranks) moved_fluid = ranks->largest(moved_fluid);
   double moved = moved_fluid;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].moves())
@@ -40,19 +42,23 @@ bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& 
   return skin_exhausted(moved_fluid, moved, state_.skin);
 }
 
-double Neighbours::best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries,
-                             double dt) const {
+double Neighbours::best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
+                             const Ranks* ranks) const {
   double step = farthest_step(fluid, dt);
+  if (ranks) step = ranks->largest(step);
   for (const Boundary& boundary : boundaries)
     if (boundary.moves()) step = std::max(step, farthest_step(boundary, dt));
   const double best = std::sqrt(support_ * 2 * step);
   return std::min(std::max(best, smallest_skin * support_), largest_skin_);
 }
 
-void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, double dt) {
+void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, double dt, Ranks* ranks) {
   ++state_.builds;
-  state_.skin = best_skin(fluid, boundaries, dt);
+  state_.skin = best_skin(fluid, boundaries, dt, ranks);
+  // An own particle sees one reach far, to ghosts and walls whose gradients and pressures see one more.
+  if (ranks) ranks->divide(fluid, 2 * (support_ + state_.skin));
   sort(fluid, strips_);
+  if (ranks) ranks->find(fluid, strips_);
   state_.fluid = fluid.x;
   state_.boundaries.resize(boundaries.size());
   for (std::size_t b = 0; b < boundaries.size(); ++b) {

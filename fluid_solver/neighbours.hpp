@@ -11,6 +11,7 @@
 #include "common/sph/cluster_list.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/particles.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
@@ -27,9 +28,11 @@ class Neighbours {
         strips_(strip_width) {}
 
   /// Whether the next `dt` [s] at the present speeds may exhaust the skin.
-  bool exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const;
-  /// Sorts the particles and builds the lists anew, for steps of about `dt` [s].
-  void build(Particles& fluid, std::vector<Boundary>& boundaries, double dt);
+  bool exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
+                 const Ranks* ranks = nullptr) const;
+  /// Sorts the particles and builds the lists anew, for steps of about `dt` [s]. Over `ranks` it divides them
+  /// anew before: rates of ghosts are exchanged, but what is found on the way to them is found here.
+  void build(Particles& fluid, std::vector<Boundary>& boundaries, double dt, Ranks* ranks = nullptr);
 
   /// Finds the lists again that were built where a checkpoint says: in a fluid and boundaries whose particles
   /// are in that order.
@@ -51,7 +54,8 @@ class Neighbours {
     auto& [fluid, boundaries, skin, builds] = neighbours.state_;
     archive(fluid, boundaries, skin, builds);
   }
-  double best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt) const;
+  double best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
+                   const Ranks* ranks) const;
   void build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries);
 
   double support_, largest_skin_;

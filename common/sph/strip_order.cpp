@@ -12,13 +12,13 @@ std::vector<std::uint32_t> StripOrder::sort(std::span<const double> x, std::span
                                             std::size_t count) const {
   struct Key {
     std::int64_t strip;
-    double along;  // y up the even strips, -y up the odd ones
+    double along;
     std::uint32_t point;
   };
   std::vector<Key> keys(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t s = strip(x[i]);
-    keys[i] = {s, s % 2 == 0 ? y[i] : -y[i], static_cast<std::uint32_t>(i)};
+    const auto [s, along] = place(x[i], y[i]);
+    keys[i] = {s, along, static_cast<std::uint32_t>(i)};
   }
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
     if (a.strip != b.strip) return a.strip < b.strip;

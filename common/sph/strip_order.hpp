@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/vector.hpp"
@@ -23,6 +24,12 @@ class StripOrder {
   /// their order, so the result depends on nothing but the points.
   std::vector<std::uint32_t> sort(std::span<const double> x, std::span<const double> y,
                                   std::size_t count) const;
+
+  /// Where a point belongs: the strip, and how far along it [m].
+  std::pair<std::int64_t, double> place(double x, double y) const {
+    const std::int64_t s = strip(x);
+    return {s, s % 2 == 0 ? y : -y};  // y up the even strips, -y up the odd ones
+  }
 
   /// Notes where each strip begins in points that are stored in this order.
   void index(std::span<const double> x, std::size_t count);

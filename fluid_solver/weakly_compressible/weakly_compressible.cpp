@@ -169,6 +169,7 @@ void WeaklyCompressible::evaluate(RatesOf wanted, double time) {
   if (scene_.gravity_change) dynamics_.set_gravity(scene_.gravity_at(time));
   if (state_.open_ends) state_.open_ends->impose(state_.fluid, time, scene_.gravity_at(time));
   dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_);
+  if (ranks_) ranks_->share_rates(state_.fluid);
   if (state_.open_ends)
     state_.open_ends->take_rates(state_.fluid, wanted != RatesOf::density, wanted != RatesOf::velocity);
 }
@@ -248,6 +249,10 @@ void WeaklyCompressible::note_extremes() {
   Extremes& largest = state_.largest;
   largest.speed = largest_norm(fluid.v, fluid.count);
   largest.acceleration = largest_norm(fluid.a, fluid.count);
+  if (ranks_) {
+    largest.speed = ranks_->largest(largest.speed);
+    largest.acceleration = ranks_->largest(largest.acceleration);
+  }
   largest.speed_of_turning = 0;
   for (const Boundary& boundary : state_.boundaries)
     if (boundary.turns())

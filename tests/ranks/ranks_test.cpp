@@ -1,0 +1,113 @@
+// A fluid over MPI ranks is the fluid of one process, bit for bit. Started by mpirun.
+#include <gtest/gtest.h>
+
+#include "fluid_solver/ranks/zoltan_ranks.hpp"
+#include "tests/validation/fluid_case.hpp"
+
+namespace toryu::fluid {
+namespace {
+
+constexpr int steps = 600;
+
+struct Seen {
+  std::vector<double> time_steps;
+  long builds = 0, balancings = 0;
+  std::size_t most_held = 0, most_owned = 0;  ///< by a rank after the start
+};
+
+std::vector<double> advance(FluidModel& model, const std::function<void()>& after_step = {}) {
+  std::vector<double> time_steps;
+  for (int n = 0; n < steps; ++n) {
+    time_steps.push_back(model.time_step_limit());
+    model.advance(time_steps.back());
+    if (after_step) after_step();
+  }
+  return time_steps;
+}
+
+/// The state of the particles, in the order of their numbers.
+std::vector<std::vector<double>> states(Particles fluid) {
+  std::vector<std::vector<double>> by_number(fluid.count);
+  for_each_field(fluid, [&](auto& field) {
+    if (field.kind != FieldKind::state) return;
+    for_each_component(field, [&](const Field& component) {
+      for (std::size_t i = 0; !component.empty() && i < fluid.count; ++i)
+        by_number.at(fluid.id[i]).push_back(component[i]);
+    });
+  });
+  return by_number;
+}
+
+Seen expect_the_same(const std::string& name, const std::vector<std::string>& overrides) {
+  const FluidCase the_case(name, overrides);
+  WeaklyCompressible whole = the_case.solver(), part = the_case.solver();
+  const std::vector<double> time_steps = advance(whole);
+  ZoltanRanks ranks(MPI_COMM_WORLD);
+  part.spread_over(ranks);
+  Seen seen;
+  seen.time_steps = advance(part, [&] {
+    seen.most_held = std::max(seen.most_held, part.particle_count());
+    seen.most_owned = std::max(seen.most_owned, ranks.own_count());
+  });
+  EXPECT_EQ(seen.time_steps, time_steps);
+  seen.builds = part.list_builds(), seen.balancings = ranks.balancings();
+  EXPECT_EQ(seen.builds, whole.list_builds());
+  const Particles gathered = ranks.gather(part.particles());
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) {
+    EXPECT_EQ(gathered.count, whole.particle_count());
+    EXPECT_EQ(gathered.id, whole.particles().id) << "in the same order";
+    const auto found = states(gathered), expected = states(whole.particles());
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) others += i >= found.size() || found[i] != expected[i];
+    EXPECT_EQ(others, 0u) << "particles in another state, of " << expected.size();
+    std::printf(
+        "%s on %d ranks: %zu particles, %ld list builds, %ld balancings, rank 0 holds %zu and owns %zu\n",
+        name.c_str(), ranks.size(), expected.size(), seen.builds, seen.balancings, seen.most_held,
+        seen.most_owned);
+  }
+  if (ranks.size() > 1) {
+    EXPECT_LT(seen.most_held, whole.particle_count()) << "a rank holds its own particles and ghosts alone";
+  }
+  return seen;
+}
+
+TEST(FluidOverRanks, FallsAsADamBreakDoes) {
+  for (const std::string integrator : {"midpoint", "symplectic"}) {
+    const Seen seen =
+        expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.integrator=\"" + integrator + "\""});
+    EXPECT_GT(seen.builds, 10);
+  }
+}
+
+TEST(FluidOverRanks, DiffusesItsDensityPlainly) {
+  expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.density_diffusion.gradient=\"none\""});
+}
+
+TEST(FluidOverRanks, IsViscous) {
+  expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.laminar_viscosity.dynamic_viscosity=1.0",
+                                "fluid.wall_model.slip=\"no_slip\""});
+}
+
+TEST(FluidOverRanks, RefusesWhatDoesNotGo) {
+  const FluidCase the_case("dam_break", {"fluid.spacing=0.0114", "fluid.particle_shifting={}"});
+  ZoltanRanks ranks(MPI_COMM_WORLD);
+  WeaklyCompressible solver = the_case.solver();
+  EXPECT_THROW(solver.spread_over(ranks), BadInput);
+}
+
+TEST(FluidOverRanks, IsAtRestInATank) {
+  expect_the_same("hydrostatic_tank", {});
+}
+
+}  // namespace
+}  // namespace toryu::fluid
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  testing::InitGoogleTest(&argc, argv);
+  const int failures = RUN_ALL_TESTS();
+  MPI_Finalize();
+  return failures;
+}
