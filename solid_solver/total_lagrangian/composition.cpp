@@ -127,8 +127,10 @@ Tensor<double> Composition::stress_of(std::uint32_t material, const Tensor<doubl
 }
 
 Composition::Layers Composition::layers(const Laminate& laminate, const Tensor<double>& H) const {
-  const auto& [slot, other, phi, N] = laminate;
-  const ElasticMaterial &own = materials_[material_[slot]].elastic, &beyond = materials_[other].elastic;
+  const std::uint32_t material = material_[laminate.slot], other = laminate.other;
+  const double phi = laminate.share;
+  const Vec& N = laminate.normal;
+  const ElasticMaterial &own = materials_[material].elastic, &beyond = materials_[other].elastic;
   const auto stiffness = [&](auto modulus) { return phi * modulus(own) + (1 - phi) * modulus(beyond); };
   const double G = stiffness([](const ElasticMaterial& m) { return m.shear_modulus(); });
   const double M =
@@ -139,7 +141,7 @@ Composition::Layers Composition::layers(const Laminate& laminate, const Tensor<d
   Layers both{H, H};
   const auto residual = [&](const Vec& c) {
     both = {bent(H, -phi * c, N), bent(H, (1 - phi) * c, N)};
-    const Tensor<double> P_1 = stress_of(material_[slot], both.own), P_2 = stress_of(other, both.other);
+    const Tensor<double> P_1 = stress_of(material, both.own), P_2 = stress_of(other, both.other);
     return Vec((P_2[0] - P_1[0]) * N[0] + (P_2[1] - P_1[1]) * N[1],
                (P_2[2] - P_1[2]) * N[0] + (P_2[3] - P_1[3]) * N[1]);
   };

@@ -178,7 +178,7 @@ void TotalLagrangian::record_inverted(const Tensor<Lanes>& H, std::size_t first_
 
 VecLanes TotalLagrangian::viscous(std::size_t cluster) const {
   const Field &rho = composition_.density(), &c = composition_.sound_speed();
-  const auto [alpha, beta] = *parameters_.artificial_viscosity;
+  const double alpha = parameters_.artificial_viscosity->alpha, beta = parameters_.artificial_viscosity->beta;
   if (composition_.is_uniform()) {
     const PairViscosity<> Pi{alpha * c[0], beta, parameters_.h(), 1.0 / rho[0]};
     return pairs_->central_force_density(state_.u, state_.v, cluster,
