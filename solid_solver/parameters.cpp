@@ -156,12 +156,8 @@ void require_named_materials(ParameterTable& table, const Parameters& p) {
   for (std::size_t k = 0; k < p.regions.size(); ++k) {
     const std::string& asked = p.regions[k].material;
     const bool found = asked.empty() || std::find(names.begin(), names.end(), asked) != names.end();
-    const std::string hint = did_you_mean(asked, names);
     table.require(found, fmt::format("region.{}.material", k),
-                  fmt::format("no [[solid.material]] is named '{}'{}", asked,
-                              !hint.empty()   ? hint
-                              : names.empty() ? "; there is none"
-                                              : "; there are " + quoted_list(names)));
+                  fmt::format("no [[solid.material]] is named '{}'{}", asked, what_there_is(asked, names)));
   }
 }
 
@@ -242,12 +238,8 @@ void require_bodies(ParameterTable& table, const Parameters& p) {
           fmt::format("region '{}' needs a 'body': there are {}", p.regions[k].name, quoted_list(names)));
       continue;
     }
-    const std::string hint = did_you_mean(asked, names);
     table.require(std::find(names.begin(), names.end(), asked) != names.end(), place + ".body",
-                  fmt::format("no [[solid.body]] is named '{}'{}", asked,
-                              !hint.empty()   ? hint
-                              : names.empty() ? "; there is none"
-                                              : "; there are " + quoted_list(names)));
+                  fmt::format("no [[solid.body]] is named '{}'{}", asked, what_there_is(asked, names)));
   }
   table.require(p.bodies.empty() || !p.mounting, "mounting",
                 "[solid.mounting] is of a rigid body that is the only one: each [[solid.body]] has its own "

@@ -41,6 +41,12 @@ std::string did_you_mean(std::string_view typed, const std::vector<std::string>&
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 
+std::string what_there_is(std::string_view asked, const std::vector<std::string>& names) {
+  if (names.empty()) return "; there is none";
+  const std::string hint = did_you_mean(asked, names);
+  return hint.empty() ? "; there are " + quoted_list(names) : hint;
+}
+
 std::string quoted_list(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "'" : ", '") + word + "'";

@@ -18,6 +18,10 @@ std::string nearest_word(std::string_view typed, const std::vector<std::string>&
 /// "; did you mean 'density'?", or nothing if no word is near.
 std::string did_you_mean(std::string_view typed, const std::vector<std::string>& words);
 
+/// What a name that was asked for could have been: the nearest of those that are there, or all of them, ";
+/// there are 'a', 'b'", or "; there is none".
+std::string what_there_is(std::string_view asked, const std::vector<std::string>& names);
+
 /// "'a', 'b', 'c'"
 std::string quoted_list(const std::vector<std::string>& words);
 

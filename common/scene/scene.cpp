@@ -200,11 +200,7 @@ const Motion* shared_motion(const Scene& scene, const std::string& name) {
 std::string no_motion(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
   for (const NamedMotion& named : scene.motions) names.push_back(named.name);
-  const std::string hint = did_you_mean(name, names);
-  return fmt::format("no [[motion]] is named '{}'{}", name,
-                     !hint.empty()   ? hint
-                     : names.empty() ? "; there is none"
-                                     : "; there are " + quoted_list(names));
+  return fmt::format("no [[motion]] is named '{}'{}", name, what_there_is(name, names));
 }
 
 double largest_wall_speed(const Scene& scene) {

@@ -138,10 +138,13 @@ Composition::Layers Composition::layers(const Laminate& laminate, const Tensor<d
   // Broyden's method (1965), from what the slope is for small strains.
   const Mat R = rotation(H), NN = N * N.transpose();
   Mat inverse = R * (NN / M + (Mat::Identity() - NN) / G) * R.transpose();
-  Layers both{H, H};
+  Layers both;
+  const auto layer = [this](std::uint32_t of, const Tensor<double>& gradient) -> Layer {
+    return {gradient, stress_of(of, gradient)};
+  };
   const auto residual = [&](const Vec& c) {
-    both = {bent(H, -phi * c, N), bent(H, (1 - phi) * c, N)};
-    const Tensor<double> P_1 = stress_of(material, both.own), P_2 = stress_of(other, both.other);
+    both = {layer(material, bent(H, -phi * c, N)), layer(other, bent(H, (1 - phi) * c, N))};
+    const Tensor<double>&P_1 = both.own.P, &P_2 = both.other.P;
     return Vec((P_2[0] - P_1[0]) * N[0] + (P_2[1] - P_1[1]) * N[1],
                (P_2[2] - P_1[2]) * N[0] + (P_2[3] - P_1[3]) * N[1]);
   };
@@ -173,10 +176,8 @@ Tensor<Lanes> Composition::stress(std::size_t cluster, const Tensor<Lanes>& H) c
     if (laminate_of_[first + lane] == laminates_.size()) continue;
     const Laminate& laminate = laminates_[laminate_of_[first + lane]];
     const auto both = layers(laminate, {H[0][lane], H[1][lane], H[2][lane], H[3][lane]});
-    const Tensor<double> own = stress_of(material_[first + lane], both.own),
-                         other = stress_of(laminate.other, both.other);
     for (std::size_t n = 0; n < P.size(); ++n)
-      P[n].value[lane] = (1 - laminate.share) * own[n] + laminate.share * other[n];
+      P[n].value[lane] = (1 - laminate.share) * both.own.P[n] + laminate.share * both.other.P[n];
   }
   return P;
 }
@@ -188,13 +189,13 @@ double Composition::energy(std::size_t slot, const Tensor<double>& H) const {
   if (uniform_ || laminate_of_[slot] == laminates_.size()) return of(material_[slot], H);
   const Laminate& laminate = laminates_[laminate_of_[slot]];
   const auto both = layers(laminate, H);
-  return (1 - laminate.share) * of(material_[slot], both.own) +
-         laminate.share * of(laminate.other, both.other);
+  return (1 - laminate.share) * of(material_[slot], both.own.H) +
+         laminate.share * of(laminate.other, both.other.H);
 }
 
 Tensor<double> Composition::own_gradient(std::size_t slot, const Tensor<double>& H) const {
   if (uniform_ || laminate_of_[slot] == laminates_.size()) return H;
-  return layers(laminates_[laminate_of_[slot]], H).own;
+  return layers(laminates_[laminate_of_[slot]], H).own.H;
 }
 
 double Composition::stiffening(const Tensor<Field>& H, std::size_t count) const {

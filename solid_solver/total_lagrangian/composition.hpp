@@ -62,8 +62,11 @@ class Composition {
   const std::vector<Laminate>& laminates() const { return laminates_; }
 
  private:
+  struct Layer {
+    Tensor<double> H, P;
+  };
   struct Layers {
-    Tensor<double> own, other;  ///< H of each
+    Layer own, other;
   };
   /// Beside a surface phi is larger than on the other side. The larger is made less, so that each material
   /// has the volume that it has.

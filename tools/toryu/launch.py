@@ -26,7 +26,7 @@ from toryu.results_folder import keep_former, newest_checkpoint, remove_former, 
 from toryu.watch import launched
 
 PACKAGES = str(ROOT / "tools")  # where a program in Python finds toryu
-MOST_WORDS = 10000  # for the report: a command line takes no more than some of them
+MOST_WORDS = 10000  # of why a run ended, for the report: a command line takes no more than some of them
 PACKAGE_FOR = {".svg": "svgelements", ".dxf": "ezdxf"}  # of Python, that reads such drawings
 # A thread that has nothing to do must sleep, not spin: in a coupled run at most one side computes at a time, and
 # beside other programs a spinning thread keeps the one it waits for from its core (dam break: 3 to 5 times slower).
@@ -262,7 +262,7 @@ def report(options, case, code, words):
     """Makes report.html and prints the summary; returns the exit code of the report."""
     failed = DONE if options.no_report else subprocess.run(
         program.python("report", options.out, "--case", options.case, f"--bin={options.bin}", f"--exit-code={code}",
-                       f"--words={words[-MOST_WORDS:]}"), stdout=subprocess.DEVNULL).returncode
+                       f"--words={words}"), stdout=subprocess.DEVNULL).returncode
     if text := summary_text.of_run(case.references, options.out):
         print(text)
     if not failed and not options.no_report:
@@ -323,15 +323,16 @@ def main(arguments):
         placement.forget_secret()  # of a run that was killed
         if options.restart is None:
             set_former_aside(options)
+        tell = kept.enter_context(launched.watched(options))
         placement.make_secret()
         before = age_of_used_case(options.out)
-        tell = kept.enter_context(launched.watched(options))
         try:
             code, words = placement.run_of(commands, environment, lambda: age_of_used_case(options.out) != before)()
         finally:
             placement.forget_secret()
         if words:
             print(words, file=sys.stderr)
+        words = words[-MOST_WORDS:]
         if options.replay is not None and code == DONE:
             print(compared_with_record(options))
         # A restart that is refused leaves the report of the run before.

@@ -1,7 +1,7 @@
 /// A fluid whose particles LAMMPS carries, over one or more ranks of MPI: takes the place of fluid_solver.
 ///
 ///     lammps_fluid CASE [--out DIR]                          one rank
-///     lammps_fluid_mpirun CASE [--out DIR]                   RANKS of them (lammps_fluid_mpirun)
+///     lammps_fluid_mpirun CASE [--out DIR]                   RANKS of them
 #include <fmt/format.h>
 
 #include <cmath>
@@ -100,8 +100,8 @@ void begin(const std::filesystem::path& checkpoint, Start start, const Parameter
   if (checkpoint.empty()) return note_start(start, parameters, run);
   Numbers state;
   read_part(checkpoint, "fluid", role, [&](std::istream& stream) { read_states(stream, state); });
-  for (std::size_t i = 0; i < static_cast<std::size_t>(start.physics.fluid_count);
-       ++i)  // on the rank that has the place
+  // Each particle starts on the rank that has its place.
+  for (std::size_t i = 0; i < static_cast<std::size_t>(start.physics.fluid_count); ++i)
     for (std::size_t a = 0; a < dim; ++a) start.position[dim * i + a] = state[6 * i + a];
   note_start(start, parameters, run);
   run.set_state(std::move(state));

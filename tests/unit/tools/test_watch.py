@@ -73,6 +73,7 @@ class Watch(unittest.TestCase):
 
     def end(self):
         self.server.streams = 0  # nobody takes the last page
+        self.server.opening.clear()
         if not self.server.over.is_set():
             self.server.end()
 
@@ -125,11 +126,15 @@ class Watch(unittest.TestCase):
         self.assertEqual(self.events().next("warnings")[0], ["fluid warning: fast"])
 
     def test_how_far_the_run_is(self):
-        self.assertEqual(self.told.progress({}), "no results yet")
+        self.assertEqual(self.told.progress(), "no results yet")
+        self.add(HEADER)
+        self.assertEqual(self.told.progress(), "no results yet")
+        self.add("0.0,1\n0.1,1\n0.2,")
         (self.out / "used_case.toml").write_text("[case]\nend_time = 0.4\n[fluid]\n")
-        self.assertEqual(self.told.progress({"fluid": 0.1}), "0.1 of 0.4 s simulated (25 %)")
+        self.assertEqual(self.told.progress(), "0.1 of 0.4 s simulated (25 %)")
         self.told.first = (0.0, time.monotonic() - 100)  # 0.1 s in 100 s
-        self.assertEqual(self.told.progress({"fluid": 0.1, "solid": 0.2}), "0.1 of 0.4 s simulated (25 %), 5.0 min left")
+        self.add("time[s],mass[kg]\n0.2,1\n", "solid")
+        self.assertEqual(self.told.progress(), "0.1 of 0.4 s simulated (25 %), 5 min 0 s left")
 
     def test_stop(self):
         own = f"http://127.0.0.1:{self.server.server_port}"
@@ -194,6 +199,18 @@ class Watch(unittest.TestCase):
         self.assertFalse(ending.is_alive())
         with self.assertRaises(ConnectionRefusedError):
             self.ask(self.base)
+
+    def test_the_end_reaches_a_page_that_is_being_opened(self):
+        self.ask(self.base)
+        ending = threading.Thread(target=self.server.end)
+        ending.start()
+        self.server.over.wait(2)
+        time.sleep(0.2)
+        events = self.events()
+        events.next("end")
+        self.ask(self.base)
+        ending.join(0.5)
+        self.assertFalse(ending.is_alive())
 
 
 class Launched(Launch):

@@ -59,7 +59,7 @@ def files(case_path, out, coupler, exit_code, words, live=None):
     title = data.table(case, "case").get("title") or name
     page = string.Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=html.escape(str(title)), name=html.escape(name),
-        style=(HERE / "style.css").read_text(encoding="utf-8"), 
+        style=(HERE / "style.css").read_text(encoding="utf-8"),
         script=player.script([*(HERE / f for f in SCRIPTS), *(live["scripts"] if live else [])]),
         data=player.embedded(content), player=player.markup(EXAGGERATION),
         state=tables.state(state) + (live["markup"] if live else "") + tables.damage(faults) + tables.warnings(out),

@@ -4,10 +4,12 @@
 """
 
 import argparse
+import html
 import json
 import os
 import pathlib
 import signal
+import string
 import sys
 import threading
 import time
@@ -19,7 +21,7 @@ from toryu.watch import feed
 from toryu.watch.server import LOOPBACK, PAUSE, Server
 
 HERE = pathlib.Path(__file__).resolve().parent
-MARKUP = (HERE / "live.html").read_text(encoding="utf-8")
+MARKUP = string.Template((HERE / "live.html").read_text(encoding="utf-8"))
 
 
 class Page:
@@ -36,8 +38,9 @@ class Page:
             return path.read_text(encoding="utf-8", errors="replace")
         if self.ending:
             return files(told.case_path, told.out, told.coupler, self.ending["code"], self.ending["words"])["report.html"]
+        markup = MARKUP.substitute(progress=html.escape(told.progress()))
         return files(told.case_path, told.out, told.coupler, None, "",
-                     live={"markup": MARKUP, "scripts": [HERE / "live.js"], "cursor": told.cursor()})["report.html"]
+                     live={"markup": markup, "scripts": [HERE / "live.js"], "cursor": told.cursor()})["report.html"]
 
 
 def ending_from(descriptor):

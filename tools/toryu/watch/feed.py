@@ -5,12 +5,14 @@ import csv
 import functools
 import json
 import math
+import os
 import time
 
 from toryu import results
 from toryu.case import Case
 from toryu.folder_lock import is_held
 from toryu.report import data, frames, scene, tables
+from toryu.study.progress import duration
 
 MOST_BYTES = 1 << 16  # of rows in one event
 
@@ -26,12 +28,12 @@ def end_of_rows(out, name):
 
 
 def opened(out, name, start=0, most=-1):
-    """(first bytes, bytes from `start`) of NAME.csv; None without the file."""
+    """(first bytes, bytes from `start`, or below 0 so many last ones) of NAME.csv; None without the file."""
     path = out / f"{name}.csv"
     try:
         with open(results.newest(path) or path, "rb") as file:
             head = file.read(MOST_BYTES)
-            file.seek(start)
+            file.seek(start if start >= 0 else max(0, file.seek(0, os.SEEK_END) + start))
             return head, file.read(most)
     except OSError:
         return None
@@ -66,12 +68,22 @@ def new_rows(out, name, start):
     return content, start + len(whole(piece))
 
 
+def last_time(out, name):
+    """Time [s] of the last whole row of NAME.csv; None without one."""
+    if (found := opened(out, name, -MOST_BYTES)) is None:
+        return None
+    columns = next(csv.reader(lines_of(found[0])), [])
+    row = next(csv.reader(lines_of(found[1])[-1:]), [])
+    return number(row[columns.index("time[s]")]) if "time[s]" in columns and len(row) == len(columns) else None
+
+
 class Feed:
     """What a results folder tells of its run. `case`: the path of the case."""
 
     def __init__(self, out, case, coupler):
         self.out, self.case_path, self.coupler = out, case, coupler
         self.first = None  # (time [s], clock [s]) when this was first asked how far the run is
+        self.last_frame = None, {}  # what newest_frames was, and the bodies there: several pages ask alike
 
     def case(self):
         """The case as it is run; read once the run has written it down."""
@@ -89,12 +101,17 @@ class Feed:
                            and (files := results.list_frames(self.out, name))])
 
     def frame(self, newest):
-        return read_frame(self.out, newest, self.case())
+        """The bodies of the newest frame as the page's player takes them. One page at a time may ask."""
+        if self.last_frame[0] != newest:
+            bodies, boxes, _ = frames.collect(frames.read_bodies(self.out, newest=True), self.case().content)
+            self.last_frame = newest, {"bodies": bodies, "view": scene.view_of(boxes)}
+        return self.last_frame[1]
 
-    def progress(self, time_reached):
-        """How far the run is, for people. `time_reached` [s] of each participant."""
+    def progress(self):
+        """How far the run is, for people: as far as the participant that is least far."""
         end = data.table(self.case().content, "case").get("end_time")
-        reached = min(time_reached.values(), default=None)
+        times = [last_time(self.out, name) for name in results.PARTICIPANTS]
+        reached = min([t for t in times if t is not None], default=None)
         if reached is None:
             return "no results yet"
         now = time.monotonic()
@@ -112,13 +129,6 @@ class Feed:
         return read_warnings(self.out, path.stat().st_size if path.is_file() else 0)
 
 
-def duration(seconds):
-    for unit, size in (("h", 3600), ("min", 60)):
-        if seconds >= 1.5 * size:
-            return f"{seconds / size:.1f} {unit}"
-    return f"{seconds:.0f} s"
-
-
 # A result is kept for as long as what it was read from is the same: several pages ask alike.
 
 @functools.lru_cache(maxsize=1)
@@ -130,15 +140,3 @@ def read_case(path, out, coupler, changed):
 @functools.lru_cache(maxsize=1)
 def read_warnings(out, size):
     return tables.warning_lines(out)
-
-
-newest_read = {}  # text of newest_frames -> content
-
-
-def read_frame(out, newest, case):
-    """The bodies of the newest frame as the page's player takes them."""
-    if newest not in newest_read:
-        bodies, boxes, _ = frames.collect(frames.read_bodies(out, newest=True), case.content)
-        newest_read.clear()
-        newest_read[newest] = {"bodies": bodies, "view": scene.view_of(boxes)}
-    return newest_read.get(newest)

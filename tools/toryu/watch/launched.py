@@ -10,7 +10,6 @@ from toryu import program
 from toryu.processes import BAD_INPUT, start
 
 LAST_PATIENCE = 15.0  # [s] for the server to hand out the last page
-MOST_WORDS = 10000  # of why a run ended
 
 
 def port_of(options):
@@ -36,7 +35,7 @@ def watched(options):
 
     def tell(code, words, reported):
         with contextlib.suppress(OSError):
-            os.write(writer, json.dumps({"code": code, "words": words[-MOST_WORDS:], "report": reported}).encode())
+            os.write(writer, json.dumps({"code": code, "words": words, "report": reported}).encode())
 
     try:
         address = server.stdout.readline().decode(errors="replace")

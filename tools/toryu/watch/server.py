@@ -39,6 +39,7 @@ class Server(http.server.ThreadingHTTPServer):
         self.lock = threading.Lock()
         self.making = threading.Lock()  # one page at a time
         self.streams = 0
+        self.opening = []  # when pages were asked for whose streams are not there yet [s]
         self.last_pages = 0  # read whole since the end
         self.connections = threading.Semaphore(MOST_CONNECTIONS)
         super().__init__((LOOPBACK, port), Handler)
@@ -46,6 +47,9 @@ class Server(http.server.ThreadingHTTPServer):
     @property
     def address(self):
         return f"http://{LOOPBACK}:{self.server_port}/{self.token}/"
+
+    def still_opening(self):
+        return [asked for asked in self.opening if time.monotonic() - asked < PATIENCE]
 
     def process_request(self, request, client_address):
         if self.connections.acquire(blocking=False):
@@ -63,10 +67,10 @@ class Server(http.server.ThreadingHTTPServer):
 
     def end(self):
         """Tells that the run is over, and closes when all who watched have the last page, or do not take it."""
-        with self.lock:
-            watching = self.streams
-        self.over.set()
         limit = time.monotonic() + PATIENCE
+        with self.lock:
+            watching = self.streams + len(self.still_opening())
+            self.over.set()
         while self.last_pages < watching and time.monotonic() < limit:
             time.sleep(0.02)
         self.shutdown()
@@ -123,7 +127,10 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.wfile.write(text)
 
     def send_page(self):
-        over = self.server.over.is_set()
+        with self.server.lock:
+            over = self.server.over.is_set()
+            if not over:
+                self.server.opening = [*self.server.still_opening(), time.monotonic()]
         with self.server.making:
             text = self.server.make_page().encode("utf-8", "backslashreplace")
         self.answer(200, text, "text/html")
@@ -133,6 +140,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
     def send_events(self):
         with self.server.lock:
+            del self.server.opening[:1]
             free = self.server.streams < MOST_STREAMS
             self.server.streams += free
         if not free:
@@ -164,7 +172,6 @@ class Stream:
     def __init__(self, server, write, cursor):
         self.server, self.feed, self.write, self.cursor = server, server.feed, write, cursor
         self.sent = {}  # kind of event -> the last one
-        self.reached = {}  # participant -> time [s]
         self.last = time.monotonic()
 
     def run(self):
@@ -172,7 +179,7 @@ class Stream:
             over = self.server.over.is_set()  # before the last look
             while self.rows():
                 pass
-            self.changed("progress", self.feed.progress(self.reached))
+            self.changed("progress", self.feed.progress())
             self.changed("warnings", self.feed.warnings())
             if over:
                 return self.send("end", "")
@@ -201,9 +208,6 @@ class Stream:
             self.cursor[name] = end
             moved = moved or end > start
             if content:
-                times = [row[content["columns"].index("time[s]")] for row in content["rows"]] \
-                    if "time[s]" in content["columns"] else []
-                self.reached[name] = max([t for t in times if t is not None], default=0.0)
                 self.send("rows", content)
         return moved
 

@@ -35,5 +35,11 @@ TEST(DidYouMean, IsPartOfASentence) {
   EXPECT_EQ(quoted_list({"a", "b"}), "'a', 'b'");
 }
 
+TEST(WhatThereIs, IsTheNearestNameOrAll) {
+  EXPECT_EQ(what_there_is("hub", {}), "; there is none");
+  EXPECT_EQ(what_there_is("hab", {"hub", "piston"}), "; did you mean 'hub'?");
+  EXPECT_EQ(what_there_is("x", {"hub", "piston"}), "; there are 'hub', 'piston'");
+}
+
 }  // namespace
 }  // namespace toryu
