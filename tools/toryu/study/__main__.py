@@ -14,6 +14,7 @@ import time
 from toryu import PROGRAMS, counted, program
 from toryu.installation import COMMAND
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
+from toryu.remote import placement
 from toryu.study import (bisection, calibration, calibration_search, charts, checks, elsewhere, hosts, map_file, metrics, page,
                          recession, recession_search, removal, runner, slurm, study_file, table, terms, timing, verdicts)
 from toryu.study.document import BadStudy
@@ -41,6 +42,8 @@ def parse(arguments):
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time; default: as many as fit the cores, one if "
                         "the study has [timing]")
     parser.add_argument("--threads", metavar="N", type=int, default=1, help="threads of each run; default 1")
+    for side in ("fluid", "solid"):
+        parser.add_argument(f"--{side}", metavar="EXE", help=f"another program in the place of {side}_solver in every run")
     parser.add_argument("--on", metavar="WHERE", help="run elsewhere, where this folder is too: 'slurm', or hosts that ssh "
                         "reaches, with commas between or one a line in a file, for GNU parallel; --jobs is then the most at "
                         "a time, on each host")
@@ -52,6 +55,7 @@ def parse(arguments):
     parser.add_argument("--check", action="store_true", help="only check the study and what it sets in the case")
     parser.add_argument("--list", action="store_true", help="list the runs, and which are done")
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path, help=argparse.SUPPRESS)
+    placement.add_options(parser)
     options = parser.parse_args(arguments)
     cores = len(os.sched_getaffinity(0))
     for name, value in (("jobs", options.jobs), ("threads", options.threads)):
@@ -69,12 +73,15 @@ def queue_of(study, options):
     given = [f"--{name}={value}" for name in SBATCH if (value := getattr(options, name)) is not None] + options.sbatch
     if given and options.on != "slurm":
         raise BadStudy(f"{given[0]}: error: is an option of --on slurm")
+    if study.timing and (where := options.on or options.host):
+        raise BadStudy(f"{f'--on {where}' if options.on else f'--host {where[0]}'}: error: a study with [timing] compares times "
+                       "of one machine")
     if options.on is None:
         return None
     if not options.on.strip():
         raise BadStudy(f"--on '{options.on}': error: expected 'slurm' or hosts")
-    if study.timing:
-        raise BadStudy(f"--on {options.on}: error: a study with [timing] compares times of one machine")
+    if options.host:
+        raise BadStudy(f"--host {options.host[0]}: error: puts a program of every run on a host, --on whole runs; give one of them")
     kind = slurm if options.on == "slurm" else hosts
     if missing := [name for name in kind.PROGRAMS if not shutil.which(name)]:
         raise BadStudy(f"--on {options.on}: error: needs the program '{missing[0]}', which is not here")
@@ -83,10 +90,18 @@ def queue_of(study, options):
     return hosts.Hosts(options.on, options.jobs, options.threads)
 
 
+def passed_on(options):
+    """What every run is told of its programs."""
+    given = [f"--{side}={path}" for side, path in checks.others(options).items()]
+    given += [f"--host={place}" for place in options.host]
+    return given + [f"--{name.replace('_', '-')}={value}" for name in ("launcher", "remote_bin", "remote_folder", "peers")
+                    if (value := getattr(options, name)) not in (None, placement.SSH)]
+
+
 def runner_of(study, out, options):
     if queue := queue_of(study, options):
-        return elsewhere.Elsewhere(study, out, options.bin, options.threads, Progress(), queue)
-    return runner.Runner(study, out, options.bin, jobs_at_a_time(study, options), options.threads, Progress())
+        return elsewhere.Elsewhere(study, out, options.bin, options.threads, Progress(), queue, passed_on(options))
+    return runner.Runner(study, out, options.bin, jobs_at_a_time(study, options), options.threads, Progress(), passed_on(options))
 
 
 def jobs_at_a_time(study, options):
@@ -107,7 +122,7 @@ def list_runs(all_settings, done):
 def run(options):
     study = study_file.read(options.study, options.bin / "coupler", VIEWS, options.small)
     out = options.out or pathlib.Path("out") / study.name
-    programs = checks.programs(study, options.bin)
+    programs = checks.programs(study, options)
     make = Maker(study, options.set, checks.identity(programs), f"{options.threads} threads" if study.timing else None)
     runs = runner_of(study, out, options)
     known, done = known_runs(study, make, runs)

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 from dataclasses import replace
 
+from toryu import guests
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.processes import DONE
 from toryu.study import timing
@@ -18,24 +19,39 @@ from toryu.study.document import BadStudy
 LONGEST_FAULT = 1000  # characters
 
 
-def programs(study, bin_folder):
+def others(options):
+    """Side -> program of a user in the place of its solver."""
+    return {side: guests.located(path) for side in ("fluid", "solid") if (path := getattr(options, side))}
+
+
+def programs(study, options):
     """The executables that the case needs."""
-    names = PROGRAMS_OF[study.kind]
-    for name in names:
-        if not shutil.which(bin_folder / name):
-            raise BadStudy(f"{bin_folder / name}: error: no such program, needed as {name}")
-    if study.timing and not shutil.which(bin_folder / timing.PROGRAM):
-        raise BadStudy(f"{bin_folder / timing.PROGRAM}: error: no such program, needed by [timing]")
-    return [bin_folder / name for name in names]
+    found = {name: options.bin / name for name in PROGRAMS_OF[study.kind]}
+    for side, path in others(options).items():
+        if f"{side}_solver" not in found:
+            raise BadStudy(f"--{side} {path}: error: the case has no {side}")
+        found[f"{side}_solver"] = path
+    for name, path in found.items():
+        is_here = not any(place.startswith(name.partition("_")[0] + "=") for place in options.host)
+        if is_here and (fault := guests.fault_of(str(path), name)):
+            raise BadStudy(fault)
+    if study.timing and not shutil.which(options.bin / timing.PROGRAM):
+        raise BadStudy(f"{options.bin / timing.PROGRAM}: error: no such program, needed by [timing]")
+    return list(found.values())
 
 
 def identity(executables):
-    """Changes with any change of the programs, committed or not: what an earlier program has done is not taken over."""
-    return [hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest() for path in executables]
+    """Changes with any change of the programs, committed or not: what an earlier program has done is not taken over. One of
+    a user on another host is known by its path alone."""
+    found = [shutil.which(path) for path in executables]
+    return [hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest() if path else str(named)
+            for path, named in zip(found, executables)]
 
 
 def versions(executables):
-    return [subprocess.run([path, "--version"], capture_output=True, text=True).stdout.strip() for path in executables]
+    """A program of a user is not asked: one that does not know the question may do anything."""
+    return [subprocess.run([path, "--version"], capture_output=True, text=True).stdout.strip()
+            if isinstance(path, pathlib.Path) else path for path in executables]
 
 
 def settings(study, runs, waiting, extra):

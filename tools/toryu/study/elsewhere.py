@@ -40,8 +40,8 @@ class Elsewhere(runner.Runner):
     """Runs the settings that are not done yet in `queue`, which has submit, output, alive, drop and kill, and tells whether
     it outlives the study (slurm.py, hosts.py)."""
 
-    def __init__(self, study, out, bin_folder, threads, progress, queue):
-        super().__init__(study, out, bin_folder, 1, threads, progress)
+    def __init__(self, study, out, bin_folder, threads, progress, queue, passed_on=()):
+        super().__init__(study, out, bin_folder, 1, threads, progress, passed_on)
         self.queue = queue
         self.left = False  # whether the study goes away and its runs go on
         self.asked = 0.0  # when the queue was asked last

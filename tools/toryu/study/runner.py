@@ -154,10 +154,11 @@ class Running:
 
 
 class Runner:
-    """Runs the settings that are not done yet, at most `jobs` at a time."""
+    """Runs the settings that are not done yet, at most `jobs` at a time, each with the options `passed_on`."""
 
-    def __init__(self, study, out, bin_folder, jobs, threads, progress):
+    def __init__(self, study, out, bin_folder, jobs, threads, progress, passed_on=()):
         self.study, self.out, self.bin, self.jobs, self.threads = study, out, bin_folder, jobs, threads
+        self.passed_on = passed_on
         self.progress = progress
         self.time_limit = study.map.time_limit if study.map else None  # [s] by the clock
         self.verdicts = {DONE, PHYSICS_FAILED} | ({BAD_INPUT} if study.map else set())  # exit codes that are results
@@ -207,7 +208,7 @@ class Runner:
     def command(self, setting, *options):
         # On another machine the programs of an installation may be others.
         where = [] if self.bin == PROGRAMS else [f"--bin={self.bin}"]
-        return program.python("launch", self.study.case, *where, *setting.options(), *options)
+        return program.python("launch", self.study.case, *where, *setting.options(), *self.passed_on, *options)
 
     def _whole_command(self, setting, goes_on):
         extra = ["--restart"] * goes_on + ["--no-report"] * (not self.study.keep_frames)
