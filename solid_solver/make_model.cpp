@@ -19,10 +19,10 @@ std::unique_ptr<SolidModel> make_model(const Parameters& parameters, const Body&
 }
 
 std::unique_ptr<Solid> make_solid(const std::vector<Part>& parts, const Scene& scene) {
-  std::vector<std::unique_ptr<SolidModel>> models;
-  for (const auto& [parameters, body] : parts) models.push_back(make_model(parameters, body, scene));
-  if (models.size() == 1) return std::move(models[0]);
-  return std::make_unique<MixedSolid>(std::move(models[0]), std::move(models[1]));
+  auto model = make_model(parts[0].parameters, parts[0].body, scene);
+  if (parts.size() == 1) return model;
+  return std::make_unique<MixedSolid>(std::move(model),
+                                      make_model(parts[1].parameters, parts[1].body, scene));
 }
 
 }  // namespace toryu::solid
