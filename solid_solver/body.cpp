@@ -277,6 +277,15 @@ std::vector<std::uint32_t> Body::near_surface(double reach) const {
   return found;
 }
 
+void check_loads_and_observers(const Parameters& parameters, const Body& body, const TellFault& tell_fault) {
+  for (const auto& load : parameters.loads) check_load(load, body, parameters.h(), tell_fault);
+  for (const auto& observer : parameters.observers) try {
+      MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape, body.shifts);
+    } catch (const std::invalid_argument& error) {
+      tell_fault("solid.observer", fmt::format("observer '{}': {}", observer.name, error.what()));
+    }
+}
+
 Body build_body(const Parameters& parameters, const TellFault& tell_fault, const std::vector<Vec>& shifts) {
   Body body;
   body.shifts = shifts;
@@ -328,12 +337,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault, const
     body.counts.emplace_back("clamp " + clamp.name, particles.size());
   }
   if (body.size() > 0) find_surface(body);
-  for (const auto& load : parameters.loads) check_load(load, body, parameters.h(), tell_fault);
-  for (const auto& observer : parameters.observers) try {
-      MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape, body.shifts);
-    } catch (const std::invalid_argument& error) {
-      tell_fault("solid.observer", fmt::format("observer '{}': {}", observer.name, error.what()));
-    }
+  check_loads_and_observers(parameters, body, tell_fault);
   return body;
 }
 

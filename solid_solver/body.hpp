@@ -41,6 +41,7 @@ struct Body {
   std::vector<Vec> shifts{Vec::Zero()};  ///< by which it repeats itself (Period) [m]
   double spacing = 0;                    ///< as stated [m]
   double spread = 0;                     ///< of the density of fitted particles: see fill_outline.hpp
+  std::size_t first = 0;                 ///< number of its first particle in a solid of several parts
   std::vector<std::pair<std::string, std::size_t>> counts;  ///< particles by region and clamp, for the log
 
   std::size_t size() const { return X.size(); }
@@ -70,5 +71,7 @@ using TellFault = std::function<void(const std::string& key, const std::string& 
 /// `shifts`, regions that touch across a period are one as any others that touch.
 Body build_body(const Parameters& parameters, const TellFault& tell_fault,
                 const std::vector<Vec>& shifts = {Vec::Zero()});
+/// The last of it again: loads that act on nothing, observers that are not in the body.
+void check_loads_and_observers(const Parameters& parameters, const Body& body, const TellFault& tell_fault);
 
 }  // namespace toryu::solid

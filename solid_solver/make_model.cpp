@@ -1,5 +1,6 @@
 #include "solid_solver/make_model.hpp"
 
+#include "solid_solver/mixed_solid.hpp"
 #include "solid_solver/rigid/rigid_body.hpp"
 #include "solid_solver/total_lagrangian/total_lagrangian.hpp"
 #include "solid_solver/updated_lagrangian/updated_lagrangian.hpp"
@@ -15,6 +16,13 @@ std::unique_ptr<SolidModel> make_model(const Parameters& parameters, const Body&
     default:
       return std::make_unique<RigidBody>(parameters, body, scene);
   }
+}
+
+std::unique_ptr<Solid> make_solid(const std::vector<Part>& parts, const Scene& scene) {
+  auto model = make_model(parts[0].parameters, parts[0].body, scene);
+  if (parts.size() == 1) return model;
+  return std::make_unique<MixedSolid>(std::move(model),
+                                      make_model(parts[1].parameters, parts[1].body, scene));
 }
 
 }  // namespace toryu::solid

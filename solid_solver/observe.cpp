@@ -78,6 +78,12 @@ Stress SolidModel::stress_at(std::size_t observer) const {
 }
 
 std::vector<Observation> SolidModel::observe() const {
+  std::vector<Observation> row = places();
+  for (Observation& observation : balance()) row.push_back(std::move(observation));
+  return row;
+}
+
+std::vector<Observation> SolidModel::places() const {
   std::vector<Observation> row;
   for (std::size_t n = 0; n < observers_.size(); ++n) {
     const auto& asked = observers_[n].first;
@@ -92,6 +98,11 @@ std::vector<Observation> SolidModel::observe() const {
     row.push_back({asked.name + "_stress_xy", "Pa", sigma.xy});
   }
   observe_regions(row);
+  return row;
+}
+
+std::vector<Observation> SolidModel::balance() const {
+  std::vector<Observation> row;
   const double kinetic = kinetic_energy(), potential = potential_energy(), work = interface_work();
   row.push_back({"kinetic_energy", "J/m", kinetic});
   double held = 0;

@@ -45,7 +45,7 @@ void describe(ParameterTable& table, Region& region) {
     table.text("material", region.material,
                {.help = "the [[solid.material]] that it is made of, by name; without it that of [solid]"});
   if (table.wants(!region.body.empty()))
-    table.text("body", region.body, {.help = "the [[solid.body]] that it belongs to, of several rigid ones"});
+    table.text("body", region.body, {.help = "the rigid [[solid.body]] that it belongs to"});
   table.flag("observed", region.observed,
              "whether the displacement and the velocity of its centre of mass go to solid.csv");
   table.list("worn", region.worn, "faces that lie behind those of the box: what has come off");
@@ -130,13 +130,22 @@ void describe_material(ParameterTable& table, Parameters& p) {
   table.list("material", p.materials, "what regions are made of that name it");
 }
 
+/// Whether no elastic region may be made of a material.
+bool is_of_rigid(const Parameters& p, const std::string& material) {
+  if (p.formulation == Formulation::rigid) return true;
+  const auto uses = [&](const Region& region) { return region.material == material; };
+  return std::any_of(p.regions.begin(), p.regions.end(), uses) &&
+         std::none_of(p.regions.begin(), p.regions.end(),
+                      [&](const Region& region) { return uses(region) && region.body.empty(); });
+}
+
 /// The form knows several materials, and each has what the form needs.
 void require_materials(ParameterTable& table, const Parameters& p) {
-  const bool rigid = p.formulation == Formulation::rigid;
   for (std::size_t k = 0; k < p.materials.size(); ++k) {
     const auto& [name, law, yeoh, elastic] = p.materials[k];
     const std::string place = fmt::format("material.{}", k);
-    table.require(p.formulation != Formulation::updated_lagrangian, place,
+    const bool rigid = is_of_rigid(p, name);
+    table.require(rigid || p.formulation != Formulation::updated_lagrangian, place,
                   "[[solid.material]] is for formulation = \"total_lagrangian\" or \"rigid\"; the updated "
                   "form has one material");
     for (const auto& [key, value] : {std::pair("youngs_modulus", elastic.youngs_modulus),
@@ -210,7 +219,7 @@ void describe_terms(ParameterTable& table, Parameters& p) {
   table.optional("body_contact", p.body_contact,
                  "bodies that are not joined push each other (total Lagrangian)");
   table.optional("mounting", p.mounting, "what holds a rigid body: fixed coordinates, springs, dampers");
-  table.list("body", p.bodies, "rigid bodies, where there are several");
+  table.list("body", p.bodies, "rigid bodies, several or beside elastic regions");
   table.optional("detachment", p.detachment,
                  "looks for particles that no chain of neighbours joins to a clamp");
   table.optional(
@@ -219,7 +228,7 @@ void describe_terms(ParameterTable& table, Parameters& p) {
       "at the start");
 }
 
-/// Each of several rigid bodies has regions, and each region has a body.
+/// Each of several rigid bodies has regions, and each region has a body or, beside rigid ones, is elastic.
 void require_bodies(ParameterTable& table, const Parameters& p) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < p.bodies.size(); ++k) {
@@ -234,7 +243,7 @@ void require_bodies(ParameterTable& table, const Parameters& p) {
     const std::string place = fmt::format("region.{}", k);
     if (asked.empty()) {
       table.require(
-          names.empty(), place,
+          names.empty() || p.is_mixed(), place,
           fmt::format("region '{}' needs a 'body': there are {}", p.regions[k].name, quoted_list(names)));
       continue;
     }
@@ -246,7 +255,23 @@ void require_bodies(ParameterTable& table, const Parameters& p) {
                 "[solid.body.mounting]");
 }
 
-/// A rigid body has neither stress nor bonds, and moves in three coordinates alone.
+/// A rigid body moves in three coordinates alone.
+void require_rigid_motion(ParameterTable& table, const Parameters& p) {
+  for (std::size_t k = 0; k < p.regions.size(); ++k)
+    table.require(!p.regions[k].initial_velocity || (p.is_mixed() && p.regions[k].body.empty()),
+                  fmt::format("region.{}.initial_velocity", k),
+                  "all regions of a rigid body move as one: it has [solid.initial_velocity] alone");
+  const auto& v = p.initial_velocity;
+  table.require(
+      !v || v->is_rigid(), "initial_velocity",
+      "a rigid body starts with profile = \"uniform\", or with \"linear\" and gradient = [[0, -w], [w, "
+      "0]], a turn");
+  table.require(
+      !p.wall_contact || p.wall_contact->modulus > 0, "wall_contact",
+      "[solid.wall_contact] of a rigid body needs a 'modulus' [Pa] in the place of its bulk modulus");
+}
+
+/// It has neither stress nor bonds.
 void require_rigid(ParameterTable& table, const Parameters& p) {
   require_bodies(table, p);
   table.require(p.clamps.empty(), "clamp",
@@ -271,31 +296,27 @@ void require_rigid(ParameterTable& table, const Parameters& p) {
     table.require(
         !given, key,
         fmt::format("'{}' in [solid] is for a solid that deforms, not for formulation = \"rigid\"", key));
-  for (std::size_t k = 0; k < p.regions.size(); ++k)
-    table.require(!p.regions[k].initial_velocity, fmt::format("region.{}.initial_velocity", k),
-                  "all regions of a rigid body move as one: it has [solid.initial_velocity] alone");
   for (std::size_t k = 0; k < p.observers.size(); ++k)
     table.require(!p.observers[k].stress, fmt::format("observer.{}.stress", k),
                   "there is no stress in a body of formulation = \"rigid\"");
-  const auto& v = p.initial_velocity;
-  table.require(
-      !v || v->is_rigid(), "initial_velocity",
-      "a rigid body starts with profile = \"uniform\", or with \"linear\" and gradient = [[0, -w], [w, "
-      "0]], a turn");
-  table.require(
-      !p.wall_contact || p.wall_contact->modulus > 0, "wall_contact",
-      "[solid.wall_contact] of a rigid body needs a 'modulus' [Pa] in the place of its bulk modulus");
+  require_rigid_motion(table, p);
+}
+
+void require_rigid_beside_elastic(ParameterTable& table, const Parameters& p) {
+  require_rigid_motion(table, p);
+  const bool any_elastic = std::any_of(p.regions.begin(), p.regions.end(),
+                                       [](const Region& region) { return region.body.empty(); });
+  table.require(any_elastic, "body",
+                "every region belongs to a rigid [[solid.body]]: give [solid] formulation = \"rigid\"");
 }
 
 void require_consistency(ParameterTable& table, const Parameters& p) {
   if (p.formulation == Formulation::rigid) return require_rigid(table, p);
   const bool total = p.formulation == Formulation::total_lagrangian;
+  require_bodies(table, p);
+  if (p.is_mixed()) require_rigid_beside_elastic(table, p);
   table.require(
-      p.bodies.empty(), "body",
-      "[[solid.body]] is for formulation = \"rigid\" only; elastic regions that do not touch are bodies "
-      "of their own");
-  table.require(
-      !p.mounting, "mounting",
+      !p.mounting || p.is_mixed(), "mounting",
       "[solid.mounting] is for formulation = \"rigid\" only; what deforms is held by [[solid.clamp]]");
   table.require(total || (p.law == ElasticLaw::saint_venant_kirchhoff && !p.yeoh), p.yeoh ? "yeoh" : "law",
                 "'law' and [solid.yeoh] are for formulation = \"total_lagrangian\" only; the other has "

@@ -59,11 +59,11 @@ struct Region {
   BodyShape shape = {};
   std::vector<WornFace> worn = {};  ///< faces that lie behind those of the box, across one axis
   std::string material = {};        ///< its name; none: that of [solid]
-  std::string body = {};            ///< of several rigid ones, the name of that to which it belongs
+  std::string body = {};            ///< the name of the rigid one to which it belongs, if there are names
 };
 void describe(ParameterTable& table, Region& region);
 
-/// One of several rigid bodies.
+/// A rigid body, one of several or beside elastic regions.
 struct NamedBody {
   std::string name;
   std::optional<Mounting> mounting = std::nullopt;
@@ -131,11 +131,14 @@ struct Parameters {
   std::optional<Detachment> detachment;
   std::optional<BondLimits> bonds;
   std::optional<Mounting> mounting = {};  ///< of a rigid body that is the only one
-  std::vector<NamedBody> bodies = {};     ///< rigid ones, where there are several
+  std::vector<NamedBody> bodies = {};     ///< rigid ones, where there are several or elastic regions too
   SolidLimits limits;
 
   double h() const { return smoothing_ratio * spacing; }  ///< smoothing length [m]
-  double largest_speed() const;                           ///< beyond which a run stops [m/s]
+  bool has_rigid_bodies() const { return formulation == Formulation::rigid || !bodies.empty(); }
+  /// Whether these are beside elastic regions.
+  bool is_mixed() const { return formulation != Formulation::rigid && !bodies.empty(); }
+  double largest_speed() const;  ///< beyond which a run stops [m/s]
   /// That of [solid], then those that have names.
   std::vector<Material> all_materials() const;
   /// Index among all of them of what each region is made of.

@@ -133,7 +133,8 @@ void SolidModel::sort_particles(const std::vector<std::uint32_t>& order) {
 
 void SolidModel::fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
                       const std::string& limit) const {
-  throw PhysicsFailure("solid", static_cast<long>(state_.number[slot]), time, quantity, value, limit);
+  throw PhysicsFailure("solid", static_cast<long>(body_.first + state_.number[slot]), time, quantity, value,
+                       limit);
 }
 
 void SolidModel::check(double time) const {

@@ -8,18 +8,15 @@
 #include <optional>
 #include <vector>
 
-#include "common/link/participant.hpp"
-#include "common/run/solver.hpp"
-#include "common/run/timers.hpp"
 #include "common/scene/period.hpp"
 #include "common/sph/points.hpp"
 #include "common/state/field.hpp"
 #include "solid_solver/body.hpp"
 #include "solid_solver/bonds.hpp"
-#include "solid_solver/detachment.hpp"
 #include "solid_solver/drive.hpp"
 #include "solid_solver/energy_watch.hpp"
 #include "solid_solver/parameters.hpp"
+#include "solid_solver/solid.hpp"
 
 namespace toryu::solid {
 
@@ -60,10 +57,7 @@ void serialize(Archive& archive, Impedance& impedance) {
   archive(normal, value, velocity, impulse);
 }
 
-/// Takes all particles that have come off so far, whenever there are new ones.
-using RecordDetached = std::function<void(const std::vector<DetachedParticle>&)>;
-
-class SolidModel : public Solver {
+class SolidModel : public Solid {
  public:
   SolidModel(const Parameters& parameters, const Body& body, const Scene& scene);
 
@@ -75,38 +69,40 @@ class SolidModel : public Solver {
   void check(double time) const override;
   Frame frame() const override;
   std::vector<Observation> observe() const override;
+  /// Of what is observed: where places of the body are, by their names.
+  virtual std::vector<Observation> places() const;
+  /// And what the body as a whole holds, has been given, and has lost, by names that all solids share.
+  std::vector<Observation> balance() const;
   std::vector<ActiveTerm> active_terms() const override;
   std::vector<std::pair<std::string, double>> figures() const override;
   std::size_t particle_count() const override { return body_.size(); }
 
   const Body& body() const { return body_; }
-  /// The particles that a fluid which sees `reach` [m] deep can touch, unloaded.
-  virtual Interface interface(double reach) const;
-  InterfaceMotion motion(const std::vector<std::uint32_t>& particles) const;
-  /// Sets the force on the interface [N per metre depth], which holds until the next call. Returns the sum
-  /// that the solid takes per second, clamps included [N per metre depth].
-  Vec set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load);
-  /// What the interface has taken since then beyond that force, by the load's impedance: dim values a
-  /// particle [N s per metre depth]; empty if the load has none.
-  std::vector<double> excess_impulse() const;
-  double work_of_excess_impulse() const { return state_.impedance_work; }  ///< [J per metre depth]
-  Health health() const;
+  Interface interface(double reach) const override;
+  InterfaceMotion motion(const std::vector<std::uint32_t>& particles) const override;
+  Vec set_interface_load(const std::vector<std::uint32_t>& particles, const InterfaceLoad& load) override;
+  std::vector<double> excess_impulse() const override;
+  double work_of_excess_impulse() const override { return state_.impedance_work; }
+  Health health() const override;
   const Impulses& impulses() const { return state_.impulses; }
-  /// From now on `record` gets the particles that come off, once that is final. Needs [solid.detachment].
-  void record_detached(const RecordDetached& record);
+  void record_detached(const RecordDetached& record) override;
 
   Vec displacement(std::size_t particle) const { return at(state_.u, slot_[particle]); }  ///< [m]
   Vec velocity(std::size_t particle) const { return at(state_.v, slot_[particle]); }      ///< [m/s]
   Vec acceleration(std::size_t particle) const;                                           ///< [m/s2]
   double mass(std::size_t particle) const { return body_.mass(particle); }                ///< [kg/m]
   double total_mass() const { return body_.total_mass(); }                                ///< [kg/m]
+  /// Name of the region to which it belongs.
+  const std::string& region_of(std::size_t particle) const {
+    return parameters_.regions[body_.region[particle]].name;
+  }
   virtual bool has_stress() const { return true; }        ///< whether the form knows any
   virtual Stress stress(std::size_t particle) const = 0;  ///< Cauchy, as it drives the particles
   /// Cauchy, as near to that of the body as the particles tell: what frames show.
   virtual Stress recovered_stress(std::size_t particle) const { return stress(particle); }
   /// Energies that the deformation holds [J per metre depth].
   virtual std::vector<Observation> internal_energies() const = 0;
-  const Timers& timers() const { return timers_; }
+  const Timers& timers() const override { return timers_; }
 
  protected:
   /// All that a step, a load or an observer changes, but for what a formulation adds.

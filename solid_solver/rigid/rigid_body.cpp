@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/sph/sorted_points.hpp"
 #include "common/state/serialize.hpp"
+#include "solid_solver/rigid/meeting_bodies.hpp"
 
 namespace toryu::solid {
 
@@ -23,8 +23,6 @@ constexpr double step_of_jump = 1e-3;
 /// Of a particle that touches a wall firmly. The wall begins and ends to push within a step: a bounce is then
 /// within half a percent of its energy, at 2, where a step is just stable, within 20 % [rad].
 constexpr double contact_phase_of_step = 0.5;
-/// Particles of two bodies that are nearer, over the spacing: the bodies have met.
-constexpr double least_gap = 0.5;
 
 double longest_step(const Scene& scene) {
   if (scene.frame_interval > 0) return scene.frame_interval / steps_of_frame;
@@ -217,7 +215,7 @@ std::vector<Observation> RigidBody::internal_energies() const {
   return {{"spring_energy", "J/m", spring_energy()}};
 }
 
-std::vector<Observation> RigidBody::observe() const {
+std::vector<Observation> RigidBody::places() const {
   std::vector<Observation> row;
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const std::string name = parts_[b].name.empty() ? "body" : parts_[b].name;
@@ -229,7 +227,7 @@ std::vector<Observation> RigidBody::observe() const {
                            {name + "_velocity_y", "m/s", v[1]},
                            {name + "_angular_velocity", "rad/s", v[dim]}});
   }
-  for (Observation& observation : SolidModel::observe()) row.push_back(std::move(observation));
+  for (Observation& observation : SolidModel::places()) row.push_back(std::move(observation));
   return row;
 }
 
@@ -249,15 +247,13 @@ void RigidBody::check_strain(double time) const {
   std::vector<Vec> x(particle_count());
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = period_.inside(body_.X[i] + displacement(i));
   const double nearest = least_gap * body_.spacing;
-  const SortedPoints points(x, nearest);
-  for (std::uint32_t i = 0; i < x.size(); ++i)
-    points.near(x[i], nearest, [&](std::uint32_t j) {
-      if (part_of_[i] != part_of_[j])
-        fail(slot_[i], time,
-             fmt::format("distance of '{}' and '{}'", parts_[part_of_[i]].name, parts_[part_of_[j]].name),
-             fmt::format("{:.4g} m", (x[i] - x[j]).norm()),
-             fmt::format("above {:.4g} m: rigid bodies do not push each other", nearest));
-    });
+  const auto met = meeting_particles(x, part_of_, nearest);
+  if (!met) return;
+  const auto& [i, j] = *met;
+  fail(slot_[i], time,
+       fmt::format("distance of '{}' and '{}'", parts_[part_of_[i]].name, parts_[part_of_[j]].name),
+       fmt::format("{:.4g} m", (x[i] - x[j]).norm()),
+       fmt::format("above {:.4g} m: rigid bodies do not push each other", nearest));
 }
 
 std::vector<ActiveTerm> RigidBody::active_terms() const {

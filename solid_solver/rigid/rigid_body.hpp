@@ -40,7 +40,7 @@ class RigidBody final : public SolidModel {
   void write_state(std::ostream& stream) const override;
   void read_state(std::istream& stream) override;
   std::vector<ActiveTerm> active_terms() const override;
-  std::vector<Observation> observe() const override;
+  std::vector<Observation> places() const override;
   /// With the mass of each whole body, which moves with whatever the fluid touches, shared out to it.
   Interface interface(double reach) const override;
   bool has_stress() const override { return false; }

@@ -12,6 +12,7 @@ import tomllib
 import unittest
 
 import array_drag
+import elastic_tank
 import mounted_cylinder
 import path_difference
 import paddle
@@ -129,6 +130,31 @@ class FloatingBox(unittest.TestCase):
         self.assertLess(abs((level - 0.25 - heavy) / 0.06 - 1), 0.025)  # -1.7 %
         self.assertLess(abs((level - 0.25 - light) / 0.04 - 1), 0.025)  # -1.8 %
         self.assertLess(figures["largest_impulse_error"], 1e-12)
+
+
+class ElasticTank(unittest.TestCase):
+    COARSE = {"fluid.spacing": 0.0125, "solid.spacing": 0.0125}
+
+    def test_plates_lean_out_and_a_rigid_box_floats_beside_them(self):
+        rows, figures, _ = run("elastic_tank/floating_box.toml", **self.COARSE)
+        found, expected = elastic_tank.found(rows), elastic_tank.expected(with_box=True)
+        self.assertLess(abs(found.left / expected.left - 1), 0.05)  # +4.1 %
+        self.assertLess(abs(found.right / expected.right - 1), 0.05)  # +4.4 %
+        self.assertLess(abs(found.draught / expected.draught - 1), 0.02)  # -1.4 %
+        self.assertLess(figures["largest_impulse_error"], 1e-12)
+        work = figures["work_given"]
+        self.assertLess(abs(figures["work_taken"] / work - 1), 0.02)
+        self.assertLess(abs(rows[-1]["interface_work[J/m]"] / work - 1), 0.02)
+        self.assertGreater(rows[-1]["dissipated_energy[J/m]"], 0)  # by the dampers of both
+
+    def test_two_plates_alike_mirror_each_other(self):
+        alike = {"solid.material.stiff.density": 1100, "solid.material.stiff.youngs_modulus": 4e7}
+        rows, _, _ = run("elastic_tank", **self.COARSE | alike | {"case.end_time": 0.3})
+        peak = max(abs(row["left tip_displacement_x[m]"]) for row in rows)
+        self.assertGreater(peak, 4e-3)
+        for row in rows:
+            self.assertLess(abs(row["left tip_displacement_x[m]"] + row["right tip_displacement_x[m]"]), 1e-10 * peak)
+            self.assertLess(abs(row["left tip_displacement_y[m]"] - row["right tip_displacement_y[m]"]), 1e-10 * peak)
 
 
 class FloatingSquare(unittest.TestCase):

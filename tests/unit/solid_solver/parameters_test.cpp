@@ -105,10 +105,43 @@ TEST_F(SolidSection, NamesSeveralRigidBodies) {
       faults(rigid + "mounting = {}\n" + region + "body = 'flap'\n" + flap),
       "case.toml:5:1: error: [solid.mounting] is of a rigid body that is the only one: each [[solid.body]] "
       "has its own [solid.body.mounting]");
-  EXPECT_EQ(faults(plate + "body = 'flap'\n" + flap),
-            "case.toml:10:9: error: [[solid.body]] is for formulation = \"rigid\" only; elastic regions that "
-            "do not "
-            "touch are bodies of their own");
+}
+
+TEST_F(SolidSection, TakesRigidBodiesBesideElasticRegions) {
+  const std::string box =
+      "[[solid.region]]\nname = 'box'\nbody = 'float'\nmaterial = 'wood'\n"
+      "box = { min = [0.0, 0.1], max = [0.2, 0.12] }\n";
+  const std::string wood = "[[solid.material]]\nname = 'wood'\ndensity = 600.0\n";
+  const std::string body = "[[solid.body]]\nname = 'float'\n";
+  const Parameters p = read(plate + box + wood + body);
+  EXPECT_TRUE(p.is_mixed());
+  EXPECT_EQ(p.regions[1].body, "float");
+  const std::string used = used_;
+  read(used);
+  EXPECT_EQ(used_, used);
+  EXPECT_FALSE(read(plate).has_rigid_bodies());
+  EXPECT_EQ(faults(plate + "material = 'wood'\n" + box + wood + body),
+            "case.toml:15:1: error: missing key 'youngs_modulus' in [[solid.material]] 'wood'\n"
+            "case.toml:15:1: error: missing key 'poissons_ratio' in [[solid.material]] 'wood'");
+  EXPECT_EQ(faults(plate + box + wood + "youngs_modulus = 1e9\npoissons_ratio = 0.3\n" + body),
+            "case.toml:14:1: error: a material of a rigid body has a density alone");
+  EXPECT_EQ(
+      faults(plate + "body = 'float'\n" + box + wood + body),
+      "case.toml:18:9: error: every region belongs to a rigid [[solid.body]]: give [solid] formulation = "
+      "\"rigid\"");
+  EXPECT_EQ(faults(plate + "body = 'float'\n"),
+            "case.toml:9:1: error: no [[solid.body]] is named 'float'; there is none");
+  EXPECT_EQ(
+      faults(plate + box + wood + body + "[solid.wall_contact]\n"),
+      "case.toml:19:8: error: [solid.wall_contact] of a rigid body needs a 'modulus' [Pa] in the place of "
+      "its bulk modulus");
+  EXPECT_EQ(faults(plate + box + wood + body + "[solid.mounting]\n"),
+            "case.toml:19:8: error: [solid.mounting] is of a rigid body that is the only one: each "
+            "[[solid.body]] has its own [solid.body.mounting]");
+  EXPECT_EQ(faults(plate + box + "initial_velocity = { velocity = [1, 0] }\n" + wood + body),
+            "case.toml:14:1: error: all regions of a rigid body move as one: it has [solid.initial_velocity] "
+            "alone");
+  EXPECT_EQ(faults(plate + "initial_velocity = { velocity = [1, 0] }\n" + box + wood + body), "");
 }
 
 TEST_F(SolidSection, RefusesTwoObserversOfOneName) {
