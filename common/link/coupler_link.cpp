@@ -57,7 +57,7 @@ struct Turns {
 struct CouplerLink::Connection {
   explicit Connection(const LinkSettings& link_settings)
       : settings(link_settings),
-        node(dds::rendezvous(settings.out, settings.network)),
+        node(dds::rendezvous(settings.out, settings.network), {settings.role, "coupler"}),
         session(node, settings.time_limit),
         roster(node, session, settings),
         turns(node, roster) {}

@@ -17,7 +17,9 @@
 #include "common/error/failure.hpp"
 #include "common/error/machine.hpp"
 #include "common/link/address.hpp"
+#include "common/link/identity.hpp"
 #include "common/link/run_secret.hpp"
+#include "common/link/security.hpp"
 #include "common/run/log.hpp"
 
 namespace toryu::dds {
@@ -167,8 +169,12 @@ std::uint64_t random_id() {
   return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;
 }
 
-Node::Node(const Rendezvous& place) : key_(place.key), domain_(join_domain(place)) {
-  participant_ = dds_create_participant(place.domain, nullptr, nullptr);
+Node::Node(const Rendezvous& place, const Occupant& occupant) : key_(place.key), domain_(join_domain(place)) {
+  const Qos qos(dds_create_qos());
+  dds_qset_entity_name(qos.get(), occupant.program.c_str());
+  check_identity(place.network, occupant.part);
+  if (!place.network.secure.empty()) set_identity(qos.get(), place.network.secure, occupant.part);
+  participant_ = dds_create_participant(place.domain, qos.get(), nullptr);
   require_set_up(participant_, place);
   waitset_ = dds_create_waitset(participant_);
   require(waitset_, "waitset");

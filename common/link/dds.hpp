@@ -46,10 +46,15 @@ std::uint64_t random_id();
 /// Whose messages a reader takes that does not listen to one process alone.
 inline constexpr std::uint64_t anybody = 0;
 
+/// Who takes a seat: the program, and its part in the run, "coupler", "fluid" or "solid".
+struct Occupant {
+  std::string program, part;
+};
+
 /// This process's seat in a run: the DDS participant and all that hangs on it, deleted together.
 class Node {
  public:
-  explicit Node(const Rendezvous& place);
+  Node(const Rendezvous& place, const Occupant& occupant);
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
