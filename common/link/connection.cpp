@@ -148,7 +148,11 @@ void Connection::check_coupler() {
   if (now - checked_ > 1s) coupler_moved_ = now;  // silence counts only while this side listened
   checked_ = now;
   node_.check_quality();  // a coupler of another protocol never comes
+  node_.introductions().hear();
   if (!coupler_came_) {
+    if (const auto* refusal = node_.introductions().refusal_of("coupler"))
+      if (now - refusal->since > Seconds(settings_.network.lost_after))
+        throw BadInput({{.place = "--secure", .message = refusal->reason}});
     if (now - start_ > Seconds(time_limit_))
       throw PeerLost(fmt::format("coupler did not come within {} s", time_limit_));
     return;

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "common/error/failure.hpp"
 #include "common/error/machine.hpp"
@@ -49,7 +50,8 @@ constexpr const char* configuration = R"(<CycloneDDS><Domain>
   <Internal><WriterLingerDuration>0s</WriterLingerDuration></Internal>
 </Domain></CycloneDDS>)";
 
-constexpr double spare_lease = 7;  // [s] beyond the limit
+constexpr double spare_lease = 7;                       // [s] beyond the limit
+constexpr std::chrono::milliseconds until_heard{1200};  // a little more than SPDPInterval
 
 /// Announcements go to each place that a process may have on a host, whether there is one or not. Where a
 /// host cannot be reached they fill the buffer of the socket, and with those of 120 places a process blocked
@@ -170,12 +172,23 @@ std::uint64_t random_id() {
 }
 
 Node::Node(const Rendezvous& place, const Occupant& occupant) : key_(place.key), domain_(join_domain(place)) {
+  const Introduction own = introduction(occupant.program, occupant.part, place.network);
   const Qos qos(dds_create_qos());
-  dds_qset_entity_name(qos.get(), occupant.program.c_str());
-  check_identity(place.network, occupant.part);
+  introduce(qos.get(), own);
+  const auto join = [&] {
+    participant_ = dds_create_participant(place.domain, qos.get(), nullptr);
+    require_set_up(participant_, place);
+  };
+  try {
+    check_identity(place.network, occupant.part);
+  } catch (const BadInput&) {
+    join();  // so that the others can name it too, which cannot take it for one of them
+    std::this_thread::sleep_for(until_heard);
+    throw;
+  }
   if (!place.network.secure.empty()) set_identity(qos.get(), place.network.secure, occupant.part);
-  participant_ = dds_create_participant(place.domain, qos.get(), nullptr);
-  require_set_up(participant_, place);
+  join();
+  introductions_.emplace(participant_, own);
   waitset_ = dds_create_waitset(participant_);
   require(waitset_, "waitset");
 }

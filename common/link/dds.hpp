@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/link/introductions.hpp"
 #include "common/link/seal.hpp"
 #include "common/link/spin.hpp"
 #include "common/run/network.hpp"
@@ -70,6 +72,8 @@ class Node {
   std::uint64_t key() const { return key_; }
   /// Takes note of a message that was refused, and tells of the first.
   void note_refused(const std::string& topic);
+  /// What the others of the run say of themselves in the open.
+  Introductions& introductions() { return *introductions_; }
   /// Throws PeerLost if another process offers or asks for a topic on terms that can never match, BadInput if
   /// with messages of another shape.
   void check_quality() const;
@@ -87,6 +91,7 @@ class Node {
   std::uint64_t refused_ = 0;
   std::shared_ptr<const dds_entity_t> domain_;
   dds_entity_t participant_ = 0;
+  std::optional<Introductions> introductions_;
   dds_entity_t waitset_ = 0;
   std::vector<Endpoint> endpoints_;
 };

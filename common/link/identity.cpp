@@ -1,6 +1,6 @@
 #include "common/link/identity.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <openssl/pem.h>
 #include <openssl/pkcs7.h>
 #include <openssl/x509.h>
@@ -47,6 +47,10 @@ std::string common_name(const X509_NAME* name) {
   return length < 0 ? "nobody" : printable(text);
 }
 
+Certificate certificate_in(BIO* file) {
+  return Certificate(PEM_read_bio_X509(file, nullptr, nullptr, nullptr));
+}
+
 /// The files of one part, read one by one; what is wrong with each is collected.
 class Files {
  public:
@@ -83,7 +87,7 @@ class Files {
   Certificate certificate(const std::string& name) {
     const File file = open(name);
     if (!file) return {};
-    Certificate found(PEM_read_bio_X509(file.get(), nullptr, nullptr, nullptr));
+    Certificate found = certificate_in(file.get());
     if (!found) add(name, "holds no certificate (PEM)");
     return found;
   }
@@ -149,6 +153,19 @@ void check_identity(const Network& network, const std::string& part) {
   if (network.secure.empty()) return;
   const auto faults = Files(network.secure, part).faults();
   if (!faults.empty()) throw BadInput(faults);
+}
+
+Credential credential_of(const Network& network, const std::string& part) {
+  const std::filesystem::path folder = network.secure;
+  const File own_file(BIO_new_file((folder / (part + ".pem")).c_str(), "r")),
+      file(BIO_new_file((folder / "ca.pem").c_str(), "r"));
+  if (network.secure.empty() || !own_file || !file) return {};
+  const Certificate own = certificate_in(own_file.get()), authority = certificate_in(file.get());
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int size = 0;
+  if (!own || !authority || X509_digest(authority.get(), EVP_sha256(), digest, &size) != 1) return {};
+  return {common_name(X509_get_subject_name(own.get())),
+          fmt::format("{:02x}", fmt::join(digest, digest + size, ""))};
 }
 
 }  // namespace toryu

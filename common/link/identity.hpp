@@ -15,4 +15,11 @@ namespace toryu {
 /// certificate's, a certificate of another part or CA, or that is not valid today. Nothing without --secure.
 void check_identity(const Network& network, const std::string& part);
 
+/// What a program shows of its identity, for the words by which it is refused: whose certificate it has, and
+/// of which CA. Nothing without --secure, or where they cannot be read.
+struct Credential {
+  std::string part = {}, authority = {};
+};
+Credential credential_of(const Network& network, const std::string& part);
+
 }  // namespace toryu

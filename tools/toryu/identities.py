@@ -26,13 +26,15 @@ FROM_COUPLER = {"fluid": ("session", "checkpoint_request", "interface_to_fluid",
 DAYS, MOST_DAYS = 365, 36500
 NEW_KEY = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-sha256")
 
+# What is not of the messages is alike in both kinds: Cyclone DDS passes over participants of another kind in silence, so
+# that they could not be named.
 GOVERNANCE = """<?xml version="1.0" encoding="utf-8"?>
 <dds><domain_access_rules><domain_rule>
   <domains><id_range><min>0</min><max>230</max></id_range></domains>
   <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
   <enable_join_access_control>true</enable_join_access_control>
-  <discovery_protection_kind>{kind}</discovery_protection_kind>
-  <liveliness_protection_kind>{kind}</liveliness_protection_kind>
+  <discovery_protection_kind>ENCRYPT</discovery_protection_kind>
+  <liveliness_protection_kind>ENCRYPT</liveliness_protection_kind>
   <rtps_protection_kind>NONE</rtps_protection_kind>
   <topic_access_rules><topic_rule>
     <topic_expression>*</topic_expression>
