@@ -7,6 +7,7 @@
 
 #include "common/error/ending.hpp"
 #include "common/link/coupler_link.hpp"
+#include "common/link/identity.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
 #include "common/run/log.hpp"
@@ -114,6 +115,7 @@ ExitCode couple(const Options& options) {
   check_folder(file, options.out);
   file.throw_if_faulty();
   for (const auto& beyond : stability_warnings(file, coupling)) log::warn("{}", beyond);
+  check_identity(options.network, "coupler");
   if (options.check) return ExitCode::done;
 
   const RunLock lock(options.out);

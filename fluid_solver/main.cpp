@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/error/counted.hpp"
+#include "common/link/identity.hpp"
 #include "common/link/participant.hpp"
 #include "common/loop/outlook.hpp"
 #include "common/loop/time_loop.hpp"
@@ -264,6 +265,7 @@ ExitCode solve(const Options& options) {
   });
   file.throw_if_faulty();
   warn_of_start(file, scene, parameters, model);
+  check_identity(options.network, "fluid");
   if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     write_start(options.start_frames, "fluid", model);
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);

@@ -1,6 +1,7 @@
 /// The frame of a participant that answers with what another run recorded.
 #pragma once
 
+#include "common/link/identity.hpp"
 #include "common/run/options.hpp"
 #include "common/run/program.hpp"
 #include "common/run/provenance.hpp"
@@ -19,6 +20,7 @@ int run_side(const std::string& side, bool can_repeat, int argc, char** argv, Jo
     if (options.describe) return ExitCode::done;
     const CaseFile file(options.case_path, options.overrides);
     Recording recording(options.record, file);
+    check_identity(options.network, side);
     if (options.check) return ExitCode::done;
     Link link({.role = role,
                .version = provenance(1).version,

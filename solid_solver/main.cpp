@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/error/counted.hpp"
+#include "common/link/identity.hpp"
 #include "common/link/participant.hpp"
 #include "common/loop/outlook.hpp"
 #include "common/loop/time_loop.hpp"
@@ -187,6 +188,7 @@ ExitCode solve(const Options& options) {
   for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
   if (!file.has("fluid"))  // whose program tells of them
     for (const auto& unknown : unknown_meetings(file, scene)) log::warn("{}", unknown);
+  check_identity(options.network, "solid");
   const Setting run{options, file, scene, parameters, std::move(counts), *solid};
   if (options.check) {
     tell_start(run);

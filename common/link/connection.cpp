@@ -43,9 +43,9 @@ Connection::Connection(const LinkSettings& settings, toryu_Role role)
     : settings_(settings),
       role_(role),
       process_(own_process()),
-      node_(place_of(settings)),
-      hello_(node_, wire::hello),
-      status_(node_, wire::status),
+      node_(place_of(settings), {settings.role, role == toryu_FLUID ? "fluid" : "solid"}),
+      hello_(node_, role == toryu_FLUID ? wire::hello_from_fluid : wire::hello_from_solid),
+      status_(node_, role == toryu_FLUID ? wire::status_from_fluid : wire::status_from_solid),
       sessions_(node_, wire::session, coupler_),
       checkpoint_requests_(node_, wire::checkpoint_request, coupler_),
       checkpoint_reports_(node_,
@@ -148,7 +148,11 @@ void Connection::check_coupler() {
   if (now - checked_ > 1s) coupler_moved_ = now;  // silence counts only while this side listened
   checked_ = now;
   node_.check_quality();  // a coupler of another protocol never comes
+  node_.introductions().hear();
   if (!coupler_came_) {
+    if (const auto* refusal = node_.introductions().refusal_of("coupler"))
+      if (now - refusal->since > Seconds(settings_.network.lost_after))
+        throw BadInput({{.place = "--secure", .message = refusal->reason}});
     if (now - start_ > Seconds(time_limit_))
       throw PeerLost(fmt::format("coupler did not come within {} s", time_limit_));
     return;

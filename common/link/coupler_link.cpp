@@ -57,7 +57,7 @@ struct Turns {
 struct CouplerLink::Connection {
   explicit Connection(const LinkSettings& link_settings)
       : settings(link_settings),
-        node(dds::rendezvous(settings.out, settings.network)),
+        node(dds::rendezvous(settings.out, settings.network), {settings.role, "coupler"}),
         session(node, settings.time_limit),
         roster(node, session, settings),
         turns(node, roster) {}
@@ -87,6 +87,7 @@ void CouplerLink::Connection::poll() {
   if (now - checked < longest_sleep) return;
   if (now - checked > 1s) roster.forgive_silence();  // silence counts only while this side listened
   checked = now;
+  node.introductions().hear();
   roster.check_leases(turns.load_from_fluid.live_writers(), turns.motion_from_solid.live_writers());
   if (!session.over()) node.check_quality();
 }
@@ -97,8 +98,11 @@ void CouplerLink::Connection::wait(const Participant& awaited, const std::string
   SpinningWait waiting(&awaited == &roster.fluid() ? turns.of_fluid : turns.of_solid);
   while (!arrived()) {
     poll();
-    if (Clock::now() - std::max(start, awaited.moved) > Seconds(settings.time_limit))
+    if (Clock::now() - std::max(start, awaited.moved) > Seconds(settings.time_limit)) {
+      const auto* refusal = awaited.joined() ? nullptr : node.introductions().refusal_of(awaited.part);
+      if (refusal != nullptr) throw BadInput({{.place = "--secure", .message = refusal->reason}});
       throw PeerLost(fmt::format("{} {} within {} s", awaited.name(), what, settings.time_limit));
+    }
     node.wait(longest_sleep, waiting);
   }
 }

@@ -13,11 +13,14 @@
 #include <mutex>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "common/error/failure.hpp"
 #include "common/error/machine.hpp"
 #include "common/link/address.hpp"
+#include "common/link/identity.hpp"
 #include "common/link/run_secret.hpp"
+#include "common/link/security.hpp"
 #include "common/run/log.hpp"
 
 namespace toryu::dds {
@@ -47,7 +50,8 @@ constexpr const char* configuration = R"(<CycloneDDS><Domain>
   <Internal><WriterLingerDuration>0s</WriterLingerDuration></Internal>
 </Domain></CycloneDDS>)";
 
-constexpr double spare_lease = 7;  // [s] beyond the limit
+constexpr double spare_lease = 7;                       // [s] beyond the limit
+constexpr std::chrono::milliseconds until_heard{1200};  // a little more than SPDPInterval
 
 /// Announcements go to each place that a process may have on a host, whether there is one or not. Where a
 /// host cannot be reached they fill the buffer of the socket, and with those of 120 places a process blocked
@@ -167,9 +171,24 @@ std::uint64_t random_id() {
   return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;
 }
 
-Node::Node(const Rendezvous& place) : key_(place.key), domain_(join_domain(place)) {
-  participant_ = dds_create_participant(place.domain, nullptr, nullptr);
-  require_set_up(participant_, place);
+Node::Node(const Rendezvous& place, const Occupant& occupant) : key_(place.key), domain_(join_domain(place)) {
+  const Introduction own = introduction(occupant.program, occupant.part, place.network);
+  const Qos qos(dds_create_qos());
+  introduce(qos.get(), own);
+  const auto join = [&] {
+    participant_ = dds_create_participant(place.domain, qos.get(), nullptr);
+    require_set_up(participant_, place);
+  };
+  try {
+    check_identity(place.network, occupant.part);
+  } catch (const BadInput&) {
+    join();  // so that the others can name it too, which cannot take it for one of them
+    std::this_thread::sleep_for(until_heard);
+    throw;
+  }
+  if (!place.network.secure.empty()) set_identity(qos.get(), place.network.secure, occupant.part);
+  join();
+  introductions_.emplace(participant_, own);
   waitset_ = dds_create_waitset(participant_);
   require(waitset_, "waitset");
 }

@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/link/introductions.hpp"
 #include "common/link/seal.hpp"
 #include "common/link/spin.hpp"
 #include "common/run/network.hpp"
@@ -46,10 +48,15 @@ std::uint64_t random_id();
 /// Whose messages a reader takes that does not listen to one process alone.
 inline constexpr std::uint64_t anybody = 0;
 
+/// Who takes a seat: the program, and its part in the run, "coupler", "fluid" or "solid".
+struct Occupant {
+  std::string program, part;
+};
+
 /// This process's seat in a run: the DDS participant and all that hangs on it, deleted together.
 class Node {
  public:
-  explicit Node(const Rendezvous& place);
+  Node(const Rendezvous& place, const Occupant& occupant);
   ~Node();
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -65,6 +72,8 @@ class Node {
   std::uint64_t key() const { return key_; }
   /// Takes note of a message that was refused, and tells of the first.
   void note_refused(const std::string& topic);
+  /// What the others of the run say of themselves in the open.
+  Introductions& introductions() { return *introductions_; }
   /// Throws PeerLost if another process offers or asks for a topic on terms that can never match, BadInput if
   /// with messages of another shape.
   void check_quality() const;
@@ -82,6 +91,7 @@ class Node {
   std::uint64_t refused_ = 0;
   std::shared_ptr<const dds_entity_t> domain_;
   dds_entity_t participant_ = 0;
+  std::optional<Introductions> introductions_;
   dds_entity_t waitset_ = 0;
   std::vector<Endpoint> endpoints_;
 };

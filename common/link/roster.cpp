@@ -22,7 +22,12 @@ std::string Participant::name() const {
 }
 
 Roster::Roster(dds::Node& node, Session& session, const LinkSettings& own)
-    : session_(session), own_(own), hellos_(node, wire::hello), statuses_(node, wire::status) {}
+    : session_(session),
+      own_(own),
+      hellos_of_fluid_(node, wire::hello_from_fluid),
+      hellos_of_solid_(node, wire::hello_from_solid),
+      statuses_of_fluid_(node, wire::status_from_fluid),
+      statuses_of_solid_(node, wire::status_from_solid) {}
 
 /// Refuses a participant that computes something else.
 void Roster::compare(const toryu_Hello& hello, const Participant& participant) const {
@@ -37,6 +42,9 @@ void Roster::compare(const toryu_Hello& hello, const Participant& participant) c
   must_agree("hash of the case", fmt::format("{:016x}", hello.case_hash),
              fmt::format("{:016x}", own_.case_hash));
   must_agree("system of units", printable(hello.units), std::string(wire::units));
+  if (hello.role != (&participant == &fluid_ ? toryu_FLUID : toryu_SOLID))
+    errors.push_back(
+        {.place = program, .message = "says of itself that it is not the " + std::string(participant.part)});
   must_agree("dimension", hello.dimension, static_cast<std::uint32_t>(dim));
   const auto must_be_real = [&](const char* trait, double value, const char* unit, bool may_be_zero) {
     if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) return;
@@ -63,9 +71,8 @@ void Roster::compare(const toryu_Hello& hello, const Participant& participant) c
     log::warn("{} is version {}, the coupler {}", program, participant.partner.version, own_.version);
 }
 
-void Roster::accept(const toryu_Hello& hello) {
+void Roster::accept(const toryu_Hello& hello, Participant& participant) {
   if (hello.session_id != 0) return;  // taken in already, by this coupler or by one before it
-  Participant& participant = hello.role == toryu_FLUID ? fluid_ : solid_;
   if (participant.joined()) {
     if (participant.id != hello.sender)
       log::warn("refused a second {} participant: {}", participant.part, printable(hello.program));
@@ -88,31 +95,33 @@ void Roster::accept(const toryu_Hello& hello) {
   session_.announce(content);
 }
 
-void Roster::note(const toryu_Status& status) {
-  Participant* participant = status.sender == fluid_.id   ? &fluid_
-                             : status.sender == solid_.id ? &solid_
-                                                          : nullptr;
+void Roster::note(const toryu_Status& status, Participant& participant) {
   // Of a refused participant, or of another run; 0 is of one that left before it knew ours.
-  if (participant == nullptr || (status.session_id != session_.id() && status.session_id != 0)) return;
-  const bool moved = status.steps != participant->steps || status.window != participant->window;
-  if (moved) participant->moved = Participant::Clock::now();
-  participant->steps = status.steps;
-  participant->window = status.window;
-  participant->interrupted = participant->interrupted || status.interrupted;
+  if (status.sender != participant.id || (status.session_id != session_.id() && status.session_id != 0))
+    return;
+  const bool moved = status.steps != participant.steps || status.window != participant.window;
+  if (moved) participant.moved = Participant::Clock::now();
+  participant.steps = status.steps;
+  participant.window = status.window;
+  participant.interrupted = participant.interrupted || status.interrupted;
   if (status.activity != toryu_LEFT) return;
-  participant->left = true;
+  participant.left = true;
   if (session_.over()) return;
   const auto code = static_cast<ExitCode>(status.exit_code);
   const std::string reason =
       code == ExitCode::done ? "left before the end of the run" : printable(status.reason);
-  throw_ending({code, fmt::format("{}: {}", participant->name(), reason)});
+  throw_ending({code, fmt::format("{}: {}", participant.name(), reason)});
 }
 
 void Roster::receive() {
-  while (statuses_.take([this](const toryu_Status& status) { note(status); })) {
-  }
-  while (hellos_.take([this](const toryu_Hello& hello) { accept(hello); })) {
-  }
+  const auto hear = [this](auto& statuses, auto& hellos, Participant& participant) {
+    while (statuses.take([&](const toryu_Status& status) { note(status, participant); })) {
+    }
+    while (hellos.take([&](const toryu_Hello& hello) { accept(hello, participant); })) {
+    }
+  };
+  hear(statuses_of_fluid_, hellos_of_fluid_, fluid_);
+  hear(statuses_of_solid_, hellos_of_solid_, solid_);
 }
 
 void Roster::check_leases(std::uint32_t fluid_writers, std::uint32_t solid_writers) {

@@ -49,14 +49,14 @@ class Roster {
   const Participant& solid() const { return solid_; }
 
  private:
-  void accept(const toryu_Hello& hello);
+  void accept(const toryu_Hello& hello, Participant& participant);
   void compare(const toryu_Hello& hello, const Participant& participant) const;
-  void note(const toryu_Status& status);
+  void note(const toryu_Status& status, Participant& participant);
 
   Session& session_;
   const LinkSettings& own_;
-  dds::Reader<toryu_Hello> hellos_;
-  dds::Reader<toryu_Status> statuses_;
+  dds::Reader<toryu_Hello> hellos_of_fluid_, hellos_of_solid_;
+  dds::Reader<toryu_Status> statuses_of_fluid_, statuses_of_solid_;
   CouplerLink::Requirements requirements_;
   Participant fluid_{.part = "fluid"}, solid_{.part = "solid"};
 };

@@ -11,13 +11,15 @@
 namespace toryu::wire {
 
 /// Raised whenever a message changes its meaning; processes of different protocols refuse each other.
-inline constexpr std::uint32_t protocol = 6;
+inline constexpr std::uint32_t protocol = 7;
 inline constexpr const char* units = "SI";
 
 // A topic has one writer's role; what passes through the coupler has a topic on each of its sides.
-inline constexpr const char* hello = "toryu/hello";
+inline constexpr const char* hello_from_fluid = "toryu/hello_from_fluid";
+inline constexpr const char* hello_from_solid = "toryu/hello_from_solid";
 inline constexpr const char* session = "toryu/session";
-inline constexpr const char* status = "toryu/status";
+inline constexpr const char* status_from_fluid = "toryu/status_from_fluid";
+inline constexpr const char* status_from_solid = "toryu/status_from_solid";
 inline constexpr const char* interface_from_solid = "toryu/interface_from_solid";
 inline constexpr const char* interface_to_fluid = "toryu/interface_to_fluid";
 inline constexpr const char* motion_from_solid = "toryu/motion_from_solid";

@@ -51,6 +51,7 @@ Network read_network(const TypedNetwork& typed, std::vector<InputError>& faults)
     faults.push_back({.place = "--domain " + typed.domain,
                       .message = fmt::format("must be an integer of 1 to {}", last_domain)});
   network.collected = typed.collected;
+  network.secure = typed.secure;
   if (typed.lost_after.empty()) return network;
   if (const auto limit = number_within(typed.lost_after, shortest_silence, longest_silence))
     network.lost_after = *limit;

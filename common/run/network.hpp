@@ -18,11 +18,12 @@ struct Network {
   std::optional<int> domain = {};       ///< sets the ports; nothing: it follows from the run's secret
   double lost_after = 3;                ///< silence after which a process that is not seen to run is lost [s]
   bool collected = false;               ///< whether what each host writes is brought to the coupler's results
+  std::string secure = {};              ///< folder of the identities; empty: without DDS Security
 };
 
 /// The options as they were typed, empty where not given.
 struct TypedNetwork {
-  std::string peers, interface, domain, lost_after;
+  std::string peers, interface, domain, lost_after, secure;
   bool collected = false;
 };
 

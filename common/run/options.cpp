@@ -58,6 +58,9 @@ void declare(CLI::App& app, const std::string& role, Typed& typed) {
   app.add_option("--lost-after", typed.network.lost_after,
                  "Silence after which a program that is not seen to run counts as lost (default 3)")
       ->type_name("SECONDS");
+  app.add_option("--secure", typed.network.secure,
+                 "Folder of identities: only programs with one of its CA take part in a coupled run")
+      ->type_name("DIR");
   app.add_flag(
       "--collected", typed.network.collected,
       "Parts of checkpoints are brought from host to host while the run waits, as run.sh --host does");

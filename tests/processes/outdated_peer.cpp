@@ -27,7 +27,7 @@ std::string program = "outdated_peer", nothing, units = wire::units;
 }
 
 void play_fluid(dds::Node& node) {
-  const auto writer = node.make_writer(toryu_2_Hello_desc, wire::hello);
+  const auto writer = node.make_writer(toryu_2_Hello_desc, wire::hello_from_fluid);
   toryu_2_Hello hello{};
   hello.sender = dds::random_id();
   hello.role = toryu_2_FLUID;
@@ -37,7 +37,7 @@ void play_fluid(dds::Node& node) {
   hello.units = units.data();
   hello.dimension = dim;
   hello.used_case = nothing.data();
-  dds::require(dds_write(writer, &hello), wire::hello);
+  dds::require(dds_write(writer, &hello), wire::hello_from_fluid);
   wait();
 }
 
@@ -51,8 +51,8 @@ void play_coupler(dds::Node& node) {
 }
 
 ExitCode run(const Options& options) {
-  dds::Node node(dds::rendezvous(options.out));
   const char* part = std::getenv("PART");
+  dds::Node node(dds::rendezvous(options.out), {program, "fluid"});
   if (part != nullptr && part == std::string("coupler")) play_coupler(node);
   play_fluid(node);
   return ExitCode::done;

@@ -312,7 +312,7 @@ class Refusal(ProcessCase):
     def test_of_a_fluid_of_an_older_protocol(self):
         run = self.run_of_three(fluid="outdated_peer").start("fluid").start("coupler").start("solid")
         for name in ("coupler", "solid"):
-            self.assert_ending(run, name, BAD_INPUT, "toryu/hello", "another protocol")
+            self.assert_ending(run, name, BAD_INPUT, "toryu/hello_from_fluid", "another protocol")
 
     def test_of_a_coupler_of_an_older_protocol(self):
         run = self.run_of_three(coupler="outdated_peer").start("coupler", environment={"PART": "coupler"})

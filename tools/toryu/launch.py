@@ -282,6 +282,8 @@ def compared_with_record(options):
 def main(arguments):
     if "--compare" in arguments:
         go_on_as("compare", [argument for argument in arguments if argument != "--compare"])
+    if any(argument.partition("=")[0] == "--make-identities" for argument in arguments):
+        os.execv(sys.executable, program.python("identities", *arguments))
     coupler = programs_folder(arguments) / "coupler"
     if any(is_study(argument, coupler) for argument in arguments):
         go_on_as("study", arguments)

@@ -46,6 +46,10 @@ def parse(arguments):
     parser.add_argument("--watch", metavar="PORT", nargs="?", const="", help="serve the report of the run while it runs, to a "
                         "browser on this machine, with a button that ends it; --watch OUT in place of a case watches the "
                         "run that writes into the results folder OUT")
+    parser.add_argument("--secure", metavar="FOLDER", help="only programs that prove an identity of FOLDER take part in a "
+                        "coupled run, and nobody else can change or, as FOLDER was made, read what they send")
+    parser.add_argument("--make-identities", metavar="FOLDER", help="make the identities for that, in place of a run; with "
+                        "--encrypt for messages that are encrypted too, with --days N for how long they are valid")
     add_options(parser)
     parser.add_argument("--no-report", action="store_true", help="leave report.html and frames.py out")
     parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
@@ -58,8 +62,10 @@ def parse(arguments):
             setattr(options, name, "")
     if options.case is None and not options.watch:
         parser.error("the following arguments are required: CASE")
+    if options.secure:
+        options.secure = os.path.abspath(options.secure)  # the programs may be in other folders, on other hosts
     options.passed_on = [f"--set={pair}" for pair in options.set] + unknown
-    for name in ("end_time", "threads", "log_level", "lost_after"):
+    for name in ("end_time", "threads", "log_level", "lost_after", "secure"):
         if (value := getattr(options, name)) is not None:
             options.passed_on.append(f"--{name.replace('_', '-')}={value}")
     return options

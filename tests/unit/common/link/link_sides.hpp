@@ -47,7 +47,7 @@ class RawFluid {
   std::string process = own_process();
   double reach = 0.25, time_step_limit = 1;
 
-  explicit RawFluid(const std::filesystem::path& out) : node_(dds::rendezvous(out)) {}
+  explicit RawFluid(const std::filesystem::path& out) : node_(dds::rendezvous(out), {"raw_fluid", "fluid"}) {}
 
   void say_hello(std::uint32_t protocol = wire::protocol, std::string units = wire::units,
                  std::uint32_t dimension = dim) {
@@ -114,8 +114,8 @@ class RawFluid {
 
  private:
   dds::Node node_;
-  dds::Writer<toryu_Hello> hello_{node_, wire::hello};
-  dds::Writer<toryu_Status> statuses_{node_, wire::status};
+  dds::Writer<toryu_Hello> hello_{node_, wire::hello_from_fluid};
+  dds::Writer<toryu_Status> statuses_{node_, wire::status_from_fluid};
   dds::Reader<toryu_Motion> motions_{node_, wire::motion_to_fluid};
   dds::Writer<toryu_Load> loads_{node_, wire::load_from_fluid};
   dds::Reader<toryu_CheckpointRequest> checkpoint_requests_{node_, wire::checkpoint_request};

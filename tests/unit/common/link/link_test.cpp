@@ -12,9 +12,9 @@ namespace {
 
 TEST(Node, IsWokenOnceByAMessageThatNobodyTakes) {
   const auto out = std::filesystem::temp_directory_path() / fmt::format("toryu_node_{}", getpid());
-  dds::Node node(dds::rendezvous(out));
-  dds::Reader<toryu_Status> reader(node, wire::status);
-  dds::Writer<toryu_Status> writer(node, wire::status);
+  dds::Node node(dds::rendezvous(out), {"fluid_solver", "fluid"});
+  dds::Reader<toryu_Status> reader(node, wire::status_from_fluid);
+  dds::Writer<toryu_Status> writer(node, wire::status_from_fluid);
   std::string nothing;
   toryu_Status status{};
   status.reason = nothing.data();
@@ -43,11 +43,14 @@ TEST(Node, NamesThePortsThatAreTaken) {
     (void)!bind(held.back(), reinterpret_cast<sockaddr*>(&self),
                 sizeof self);  // or another holds it: as good
   }
-  EXPECT_THAT([&] { dds::Node{place}; },
-              ThrowsMessage<MachineFailure>(
-                  testing::AllOf(HasSubstr("free participant index"),
-                                 HasSubstr(fmt::format("of {} to {} on 127.0.0.1", 7400 + 250 * place.domain,
-                                                       7649 + 250 * place.domain)))));
+  EXPECT_THAT(
+      [&] {
+        dds::Node(place, {"coupler", "coupler"});
+      },
+      ThrowsMessage<MachineFailure>(
+          testing::AllOf(HasSubstr("free participant index"),
+                         HasSubstr(fmt::format("of {} to {} on 127.0.0.1", 7400 + 250 * place.domain,
+                                               7649 + 250 * place.domain)))));
   for (const int each : held) close(each);
   std::filesystem::remove_all(out);
 }

@@ -1,0 +1,171 @@
+#include "common/link/identity.hpp"
+
+#include <fmt/ranges.h>
+#include <openssl/pem.h>
+#include <openssl/pkcs7.h>
+#include <openssl/x509.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "common/error/printable.hpp"
+
+namespace toryu {
+
+namespace {
+
+template <auto release>
+struct Deleter {
+  template <class Handle>
+  void operator()(Handle* handle) const {
+    release(handle);
+  }
+};
+using File = std::unique_ptr<BIO, Deleter<BIO_free_all>>;
+using Certificate = std::unique_ptr<X509, Deleter<X509_free>>;
+using Key = std::unique_ptr<EVP_PKEY, Deleter<EVP_PKEY_free>>;
+using Document = std::unique_ptr<PKCS7, Deleter<PKCS7_free>>;
+using Store = std::unique_ptr<X509_STORE, Deleter<X509_STORE_free>>;
+
+std::string time_text(const ASN1_TIME* time) {
+  std::tm parts{};
+  if (ASN1_TIME_to_tm(time, &parts) != 1) return "an unknown time";
+  char text[32];
+  std::strftime(text, sizeof text, "%F %T UTC", &parts);
+  return text;
+}
+
+std::string common_name(const X509_NAME* name) {
+  char text[256];
+  const int length = X509_NAME_get_text_by_NID(name, NID_commonName, text, sizeof text);
+  return length < 0 ? "nobody" : printable(text);
+}
+
+Certificate certificate_in(BIO* file) {
+  return Certificate(PEM_read_bio_X509(file, nullptr, nullptr, nullptr));
+}
+
+/// The files of one part, read one by one; what is wrong with each is collected.
+class Files {
+ public:
+  Files(std::filesystem::path folder, std::string part)
+      : folder_(std::move(folder)), part_(std::move(part)) {}
+
+  std::vector<InputError> faults() {
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder_, error)) {
+      add("", "is no folder; './run.sh --make-identities FOLDER' makes one");
+      return faults_;
+    }
+    const Certificate authority = certificate("ca.pem"), own = certificate(part_ + ".pem");
+    const Key own_key = key();
+    if (authority) check_dates("ca.pem", *authority);
+    if (own) check(*own, authority.get(), own_key.get());
+    for (const std::string& name : {std::string("governance.p7s"), part_ + ".p7s"})
+      check_signed(name, authority.get());
+    return faults_;
+  }
+
+ private:
+  void add(const std::string& name, const std::string& message) {
+    faults_.push_back(
+        {.place = "--secure " + (name.empty() ? folder_ : folder_ / name).string(), .message = message});
+  }
+
+  File open(const std::string& name) {
+    File file(BIO_new_file((folder_ / name).c_str(), "r"));
+    if (!file) add(name, fmt::format("cannot be read: {}", std::strerror(errno)));
+    return file;
+  }
+
+  Certificate certificate(const std::string& name) {
+    const File file = open(name);
+    if (!file) return {};
+    Certificate found = certificate_in(file.get());
+    if (!found) add(name, "holds no certificate (PEM)");
+    return found;
+  }
+
+  Key key() {
+    const std::string name = part_ + ".key";
+    const File file = open(name);
+    if (!file) return {};
+    struct stat status {};
+    if (stat((folder_ / name).c_str(), &status) == 0 && (status.st_mode & 077) != 0)
+      add(name,
+          fmt::format("is a private key that others can read (mode {:04o}); 'chmod 600' keeps it secret",
+                      status.st_mode & 07777));
+    const auto no_password = [](char*, int, int, void*) { return -1; };
+    Key found(PEM_read_bio_PrivateKey(file.get(), nullptr, no_password, nullptr));
+    if (!found) add(name, "holds no private key without a password (PEM)");
+    return found;
+  }
+
+  void check_dates(const std::string& name, const X509& given) {
+    const ASN1_TIME *begin = X509_get0_notBefore(&given), *end = X509_get0_notAfter(&given);
+    if (X509_cmp_current_time(begin) > 0)
+      add(name,
+          fmt::format("is valid from {} on only; is the clock of this machine right?", time_text(begin)));
+    if (X509_cmp_current_time(end) < 0)
+      add(name, fmt::format("expired on {}; './run.sh --make-identities' makes new ones", time_text(end)));
+  }
+
+  void check(X509& own, X509* authority, EVP_PKEY* own_key) {
+    const std::string name = part_ + ".pem", subject = common_name(X509_get_subject_name(&own));
+    check_dates(name, own);
+    if (subject != part_)
+      add(name, fmt::format("is the certificate of the part '{}', and must be that of '{}'", subject, part_));
+    if (authority != nullptr && X509_verify(&own, X509_get0_pubkey(authority)) != 1)
+      add(name, fmt::format("is of another CA: '{}' has signed it, ca.pem is '{}'",
+                            common_name(X509_get_issuer_name(&own)),
+                            common_name(X509_get_subject_name(authority))));
+    if (own_key != nullptr && X509_check_private_key(&own, own_key) != 1)
+      add(part_ + ".key", fmt::format("is not the key of {}", name));
+  }
+
+  void check_signed(const std::string& name, X509* authority) {
+    const File file = open(name);
+    if (!file || authority == nullptr) return;
+    BIO* text = nullptr;
+    const Document document(SMIME_read_PKCS7(file.get(), &text));
+    const File content(text);
+    if (!document) return add(name, "is no document signed as S/MIME");
+    const Store store(X509_STORE_new());
+    X509_STORE_add_cert(store.get(), authority);
+    const bool is_signed = PKCS7_verify(document.get(), nullptr, store.get(), content.get(), nullptr, 0) == 1;
+    if (!is_signed) add(name, "is not signed by the CA of ca.pem, or was changed since");
+  }
+
+  std::filesystem::path folder_;
+  std::string part_;
+  std::vector<InputError> faults_;
+};
+
+}  // namespace
+
+void check_identity(const Network& network, const std::string& part) {
+  if (network.secure.empty()) return;
+  const auto faults = Files(network.secure, part).faults();
+  if (!faults.empty()) throw BadInput(faults);
+}
+
+Credential credential_of(const Network& network, const std::string& part) {
+  const std::filesystem::path folder = network.secure;
+  const File own_file(BIO_new_file((folder / (part + ".pem")).c_str(), "r")),
+      file(BIO_new_file((folder / "ca.pem").c_str(), "r"));
+  if (network.secure.empty() || !own_file || !file) return {};
+  const Certificate own = certificate_in(own_file.get()), authority = certificate_in(file.get());
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int size = 0;
+  if (!own || !authority || X509_digest(authority.get(), EVP_sha256(), digest, &size) != 1) return {};
+  return {common_name(X509_get_subject_name(own.get())),
+          fmt::format("{:02x}", fmt::join(digest, digest + size, ""))};
+}
+
+}  // namespace toryu

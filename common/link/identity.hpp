@@ -1,0 +1,25 @@
+/// What a program of a secured run proves itself by: a folder that `./run.sh --make-identities` made, with
+/// the certificate of its CA (ca.pem), what protects the messages (governance.p7s), and of each part of the
+/// run the certificate, the private key and what it may do (fluid.pem, fluid.key, fluid.p7s). A host needs
+/// those of its own parts alone. Formats: OMG DDS Security 1.1, 8.4 and 9.4.
+#pragma once
+
+#include <string>
+
+#include "common/run/network.hpp"
+
+namespace toryu {
+
+/// Throws BadInput with all that is wrong with the identity of `part` ("coupler", "fluid" or "solid") in the
+/// folder of --secure: files that are missing or no such files, a key that others can read or that is not the
+/// certificate's, a certificate of another part or CA, or that is not valid today. Nothing without --secure.
+void check_identity(const Network& network, const std::string& part);
+
+/// What a program shows of its identity, for the words by which it is refused: whose certificate it has, and
+/// of which CA. Nothing without --secure, or where they cannot be read.
+struct Credential {
+  std::string part = {}, authority = {};
+};
+Credential credential_of(const Network& network, const std::string& part);
+
+}  // namespace toryu
