@@ -59,6 +59,11 @@ class CoupledRecord {
     double impulse_error = 0, residual = 0;                       ///< largest
     int iterations = 0;                                           ///< largest
   };
+  /// Of the series, under `coupling`: what the exchange `done` of the last `window` and those since the row
+  /// before come to.
+  static std::vector<Observation> row_of(const Parameters& coupling, const Window& window,
+                                         const Exchange& done, const Row& since, const WorkAudit& work);
+
   struct State {
     ExchangeAudit::State audit;  ///< this and the next of the parts, when a checkpoint is written
     WorkAudit::State work;

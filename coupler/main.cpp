@@ -7,6 +7,7 @@
 
 #include "common/error/ending.hpp"
 #include "common/link/coupler_link.hpp"
+#include "common/loop/series_columns.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
 #include "common/run/log.hpp"
@@ -112,9 +113,15 @@ ExitCode couple(const Options& options) {
     return ExitCode::done;
   }
   check_folder(file, options.out);
+  const SeriesColumns series =
+      series_columns("coupler", CoupledRecord::row_of(coupling, {}, {}, {}, WorkAudit({})));
+  check_references(file, scene, series);
   file.throw_if_faulty();
   for (const auto& beyond : stability_warnings(file, coupling)) log::warn("{}", beyond);
-  if (options.check) return ExitCode::done;
+  if (options.check) {
+    if (options.columns) print(listed(series));
+    return ExitCode::done;
+  }
 
   const RunLock lock(options.out);
   claim_folder(options, "coupler");

@@ -7,6 +7,7 @@
 #include "common/error/counted.hpp"
 #include "common/link/participant.hpp"
 #include "common/loop/outlook.hpp"
+#include "common/loop/series_columns.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/log.hpp"
@@ -140,8 +141,9 @@ ExitCode solve(const Options& options) {
   omp_set_num_threads(thread_count(options, body.size(), particles_per_thread));
   const auto model = make_model(parameters, body, scene);
   check_start(*model, "[solid]");
-  check_columns(*model, "[solid]");
-  check_series(file, scene, "solid", *model);
+  check_columns(model->observe(), "[solid]");
+  const SeriesColumns series = series_columns("solid", model->observe());
+  check_references(file, scene, series);
   file.throw_if_faulty();
   for (const auto& beyond : stability_warnings(parameters)) log::warn("{}", beyond);
   for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
@@ -154,6 +156,10 @@ ExitCode solve(const Options& options) {
     if (parameters.formulation == Formulation::rigid)  // whose mass and frequencies are known beforehand
       for (const auto& term : model->active_terms())
         print(fmt::format("[solid]: {}: {}\n", term.name, term.parameters));
+    if (options.columns) {
+      print(listed(series));
+      if (parameters.detachment) print(listed(DetachedList::columns()));
+    }
     if (options.outlook) print(outlook("[solid]", *model, scene.end_time).text);
     return ExitCode::done;
   }

@@ -161,7 +161,7 @@ def check(commands, more=()):
 def check_alone(options, case, own, others):
     """All that --check does, with the picture of the scene if that was asked for."""
     with contextlib.ExitStack() as kept:
-        more, frames = ["--outlook"], None
+        more, frames = ["--outlook", *["--columns"] * options.columns], None
         if options.picture is not None:
             frames = kept.enter_context(tempfile.TemporaryDirectory(prefix="toryu_picture_"))
             more.append(f"--start-frames={frames}")
@@ -292,6 +292,8 @@ def main(arguments):
     case = case_of(options)
     if options.picture is not None and not options.check:
         return complain("--picture: error: goes with --check")
+    if options.columns and not options.check:
+        return complain("--columns: error: goes with --check")
     install_for_drawings(case)
     settle_replay(options, case)
     settle_folder(options, case)

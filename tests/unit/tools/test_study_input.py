@@ -85,6 +85,16 @@ answer = { wanted_depth = 1e-6, pressure_at_most = -1 }
         self.assertEqual(self.faults(TWO_AXES, HEAD + "set = { fluid.z = 1 }\n"),
                          ["window.toml:4: error: [study] set: --set fluid.z=1: error: unknown key 'z' in [fluid]"])
 
+    def test_series_that_no_run_writes(self):
+        text = TWO_AXES + "".join(f'[[metric]]\nname = "{k}"\nseries = "{series}"\n' for k, series in enumerate((
+            "fluid.csv:swing[m]", "fluid.csv:fast[1]", "fluid.csv:sped[m/s]", "fluid.csv:energy", "solid.csv:swing[m]",
+            "fluid.csv:time[s]")))
+        self.assertEqual(self.faults(text), [
+            "window.toml:27: error: [[metric]] '2': fluid.csv will have no column 'sped[m/s]'; did you mean 'speed[m/s]'?",
+            "window.toml:30: error: [[metric]] '3': fluid.csv will have no column 'energy'; did you mean 'energy[J]'?",
+            "window.toml:33: error: [[metric]] '4': no run writes 'solid.csv'; did you mean 'fluid.csv'?"])
+        self.assertEqual(self.starts(), [])
+
     def test_a_chart_that_leaves_an_axis_open(self):
         faults = self.faults(TWO_AXES + '[[chart]]\nx = "x"\ny = "wall_time"\n')
         self.assertEqual(faults, ["window.toml:19: error: the chart leaves the axis 'wait' open: draw it as 'lines' or "

@@ -24,6 +24,7 @@ class Metric:
     unit: str
     scale: float
     series: str | None = None  # "fluid.csv:front_x[m]"
+    line: int | None = None  # of the file, where the series is named
     take: str = "last"
     shares: list[float] = field(default_factory=lambda: [0.0, 1.0])  # of the simulated time
     level: float | None = None  # about which the series swings
@@ -66,7 +67,7 @@ def read(table, study, earlier):
 
 
 def _read_series(table, metric, series):
-    metric.series = series
+    metric.series, metric.line = series, table.document.line(table.path, "series")
     metric.take = table.get("take", str, "last", allowed=TAKES)
     metric.shares = table.numbers("shares", 2, [0.0, 1.0])
     if metric.shares[0] < 0 or metric.shares[1] > 1:
