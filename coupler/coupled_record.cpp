@@ -121,7 +121,7 @@ void CoupledRecord::check_added_mass(const Window& window, const InterfaceLoad& 
   const auto ratio = layer_.mass_ratio(load);
   if (!ratio) return;
   state_.lightest_layer = std::min(state_.lightest_layer, *ratio);
-  const double least = least_mass_ratio(settings_.coupling.scheme, fluid_, window.dt);
+  const double least = least_mass_ratio(settings_.coupling.scheme, settings_.solid, fluid_, window.dt);
   if (*ratio >= least || state_.warned_of_mass) return;
   log::warn("window {}: {}", window.number, too_light(*ratio, least));
   state_.warned_of_mass = true;

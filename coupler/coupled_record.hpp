@@ -25,6 +25,7 @@ struct Settings {
   double end_time = 0;                             ///< [s]
   double frame_interval = 0, series_interval = 0;  ///< [s]
   Parameters coupling = {};
+  SolidKind solid = SolidKind::elastic;
   std::filesystem::path out = {};  ///< the results folder
   Network network = {};
 };

@@ -132,6 +132,7 @@ ExitCode couple(const Options& options) {
                   .frame_interval = scene.frame_interval,
                   .series_interval = scene.series_interval,
                   .coupling = coupling,
+                  .solid = solid_kind(file),
                   .out = options.out,
                   .network = options.network},
                  checkpoints);

@@ -195,9 +195,12 @@ def describe(commands):
     """The keys of all sections; a section that several programs read is shown once."""
     seen = set()
     for command in commands.values():
-        done = subprocess.run([*command, "--describe"], stdout=subprocess.PIPE, encoding="utf-8")
+        done = subprocess.run([*command, "--describe"], capture_output=True, encoding="utf-8", errors="backslashreplace")
         if done.returncode != DONE:
-            return done.returncode
+            mistake = guests.mistake_in(done.stderr)
+            print(mistake or done.stderr.rstrip("\n"), file=sys.stderr)
+            return BAD_INPUT if mistake else done.returncode if done.returncode in MEANING else BUG
+        print(done.stderr, end="", file=sys.stderr)
         for paragraph in done.stdout.split("\n\n"):
             if paragraph.strip() and paragraph not in seen:
                 seen.add(paragraph)
