@@ -30,6 +30,9 @@ MEANING = {
 }
 FAULTS = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}  # a process's own doing
 
+# What raises the limit of the machine that ended a process so. Ours end by themselves where a file may not grow.
+LIMITS = {signal.SIGXCPU: "ulimit -t", signal.SIGXFSZ: "ulimit -f"}
+
 # What a stand is sent in the place of a signal that would leave it no choice.
 ASKS = {signal.SIGKILL: signal.SIGQUIT, signal.SIGSTOP: signal.SIGTSTP}
 
@@ -97,12 +100,13 @@ class Process:
         return self.popen.returncode
 
     def exit_code(self):
-        """A process killed from outside is a lost peer, as is one that never took part; one that crashed is a bug."""
+        """A process killed from outside is a lost peer, as is one that never took part; one that crashed is a bug, one at a
+        limit of the machine its fault."""
         if self.left_early or self.overdue:
             return PEER_LOST
         if self.status >= 0:
             return self.status if self.status in MEANING else BUG
-        return BUG if -self.status in FAULTS else PEER_LOST
+        return BUG if -self.status in FAULTS else MACHINE if -self.status in LIMITS else PEER_LOST
 
     def ask(self, number):
         """Sends a signal to its group."""
@@ -126,7 +130,8 @@ class Process:
             return f"was ended: it went on for {PATIENCE:.0f} s after the run was over"
         if self.status >= 0:
             return f"ended with exit code {self.status} ({MEANING.get(self.status, 'unknown')})"
-        return f"was killed by signal {-self.status} ({signal.strsignal(-self.status)})"
+        remedy = f"; raise '{LIMITS[-self.status]}'" if -self.status in LIMITS else ""
+        return f"was killed by signal {-self.status} ({signal.strsignal(-self.status)}){remedy}"
 
 
 def tell(line):
