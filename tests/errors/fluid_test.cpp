@@ -316,7 +316,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(FluidCheck, DoesNotLookAtTheSpaceBetweenRegionsThatAreFarApart) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(run("--check --set 'case.domain={min=[-5000,-5000],max=[5000,5000]}' --set "
-                "'fluid.region=[{name=\"near\",box={min=[0,0],max=[1,1]}},{name=\"far\",box={min=[3000,0],max=[3001,1]}}]'")
+                "'fluid.region=[{name=\"near\",box={min=[0,0],max=[1,1]}},{name=\"far\",box={min=[3000,0],"
+                "max=[3001,1]}}]'")
                 .code,
             0);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10)) << "31 s where it does";
