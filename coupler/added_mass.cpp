@@ -67,7 +67,22 @@ std::optional<double> SurfaceLayer::mass_ratio(const InterfaceLoad& load) const 
   return mass / area / row_;
 }
 
-double least_mass_ratio(SchemeKind scheme, const FluidTraits& fluid, double dt) {
+SolidKind solid_kind(const CaseFile& file) {
+  if (file.value<std::string>("solid.formulation") != "rigid") return SolidKind::elastic;
+  const auto is_held = [&](const std::string& mounting) {
+    int fixed = 0;  // of x, y and the angle, each named once
+    while (file.value<std::string>(fmt::format("{}.fixed[{}]", mounting, fixed))) ++fixed;
+    return fixed == dim + 1;
+  };
+  int bodies = 0, held = 0;
+  for (; file.value<std::string>(fmt::format("solid.body[{}].name", bodies)); ++bodies)
+    held += is_held(fmt::format("solid.body[{}].mounting", bodies)) ? 1 : 0;
+  const bool all = bodies > 0 ? held == bodies : is_held("solid.mounting");
+  return all ? SolidKind::held : SolidKind::rigid;
+}
+
+double least_mass_ratio(SchemeKind scheme, SolidKind solid, const FluidTraits& fluid, double dt) {
+  if (solid == SolidKind::held || (solid == SolidKind::rigid && scheme == SchemeKind::serial_robin)) return 0;
   const double courant = fluid.spacing > 0 ? fluid.sound_speed * dt / fluid.spacing : 0.0;
   const double width =
       fluid.spacing > 0 ? std::max(1.0, fluid.reach / (measured_reach * fluid.spacing)) : 1.0;

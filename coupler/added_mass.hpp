@@ -4,7 +4,10 @@
 ///
 ///     serial     m_s > (C/2)^2 rho_f dx, but at least 0.37 rho_f dx      C = c_f T/dx, T the window's length
 ///     parallel   m_s > (C/2)^2 rho_f dx, but at least 0.9 rho_f dx
-///     Robin      m_s > 0.03 rho_f dx
+///     Robin      m_s > 0.03 rho_f dx, and a rigid body any mass, whose equations of motion hold the
+///     impedance
+///
+/// A body that nothing can move has no window to grow in.
 ///
 /// The law is that of a mass on a spring of stiffness rho_f c_f^2/dx, integrated explicitly (van Brummelen
 /// 2009: in a compressible fluid the added mass is in proportion to the window). The lower bounds are
@@ -15,6 +18,7 @@
 
 #include <optional>
 
+#include "common/case/case_file.hpp"
 #include "common/link/participant.hpp"
 #include "coupler/parameters.hpp"
 
@@ -48,8 +52,12 @@ class SurfaceLayer {
   double row_ = 0;            ///< rho_f dx [kg/m2]
 };
 
+/// How the solid of a case moves under a load.
+enum class SolidKind { elastic, rigid, held };
+SolidKind solid_kind(const CaseFile& file);
+
 /// The least such ratio that `scheme` bears with windows of `dt` [s]; 0 for the implicit scheme.
-double least_mass_ratio(SchemeKind scheme, const FluidTraits& fluid, double dt);
+double least_mass_ratio(SchemeKind scheme, SolidKind solid, const FluidTraits& fluid, double dt);
 
 /// How to say that a layer is too light: both ratios, and what helps.
 std::string too_light(double ratio, double least);

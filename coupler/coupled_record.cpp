@@ -121,15 +121,16 @@ void CoupledRecord::check_added_mass(const Window& window, const InterfaceLoad& 
   const auto ratio = layer_.mass_ratio(load);
   if (!ratio) return;
   state_.lightest_layer = std::min(state_.lightest_layer, *ratio);
-  const double least = least_mass_ratio(settings_.coupling.scheme, fluid_, window.dt);
+  const double least = least_mass_ratio(settings_.coupling.scheme, settings_.solid, fluid_, window.dt);
   if (*ratio >= least || state_.warned_of_mass) return;
   log::warn("window {}: {}", window.number, too_light(*ratio, least));
   state_.warned_of_mass = true;
 }
 
-void CoupledRecord::write_series(double time, const Window& window, const Exchange& done) {
+std::vector<Observation> CoupledRecord::row_of(const Parameters& coupling, const Window& window,
+                                               const Exchange& done, const Row& since,
+                                               const WorkAudit& work) {
   const Vec force = sum_of(done.applied.force) + sum_of(done.applied.friction_force);
-  const Row& since = state_.row;
   const double windows = since.windows;
   std::vector<Observation> row{{"dt", "s", window.dt},
                                {"window", "1", static_cast<double>(window.number)},
@@ -137,24 +138,28 @@ void CoupledRecord::write_series(double time, const Window& window, const Exchan
                                {"fluid_compute", "s", since.fluid_compute / windows},
                                {"solid_compute", "s", since.solid_compute / windows},
                                {"impulse_error", "1", since.impulse_error},
-                               {"work_given", "J/m", work_.given()},
-                               {"work_taken", "J/m", work_.taken()},
+                               {"work_given", "J/m", work.given()},
+                               {"work_taken", "J/m", work.taken()},
                                {"interface_force_x", "N/m", force.x()},
                                {"interface_force_y", "N/m", force.y()},
                                {"fluid_kinetic_energy", "J/m", done.fluid.health.kinetic_energy},
                                {"fluid_potential_energy", "J/m", done.fluid.health.potential_energy},
                                {"solid_kinetic_energy", "J/m", done.solid.health.kinetic_energy},
                                {"solid_potential_energy", "J/m", done.solid.health.potential_energy}};
-  if (settings_.coupling.scheme == SchemeKind::serial_robin) {
+  if (coupling.scheme == SchemeKind::serial_robin) {
     const Vec in_flight = sum_of(done.solid.motion.impulse);
     row.push_back({"impulse_in_flight_x", "N.s/m", in_flight.x()});
     row.push_back({"impulse_in_flight_y", "N.s/m", in_flight.y()});
   }
-  if (settings_.coupling.windows_repeat()) {
+  if (coupling.windows_repeat()) {
     row.push_back({"iterations", "1", static_cast<double>(since.iterations)});
     row.push_back({"residual", "1", since.residual});
   }
-  series_.write(time, row);
+  return row;
+}
+
+void CoupledRecord::write_series(double time, const Window& window, const Exchange& done) {
+  series_.write(time, row_of(settings_.coupling, window, done, state_.row, work_));
   state_.row = {};
 }
 

@@ -25,6 +25,7 @@ struct Settings {
   double end_time = 0;                             ///< [s]
   double frame_interval = 0, series_interval = 0;  ///< [s]
   Parameters coupling = {};
+  SolidKind solid = SolidKind::elastic;
   std::filesystem::path out = {};  ///< the results folder
   Network network = {};
 };
@@ -59,6 +60,11 @@ class CoupledRecord {
     double impulse_error = 0, residual = 0;                       ///< largest
     int iterations = 0;                                           ///< largest
   };
+  /// Of the series, under `coupling`: what the exchange `done` of the last `window` and those since the row
+  /// before come to.
+  static std::vector<Observation> row_of(const Parameters& coupling, const Window& window,
+                                         const Exchange& done, const Row& since, const WorkAudit& work);
+
   struct State {
     ExchangeAudit::State audit;  ///< this and the next of the parts, when a checkpoint is written
     WorkAudit::State work;

@@ -8,6 +8,7 @@
 #include "common/error/ending.hpp"
 #include "common/link/coupler_link.hpp"
 #include "common/link/identity.hpp"
+#include "common/loop/series_columns.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/output/results.hpp"
 #include "common/run/log.hpp"
@@ -113,10 +114,16 @@ ExitCode couple(const Options& options) {
     return ExitCode::done;
   }
   check_folder(file, options.out);
+  const SeriesColumns series =
+      series_columns("coupler", CoupledRecord::row_of(coupling, {}, {}, {}, WorkAudit({})));
+  check_references(file, scene, series);
   file.throw_if_faulty();
   for (const auto& beyond : stability_warnings(file, coupling)) log::warn("{}", beyond);
   check_identity(options.network, "coupler");
-  if (options.check) return ExitCode::done;
+  if (options.check) {
+    if (options.columns) print(listed(series));
+    return ExitCode::done;
+  }
 
   const RunLock lock(options.out);
   claim_folder(options, "coupler");
@@ -127,6 +134,7 @@ ExitCode couple(const Options& options) {
                   .frame_interval = scene.frame_interval,
                   .series_interval = scene.series_interval,
                   .coupling = coupling,
+                  .solid = solid_kind(file),
                   .out = options.out,
                   .network = options.network},
                  checkpoints);

@@ -72,7 +72,8 @@ std::vector<std::string> stability_warnings(const CaseFile& file, const Paramete
         "fluid_steps_per_window = {}: above {} the force on the interface may ring and the motion be wrong "
         "without a failure; compare with 1, see cases/pushed_column/window_map.toml",
         coupling.fluid_steps_per_window, largest_calm_window));
-  const bool rigid = file.value<std::string>("solid.formulation").value_or("") == "rigid";
+  const SolidKind solid = solid_kind(file);
+  const bool rigid = solid != SolidKind::elastic;
   if (lags && !rigid && !file.has("solid.artificial_viscosity") && !file.has("solid.damping"))
     said.emplace_back(
         "nothing damps the solid: the lag of a window feeds modes that turn by a quarter cycle and more in "
@@ -90,8 +91,8 @@ std::vector<std::string> stability_warnings(const CaseFile& file, const Paramete
   for (int k = 0; const auto lighter = file.value<double>(fmt::format("solid.material[{}].density", k)); ++k)
     density = std::min(density, *lighter);
   const double ratio = density * depth / (fluid.density * fluid.spacing);
-  const double least =
-      least_mass_ratio(coupling.scheme, fluid, foreseen_window(file, fluid, coupling.fluid_steps_per_window));
+  const double least = least_mass_ratio(coupling.scheme, solid, fluid,
+                                        foreseen_window(file, fluid, coupling.fluid_steps_per_window));
   if (ratio > 0 && ratio < least) said.push_back(too_light(ratio, least));
   return said;
 }

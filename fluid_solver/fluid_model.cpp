@@ -117,6 +117,15 @@ void FluidModel::attach(const Interface& interface, bool rigid) {
   state_.balance = EnergyBalance(powers());
 }
 
+std::vector<Observation> FluidModel::observe_beside_solid() {
+  save();
+  attach({});
+  std::vector<Observation> row = observe();
+  restore();
+  saved_.reset();
+  return row;
+}
+
 MovingInterface& FluidModel::interface() {
   return std::get<MovingInterface>(state_.boundaries.back().motion);
 }

@@ -75,6 +75,8 @@ class FluidModel : public Solver {
   }
   /// `rigid`: of a solid that does not deform, and may turn by any angle.
   void attach(const Interface& interface, bool rigid = false);
+  /// What it will report once a solid is attached, whose particles nobody has told yet.
+  std::vector<Observation> observe_beside_solid();
   void begin_window(const InterfaceMotion& motion, double dt);
   /// The mean load over the window, with the impedance if the motion asked for it.
   InterfaceLoad take_load();

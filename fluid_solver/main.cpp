@@ -8,6 +8,7 @@
 #include "common/link/identity.hpp"
 #include "common/link/participant.hpp"
 #include "common/loop/outlook.hpp"
+#include "common/loop/series_columns.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/log.hpp"
@@ -230,6 +231,7 @@ ExitCode solve(const Options& options) {
   }
   check_folder(file, options.out);
   for (const auto& [key, message] : fluid::axis_faults(parameters, scene)) file.fault(key, message);
+  file.throw_if_faulty();  // open ends have as many rows as there are spacings
   if (parameters.has_open_ends())
     for (const auto& [key, message] : fluid::open_end_faults(parameters, scene, solid_parts(file, scene)))
       file.fault(key, message);
@@ -258,11 +260,10 @@ ExitCode solve(const Options& options) {
   check_start(model, "[fluid]");
   check_enclosed(model, parameters);
   model.record_surface(options.out);  // which has columns
-  check_columns(model, "[fluid]");
-  check_series(file, scene, "fluid", model, [coupled = file.has("solid")](const std::string& column) {
-    return coupled &&
-           (column.find("interface") != std::string::npos || column.find("walls") != std::string::npos);
-  });
+  check_columns(model.observe(), "[fluid]");
+  const SeriesColumns series =
+      series_columns("fluid", file.has("solid") ? model.observe_beside_solid() : model.observe());
+  check_references(file, scene, series);
   file.throw_if_faulty();
   warn_of_start(file, scene, parameters, model);
   check_identity(options.network, "fluid");
@@ -271,6 +272,7 @@ ExitCode solve(const Options& options) {
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
     for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
     if (options.outlook) tell_outlook(model, scene.end_time, twin, real_scene);
+    if (options.columns) print(listed(series));
     return ExitCode::done;
   }
   if (file.has("solid"))

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t warned_one_by_one = 5;
 
 std::string table(const std::vector<DetachedParticle>& particles) {
-  std::string text = "time[s],particle[1],mass[kg/m],start_x[m],start_y[m],x[m],y[m]\n";
+  std::string text = fmt::format("{}\n", fmt::join(DetachedList::columns().names, ","));
   for (const auto& p : particles)
     text += fmt::format("{},{},{},{},{},{},{}\n", p.time, p.particle, p.mass, p.start[0], p.start[1],
                         p.position[0], p.position[1]);
@@ -22,6 +22,11 @@ std::string table(const std::vector<DetachedParticle>& particles) {
 }
 
 }  // namespace
+
+SeriesColumns DetachedList::columns() {
+  return {"detached.csv",
+          {"time[s]", "particle[1]", "mass[kg/m]", "start_x[m]", "start_y[m]", "x[m]", "y[m]"}};
+}
 
 DetachedList::DetachedList(const std::filesystem::path& out) : path_(out / "detached.csv") {
   std::filesystem::create_directories(out);

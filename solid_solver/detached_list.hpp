@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/loop/series_columns.hpp"
 #include "solid_solver/detachment.hpp"
 
 namespace toryu::solid {
 
 class DetachedList {
  public:
+  static SeriesColumns columns();
   explicit DetachedList(const std::filesystem::path& out);
   /// Writes all that have come off so far, and warns in the log: of the first few one by one, then
   /// whenever they have doubled.

@@ -8,6 +8,7 @@
 #include "common/link/identity.hpp"
 #include "common/link/participant.hpp"
 #include "common/loop/outlook.hpp"
+#include "common/loop/series_columns.hpp"
 #include "common/loop/time_loop.hpp"
 #include "common/output/atomic_file.hpp"
 #include "common/run/log.hpp"
@@ -133,13 +134,17 @@ void compute_coupled(const Setting& run) {
 }
 
 /// What --check knows before a step is made.
-void tell_start(const Setting& run) {
+void tell_start(const Setting& run, const SeriesColumns& series) {
   write_start(run.options.start_frames, "solid", run.solid);
   if (!run.file.has("fluid"))  // whose program tells them
     for (const auto& line : motion_lines(run.file, run.scene)) print("[case]: " + line + '\n');
   if (run.parameters.has_rigid_bodies())  // whose masses and frequencies are known beforehand
     for (const auto& term : run.solid.active_terms())
       print(fmt::format("[solid]: {}: {}\n", term.name, term.parameters));
+  if (run.options.columns) {
+    print(listed(series));
+    if (run.parameters.detachment) print(listed(DetachedList::columns()));
+  }
   if (run.options.outlook) print(outlook("[solid]", run.solid, run.scene.end_time).text);
 }
 
@@ -180,8 +185,9 @@ ExitCode solve(const Options& options) {
       thread_count(options, static_cast<std::size_t>(counts[0].second), particles_per_thread));
   const auto solid = make_solid(parts, scene);
   check_start(*solid, "[solid]");
-  check_columns(*solid, "[solid]");
-  check_series(file, scene, "solid", *solid);
+  check_columns(solid->observe(), "[solid]");
+  const SeriesColumns series = series_columns("solid", solid->observe());
+  check_references(file, scene, series);
   file.throw_if_faulty();
   for (const Part& part : parts)
     for (const auto& beyond : stability_warnings(part.parameters)) log::warn("{}", beyond);
@@ -191,7 +197,7 @@ ExitCode solve(const Options& options) {
   check_identity(options.network, "solid");
   const Setting run{options, file, scene, parameters, std::move(counts), *solid};
   if (options.check) {
-    tell_start(run);
+    tell_start(run, series);
     return ExitCode::done;
   }
   tell_bodies(parts);

@@ -152,7 +152,11 @@ void SolidModel::check(double time) const {
         fail(i, time, "speed", fmt::format("{:.4g} m/s", at(state_.v, i).norm()),
              fmt::format("{:.4g} m/s", speed));
       if (!(x.array() >= domain_.min.array()).all() || !(x.array() <= domain_.max.array()).all())
-        fail(i, time, "position", fmt::format("({:.4g}, {:.4g}) m", x[0], x[1]), "the domain of the case");
+        fail(i, time, "position", fmt::format("({:.4g}, {:.4g}) m", x[0], x[1]),
+             fmt::format(
+                 "the domain of the case, ({:g}, {:g}) to ({:g}, {:g}) m; {}, or a larger [case] domain "
+                 "lets it go on",
+                 domain_.min[0], domain_.min[1], domain_.max[0], domain_.max[1], what_holds()));
     }
   }
   check_strain(time);

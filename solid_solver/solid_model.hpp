@@ -162,6 +162,8 @@ class SolidModel : public Solid {
   Vec momentum() const;                   ///< [N.s/m]
   /// Throws if the strain of a particle is beyond its limit.
   virtual void check_strain(double time) const = 0;
+  /// What of a case keeps such a body in its domain.
+  virtual std::string_view what_holds() const { return "a [[solid.clamp]] holds it"; }
   [[noreturn]] void fail(std::size_t slot, double time, const std::string& quantity, const std::string& value,
                          const std::string& limit) const;
   /// Stores the particles in another order: slot k receives what stood in slot order[k]. A formulation that

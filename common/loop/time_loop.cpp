@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "common/case/nearest_word.hpp"
 #include "common/error/ending.hpp"
 #include "common/error/failure.hpp"
 #include "common/run/interruption.hpp"
@@ -70,37 +68,6 @@ void check_start(const Solver& solver, const std::string& section) {
     solver.check(0);
   } catch (const PhysicsFailure& failure) {
     throw BadInput({{.place = section, .message = std::string("cannot start: ") + failure.what()}});
-  }
-}
-
-void check_columns(const Solver& solver, const std::string& section) {
-  std::set<std::string> names;
-  for (const auto& observation : solver.observe())
-    if (!names.insert(observation.name).second)
-      throw BadInput(
-          {{.place = section,
-            .message = fmt::format("two columns of the results would be named '{}': an observer, a "
-                                   "region or a wall needs another name",
-                                   observation.name)}});
-}
-
-void check_series(CaseFile& file, const Scene& scene, const std::string& participant, const Solver& solver,
-                  const std::function<bool(const std::string& column)>& comes_later) {
-  std::vector<std::string> columns{"time[s]"};
-  for (const auto& observation : solver.observe())
-    columns.push_back(fmt::format("{}[{}]", observation.name, observation.unit));
-  const bool coupled = file.has("fluid") && file.has("solid");
-  for (std::size_t k = 0; k < scene.references.size(); ++k) {
-    const std::string& series = scene.references[k].series;
-    const auto end = series.find(".csv:");
-    const std::string of = series.substr(0, end), column = series.substr(end + 5);
-    const std::string key = fmt::format("reference.{}.series", k);
-    if (of == "coupler" ? !coupled : !file.has(of))
-      file.fault(key, fmt::format("a run of this case writes no series '{}.csv'", of));
-    if (of != participant || (comes_later && comes_later(column))) continue;
-    if (std::find(columns.begin(), columns.end(), column) == columns.end())
-      file.fault(key,
-                 fmt::format("{}.csv will have no column '{}'{}", of, column, did_you_mean(column, columns)));
   }
 }
 

@@ -66,15 +66,6 @@ void take_windows(Link& link, Solver& solver, RunRecord& record, Take&& take) {
 /// Throws BadInput, at `section` of the case, if the state at the start is beyond the limits of physics.
 void check_start(const Solver& solver, const std::string& section);
 
-/// Throws BadInput, at `section` of the case, if two numbers that the solver reports have one name.
-void check_columns(const Solver& solver, const std::string& section);
-
-/// Adds a fault of `file` for each reference over a series that no program of the case writes, or over a
-/// column that the series of `participant` ("fluid"), of which `solver` reports the numbers, does not have. A
-/// column of which `comes_later` is true may still be added.
-void check_series(CaseFile& file, const Scene& scene, const std::string& participant, const Solver& solver,
-                  const std::function<bool(const std::string& column)>& comes_later = {});
-
 /// Runs to the end time of the scene, from where `record` is; no messages, no other process. The time-step
 /// limit and the state are looked at anew every `steps_between_checks`.
 void run_alone(const Scene& scene, Solver& solver, RunRecord& record, long steps_between_checks,

@@ -19,8 +19,8 @@ struct Typed {
   std::string case_path, out, record, start_frames, end_time, threads = "0", log_level = "info";
   std::vector<std::string> overrides;
   TypedNetwork network;
-  bool check = false, outlook = false, describe = false, print_case = false, resolved = false,
-       restart = false, overwrite = false;
+  bool check = false, outlook = false, columns = false, describe = false, print_case = false,
+       resolved = false, restart = false, overwrite = false;
   bool can_checkpoint = false, version = false, help = false;
 };
 
@@ -68,6 +68,7 @@ void declare(CLI::App& app, const std::string& role, Typed& typed) {
     app.add_option("--record", typed.record, "Results of the run that is replayed")->type_name("DIR");
   app.add_flag("--check", typed.check, "Check the case, compute nothing");
   app.add_flag("--outlook", typed.outlook, "With --check: make some steps, and tell what a run would take");
+  app.add_flag("--columns", typed.columns, "With --check: list the columns of the series that a run writes");
   app.add_option("--start-frames", typed.start_frames, "With --check: write the particles at the start there")
       ->type_name("DIR");
   app.add_flag("--describe", typed.describe,
@@ -135,6 +136,7 @@ Options parse_options(const std::string& role, const std::vector<std::string>& a
   options.log_level = typed.log_level;
   options.check = typed.check;
   options.outlook = typed.check && typed.outlook;
+  options.columns = typed.check && typed.columns;
   if (typed.check) options.start_frames = typed.start_frames;
   options.describe = typed.describe;
   options.restart = typed.restart;

@@ -18,6 +18,7 @@ struct Options {
   Network network = {};                     ///< of a coupled run
   bool check = false;                       ///< read and check the case, then end
   bool outlook = false;                     ///< with `check`: tell what a run would take
+  bool columns = false;                     ///< with `check`: list the columns of the series
   std::filesystem::path start_frames = {};  ///< with `check`: where the particles at the start go, as frames
   bool describe = false;                    ///< print the parameters, then end
   bool print_case = false;                  ///< print the case as it is read, then end

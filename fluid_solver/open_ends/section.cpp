@@ -48,6 +48,9 @@ bool is_solid(const std::vector<Part>& solid, const Vec& x) {
   });
 }
 
+/// Of an open end: each is looked at.
+constexpr double most_rows = 1e6;
+
 /// Calls visit(place) in the middle of each spacing of `length`.
 template <class Visit>
 void over_rows(double length, double spacing, Visit&& visit) {
@@ -192,6 +195,14 @@ std::vector<StartFault> open_end_faults(const Parameters& p, const Scene& scene,
   if (!faults.empty()) return faults;
   for_each_end(p, [&](const std::string& key_of_end, const OpenEnd& end) {
     if (!lies_along_an_axis(end)) return;  // which has been told
+    const double rows = (end.to - end.from).norm() / p.spacing;
+    if (!(rows <= most_rows)) {
+      faults.push_back(
+          {key_of_end, fmt::format("open end '{}': the spacing of {:g} m gives it {:.1e} rows; at "
+                                   "most {:.0e} are possible",
+                                   end.name, p.spacing, rows, most_rows)});
+      return;
+    }
     const auto section = section_of(end, p);
     const auto fault = section ? Places(*section, p, scene, solid).fault() : std::string(no_side);
     if (fault) faults.push_back({key_of_end, fmt::format("open end '{}': {}", end.name, *fault)});

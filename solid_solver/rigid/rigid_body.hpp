@@ -57,6 +57,9 @@ class RigidBody final : public SolidModel {
  protected:
   /// Throws where two bodies have met.
   void check_strain(double time) const override;
+  std::string_view what_holds() const override {
+    return "a [solid.mounting], or walls by [solid.wall_contact], hold a rigid body";
+  }
   double kinetic_energy() const override;
 
  private:

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -311,6 +312,16 @@ INSTANTIATE_TEST_SUITE_P(
               "outside by "
               "= 0.025, limit the domain of the case"}),
     [](const auto& one) { return one.param.name; });
+
+TEST(FluidCheck, DoesNotLookAtTheSpaceBetweenRegionsThatAreFarApart) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(run("--check --set 'case.domain={min=[-5000,-5000],max=[5000,5000]}' --set "
+                "'fluid.region=[{name=\"near\",box={min=[0,0],max=[1,1]}},{name=\"far\",box={min=[3000,0],"
+                "max=[3001,1]}}]'")
+                .code,
+            0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10)) << "31 s where it does";
+}
 
 TEST(FluidRotation, IsRefusedWhereItsPressureIsNotKnown) {
   const std::string flow = "fluid.initial_flow={profile=\"rotation\",speed=1.0,length=1.0}";

@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const fs::path cases = CASES;
 
@@ -100,6 +101,17 @@ TEST(FluidWarnings, ABareFluidComesToRestWithoutAWord) {
   EXPECT_THAT(warnings(folder, "--out '" + (folder / "out").string() + "'"), IsEmpty());
   EXPECT_LT(last_largest_speed(folder / "out"), 0.05) << "it fell 1 % of its depth at the start, at 0.1 m/s";
   fs::remove_all(folder);
+}
+
+TEST(FluidWarnings, NameAGapThatTheFluidFallsInto) {
+  const auto of_water_from = [](const std::string& height) {
+    return warnings(cases / "hydrostatic_tank",
+                    "--check --set 'fluid.region.water.box.min=[0.0," + height + "]'");
+  };
+  EXPECT_THAT(of_water_from("0.02"),
+              HasSubstr("the fluid's region 'water' ends at y = 0.02 m, 0.4 spacings off the wall "
+                        "'floor': it does not rest on it, but moves into the gap"));
+  EXPECT_THAT(of_water_from("0.0"), Not(HasSubstr("does not rest on it")));
 }
 
 TEST(FluidWarnings, NameAJetThatIsNone) {

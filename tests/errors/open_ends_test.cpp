@@ -47,6 +47,11 @@ INSTANTIATE_TEST_SUITE_P(
             "UnknownProfile", "fluid.inlet.inlet.profile=\"parabola\"",
             "'profile' in [[fluid.inlet]] must be one of 'uniform', 'parabolic', found 'parabola'; did "
             "you mean 'parabolic'?"},
+        OpenEndFault{"NoSpacing", "fluid.spacing=inf",
+                     "'spacing' in [fluid] must be a finite number [m], found inf"},
+        OpenEndFault{
+            "TinySpacing", "fluid.spacing=1e-9",
+            "open end 'outlet': the spacing of 1e-09 m gives it 1.0e+09 rows; at most 1e+06 are possible"},
         OpenEndFault{"TwoSpeeds", "fluid.inlet.inlet.largest_speed=1",
                      "an inlet needs one of 'mean_speed', 'largest_speed' (above 0) and 'speeds'"},
         OpenEndFault{"RampAndTable", "fluid.inlet.inlet.over_time=[[0,0],[1,1]]",

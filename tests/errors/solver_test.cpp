@@ -72,8 +72,20 @@ TEST(Programs, RefuseAReferenceOverASeriesThatTheyDoNotWrite) {
   EXPECT_EQ(check(fluid, of_fluid).error,
             "--set reference.0.series=\"fluid.csv:kinetic_enery[J/m]\": error: fluid.csv will have no column "
             "'kinetic_enery[J/m]'; did you mean 'kinetic_energy[J/m]'?\n");
-  for (const auto& program : {fluid, solid}) EXPECT_EQ(check(program, of_interface).error, "");
-  EXPECT_EQ(check(solid, of_fluid).error, "");
+  for (const auto& program : {fluid, solid, coupler}) EXPECT_EQ(check(program, of_interface).error, "");
+  for (const auto& program : {solid, coupler}) EXPECT_EQ(check(program, of_fluid).error, "");
+  EXPECT_EQ(
+      check(fluid, "--set 'reference.0.series=\"fluid.csv:work_from_interfac[J/m]\"'").error,
+      "--set reference.0.series=\"fluid.csv:work_from_interfac[J/m]\": error: fluid.csv will have no column "
+      "'work_from_interfac[J/m]'; did you mean 'work_from_interface[J/m]'?\n");
+  EXPECT_EQ(check(coupler, "--set 'reference.0.series=\"coupler.csv:residual[1]\"'").error,
+            "--set reference.0.series=\"coupler.csv:residual[1]\": error: coupler.csv will have no column "
+            "'residual[1]'\n");
+  EXPECT_EQ(check(coupler,
+                  "--set 'reference.0.series=\"coupler.csv:residual[1]\"' "
+                  "--set 'coupling.scheme=\"serial_implicit\"'")
+                .error,
+            "");
 }
 
 TEST(Programs, RefuseSlipBesideASolid) {

@@ -32,6 +32,7 @@ KEYS = {"fluid.removal.preston_coefficient": 0.0,
         "fluid.step": 0.0, "fluid.k": 1.0, "fluid.islands": 1e9, "fluid.hangs": 0, "fluid.checkpoints": 0,
         "fluid.refuses": 0, "fluid.cost": 0.25, "fluid.error": 0.0, "fluid.opens": 0.0, "fluid.unsteady": 0.0,
         "fluid.sticks": 1e9}
+COLUMNS = ("time[s]", "speed[m/s]", "force_from_piston_x[N/m]", "force_from_piston_y[N/m]", "swing[m]", "energy[J]")
 HERE = pathlib.Path(__file__).resolve().parent
 case, arguments = sys.argv[1], sys.argv[2:]
 if case == "--version":
@@ -52,6 +53,9 @@ if faults:
     print(*faults, sep="\n", file=sys.stderr)
     sys.exit(2)
 if "--check" in arguments:
+    if "--columns" in arguments:
+        told = [*COLUMNS, "pressure[Pa]", *["fast[1]"] * (values["fluid.x"] == 4)]  # two that no run writes after all
+        print(*(f"fluid.csv:{column}" for column in told), sep="\n")
     sys.exit(0)
 
 signal.signal(signal.SIGINT, lambda *_: sys.exit(130))
@@ -84,7 +88,7 @@ times = [END * k / 300 for k in range(301)]
 rows = [f"{t},{values['fluid.x'] + values['fluid.y'] * t},0,{300 * values['fluid.x'] * min(t, 1.5)},"
         f"{0.9 ** t * math.sin(2 * math.pi * t / (1 + values['fluid.error']))},{1 + (10 * t if speed > 1 else 0)}"
         for t in times]
-(out / "fluid.csv").write_text("time[s],speed[m/s],force_from_piston_x[N/m],force_from_piston_y[N/m],swing[m],energy[J]\n" + "\n".join(rows))
+(out / "fluid.csv").write_text("\n".join([",".join(COLUMNS), *rows]))
 (out / "used_case.toml").write_text('[[wall]]\nname = "piston"\nmotion = { time = 0.5 }\n'
                                   '[fluid.removal]\nroughness = { initial = 2e-6, final = 5e-7, decay_depth = 1e-5 }\n')
 (out / "fluid_summary.toml").write_text(f"""participant = "fluid"

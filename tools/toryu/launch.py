@@ -161,7 +161,7 @@ def check(commands, more=()):
 def check_alone(options, case, own, others):
     """All that --check does, with the picture of the scene if that was asked for."""
     with contextlib.ExitStack() as kept:
-        more, frames = ["--outlook"], None
+        more, frames = ["--outlook", *["--columns"] * options.columns], None
         if options.picture is not None:
             frames = kept.enter_context(tempfile.TemporaryDirectory(prefix="toryu_picture_"))
             more.append(f"--start-frames={frames}")
@@ -195,9 +195,12 @@ def describe(commands):
     """The keys of all sections; a section that several programs read is shown once."""
     seen = set()
     for command in commands.values():
-        done = subprocess.run([*command, "--describe"], stdout=subprocess.PIPE, encoding="utf-8")
+        done = subprocess.run([*command, "--describe"], capture_output=True, encoding="utf-8", errors="backslashreplace")
         if done.returncode != DONE:
-            return done.returncode
+            mistake = guests.mistake_in(done.stderr)
+            print(mistake or done.stderr.rstrip("\n"), file=sys.stderr)
+            return BAD_INPUT if mistake else done.returncode if done.returncode in MEANING else BUG
+        print(done.stderr, end="", file=sys.stderr)
         for paragraph in done.stdout.split("\n\n"):
             if paragraph.strip() and paragraph not in seen:
                 seen.add(paragraph)
@@ -294,6 +297,8 @@ def main(arguments):
     case = case_of(options)
     if options.picture is not None and not options.check:
         return complain("--picture: error: goes with --check")
+    if options.columns and not options.check:
+        return complain("--columns: error: goes with --check")
     install_for_drawings(case)
     settle_replay(options, case)
     settle_folder(options, case)

@@ -30,6 +30,8 @@ def parse(arguments):
     parser.add_argument("--log-level", metavar="LEVEL")
     parser.add_argument("--lost-after", metavar="SECONDS", help=argparse.SUPPRESS)
     parser.add_argument("--check", action="store_true", help="only check the case file")
+    parser.add_argument("--columns", action="store_true", help="with --check: list the columns of the series that the run "
+                        "will write, as FILE.csv:COLUMN")
     parser.add_argument("--picture", metavar="FILE", nargs="?", const="", help="with --check: draw the scene as an SVG or, by "
                         "the ending of FILE, a PNG; default out/<case name>_scene.svg")
     parser.add_argument("--compare", metavar=("OUT_A", "OUT_B"), nargs=2, help="lay the results of two runs over each other, "

@@ -65,10 +65,16 @@ def bounds_of(case, particles):
     points = [p.points for p in particles] + [np.array(ring) for shape in case.shapes for ring in shape["rings"]]
     for number, motion in case.motions.items():
         points += [placed(ring, motion, pose) for ring in rings_of(case, number) for pose in ghosts(motion)]
+    points += [np.array([observer["point"]]) for observer in point_observers(case)]
     points = np.concatenate(points) if points else np.zeros((1, 2))
     low, high = points.min(axis=0), points.max(axis=0)
     margin = MARGIN * max(high - low) or 1.0
     return low - margin, high + margin
+
+
+def point_observers(case):
+    return [observer for side in ("fluid", "solid") for observer in
+            data.tables_of(data.table(case.content, side), "observer") if data.numbers(observer.get("point"), 2)]
 
 
 def rings_of(case, wall):
@@ -155,14 +161,11 @@ class Drawing:
             self.fill(shape["rings"], label, fill=False, zorder=5, **style)
             if label == "observer":
                 self.write_name(shape["rings"], shape["name"], COLOURS["observer"])
-        for side in ("fluid", "solid"):
-            for observer in data.tables_of(data.table(self.case.content, side), "observer"):
-                place = observer.get("point")
-                if not data.numbers(place, 2):
-                    continue
-                self.legend["observer"] = self.axes.scatter(*place, marker="x", s=45, color=COLOURS["observer"], zorder=6)
-                self.axes.annotate(str(observer.get("name", "")).replace("_", " "), place, xytext=(5, 5),
-                                   textcoords="offset points", fontsize=8, color=COLOURS["observer"], zorder=9)
+        for observer in point_observers(self.case):
+            place = observer["point"]
+            self.legend["observer"] = self.axes.scatter(*place, marker="x", s=45, color=COLOURS["observer"], zorder=6)
+            self.axes.annotate(str(observer.get("name", "")).replace("_", " "), place, xytext=(5, 5),
+                               textcoords="offset points", fontsize=8, color=COLOURS["observer"], zorder=9)
 
     def open_ends(self):
         for kind, colour in (("inlet", COLOURS["inlet"]), ("outlet", COLOURS["outlet"])):

@@ -30,6 +30,9 @@ MEANING = {
 }
 FAULTS = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}  # a process's own doing
 
+# What raises the limit of the machine that ended a process so. Ours end by themselves where a file may not grow.
+LIMITS = {signal.SIGXCPU: "ulimit -t", signal.SIGXFSZ: "ulimit -f"}
+
 # What a stand is sent in the place of a signal that would leave it no choice.
 ASKS = {signal.SIGKILL: signal.SIGQUIT, signal.SIGSTOP: signal.SIGTSTP}
 
@@ -85,6 +88,7 @@ class Process:
     pidfd: int = -1
     ended: bool = False
     asked_to_end: bool = False  # by us, so how it ended says nothing
+    overdue: bool = False  # it was ended, as the lead was done and it was not
     left_early: bool = False  # it ended as if all were done before the programs had met
     is_stand: bool = False  # for a program on another host: asked to pause and to end, not made to
     running: int = -1  # of a stand: readable when its program has ended, and it only brings here what that wrote
@@ -96,12 +100,13 @@ class Process:
         return self.popen.returncode
 
     def exit_code(self):
-        """A process killed from outside is a lost peer, as is one that never took part; one that crashed is a bug."""
-        if self.left_early:
+        """A process killed from outside is a lost peer, as is one that never took part; one that crashed is a bug, one at a
+        limit of the machine its fault."""
+        if self.left_early or self.overdue:
             return PEER_LOST
         if self.status >= 0:
             return self.status if self.status in MEANING else BUG
-        return BUG if -self.status in FAULTS else PEER_LOST
+        return BUG if -self.status in FAULTS else MACHINE if -self.status in LIMITS else PEER_LOST
 
     def ask(self, number):
         """Sends a signal to its group."""
@@ -121,9 +126,12 @@ class Process:
     def fate(self):
         if self.left_early:
             return f"ended with exit code {self.status} before it had joined the run: no participant of a coupled run"
+        if self.overdue:
+            return f"was ended: it went on for {PATIENCE:.0f} s after the run was over"
         if self.status >= 0:
             return f"ended with exit code {self.status} ({MEANING.get(self.status, 'unknown')})"
-        return f"was killed by signal {-self.status} ({signal.strsignal(-self.status)})"
+        remedy = f"; raise '{LIMITS[-self.status]}'" if -self.status in LIMITS else ""
+        return f"was killed by signal {-self.status} ({signal.strsignal(-self.status)}){remedy}"
 
 
 def tell(line):
@@ -230,10 +238,18 @@ class Run:
             self._pass_on(process)
         if process.status == 0 and self.doubt is None:
             self.doubt = time.monotonic() + GRACE
+        if process.status == 0 and process.name == self.lead:
+            self._expect_end(PATIENCE)
+            self.notice = time.monotonic() + QUIET
         if process.status != 0:
             self.failed.append(process)
-            if self.deadline is None:
-                self.deadline = time.monotonic() + GRACE
+            self._expect_end(GRACE)
+
+    def _expect_end(self, seconds):
+        """Of those that remain, unless it is expected sooner, or they were asked to end."""
+        end = time.monotonic() + seconds
+        if self.deadline is None or end < self.deadline and not self.interruptions:
+            self.deadline = end
 
     def _pass_on(self, process):
         stream = process.popen.stdout.fileno()
@@ -256,10 +272,11 @@ class Run:
 
     def _tell_who_is_waited_for(self):
         self.notice = None
-        rest = [p.name for p in self.processes if not p.ended]
+        rest = [p.name for p in self.processes if not (p.ended if self.interruptions else p.is_over())]
         if rest:
-            tell(f"waiting for {', '.join(rest)} to write a last checkpoint, for {PATIENCE:.0f} s at most; Ctrl-C again "
-                 "ends them at once")
+            what = ("to write a last checkpoint, for {} s at most; Ctrl-C again ends them at once" if self.interruptions else
+                    "to end, for {} s at most: the run is over")
+            tell(f"waiting for {', '.join(rest)} {what.format(round(PATIENCE))}")
 
     def _look_for_absent(self):
         """A program that is done before the programs have met leaves the others to wait in vain."""
@@ -277,6 +294,8 @@ class Run:
             self._signal(rest, signal.SIGKILL)
             self.deadline = None
         else:
+            for process in rest:
+                process.overdue = not self.failed and not self.interruptions
             self._signal(rest, signal.SIGTERM)
             self.deadline = time.monotonic() + LAST_PATIENCE
 

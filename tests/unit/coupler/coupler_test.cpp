@@ -180,6 +180,8 @@ TEST(StabilityWarnings, WeighARigidBodyAsAWhole) {
   const std::string rigid = "formulation = \"rigid\"";
   EXPECT_TRUE(said_of(200, serial_explicit(), "", rigid).empty()) << "it has no modes that a lag could feed";
   EXPECT_THAT(said_of(180, serial_explicit(), "", rigid), testing::SizeIs(1));
+  EXPECT_TRUE(said_of(180, serial_explicit(), "", rigid + "\nmounting.fixed = ['x', 'y', 'angle']").empty());
+  EXPECT_TRUE(said_of(0.1, Parameters(), "", rigid).empty()) << "Robin bears any rigid mass";
   const Folder folder;
   std::ofstream(folder.path / "case.toml")
       << "[fluid]\ndensity = 1000\nsound_speed = 20\nspacing = 0.01\nsmoothing_ratio = 1.25\n"
@@ -187,6 +189,23 @@ TEST(StabilityWarnings, WeighARigidBodyAsAWhole) {
          "[[solid.region]]\nbox = { min = [0, 0], max = [1, 1] }\n";
   EXPECT_TRUE(stability_warnings(CaseFile(folder.path, {}), serial_explicit()).empty())
       << "14 rows, of which the kernel sees two";
+}
+
+TEST(StabilityWarnings, KnowABodyThatNothingMoves) {
+  const auto kind_of = [](const std::string& solid) {
+    const Folder folder;
+    std::ofstream(folder.path / "case.toml") << solid;
+    return solid_kind(CaseFile(folder.path, {}));
+  };
+  const std::string all = "mounting.fixed = ['x', 'angle', 'y']\n", some = "mounting.fixed = ['x', 'y']\n";
+  const std::string rigid = "[solid]\nformulation = 'rigid'\n", left = "[[solid.body]]\nname = 'left'\n",
+                    right = "[[solid.body]]\nname = 'right'\n";
+  EXPECT_EQ(kind_of("[solid]\nformulation = 'total_lagrangian'\n"), SolidKind::elastic);
+  EXPECT_EQ(kind_of(rigid), SolidKind::rigid);
+  EXPECT_EQ(kind_of(rigid + some), SolidKind::rigid);
+  EXPECT_EQ(kind_of(rigid + all), SolidKind::held);
+  EXPECT_EQ(kind_of(rigid + left + all + right + some), SolidKind::rigid);
+  EXPECT_EQ(kind_of(rigid + left + all + right + all), SolidKind::held);
 }
 
 TEST(StabilityWarnings, SayNothingOfWhatTheyDoNotKnow) {

@@ -165,13 +165,17 @@ TEST(AddedMass, IsOfWhatLiesBehindTheFaceAndNotBeside) {
 
 TEST(AddedMass, HasALimitByScheme) {
   FluidTraits water{.density = 1000, .sound_speed = 20, .spacing = 0.01};
-  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, water, 1e-4), 0.37);
-  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, water, 1e-3), 1);  // C = 2
-  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, water, 1e-4), 0.9);
-  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_robin, water, 1e-3), 0.03);
-  EXPECT_EQ(least_mass_ratio(SchemeKind::serial_implicit, water, 1e-3), 0);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, SolidKind::elastic, water, 1e-4), 0.37);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, SolidKind::elastic, water, 1e-3),
+                   1);  // C = 2
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, SolidKind::elastic, water, 1e-4), 0.9);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_robin, SolidKind::elastic, water, 1e-3), 0.03);
+  EXPECT_EQ(least_mass_ratio(SchemeKind::serial_implicit, SolidKind::elastic, water, 1e-3), 0);
+  EXPECT_EQ(least_mass_ratio(SchemeKind::serial_robin, SolidKind::rigid, water, 1e-3), 0);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::serial_explicit, SolidKind::rigid, water, 1e-4), 0.37);
+  EXPECT_EQ(least_mass_ratio(SchemeKind::parallel_explicit, SolidKind::held, water, 1e-4), 0);
   water.reach = 0.05;  // twice as far as that with which they were measured
-  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, water, 1e-4), 1.8);
+  EXPECT_DOUBLE_EQ(least_mass_ratio(SchemeKind::parallel_explicit, SolidKind::elastic, water, 1e-4), 1.8);
 }
 
 }  // namespace

@@ -82,6 +82,10 @@ class Mistakes(Launch):
         for options in ((), ("--check",)):
             self.assert_refused(":2: error: SyntaxError: expected ':'", *options)
 
+    def test_told_by_a_description_too(self):
+        self.write("#!/usr/bin/python3", "import no_such_module")
+        self.assert_refused(":2: error: ModuleNotFoundError: No module named 'no_such_module'", "--describe")
+
     def test_in_how_it_is_encoded(self):
         self.guest.write_bytes(b"#!/usr/bin/python3\n'\xff'\n")
         self.guest.chmod(0o755)

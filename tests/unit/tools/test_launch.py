@@ -10,6 +10,8 @@ import unittest
 
 from launch_case import NAMES, Launch
 
+from toryu import processes
+
 
 class WhatIsStarted(Launch):
     def test_a_coupled_case_starts_three_with_the_options(self):
@@ -128,6 +130,11 @@ class Failures(Launch):
         done = self.launch()
         self.assertEqual(done.returncode, 4)
         self.assertIn("solid_solver was killed by signal 9 (Killed)", done.stderr)
+
+    def test_a_limit_of_the_machine_is_its_fault(self):
+        for number, words in ((24, "CPU time limit exceeded); raise 'ulimit -t'"), (25, "File size limit exceeded); raise 'ulimit -f'")):
+            run = processes.Run({"fluid_solver": ["bash", "-c", f"kill -{number} $$"]}, "fluid_solver", os.environ)
+            self.assertEqual(run(), (5, f"fluid_solver was killed by signal {number} ({words}"))
 
     def test_a_crash_is_a_bug(self):
         self.plan(coupler="wait 0.2; end 4", fluid="kill 11", solid="end 4")

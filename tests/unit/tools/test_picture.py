@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 from toryu import PROGRAMS, picture
-from toryu.case import resolve
+from toryu.case import Case, resolve
 
 CASES = pathlib.Path(__file__).resolve().parents[3] / "cases"
 
@@ -51,6 +51,15 @@ class Picture(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         text = (self.folder / "scene.svg").read_text()
         self.assertEqual([text.count(f">{name}<") for name in ("inlet", "outlet")], [2, 2], "name and legend of each")
+
+    def test_it_reaches_as_far_as_an_observer(self):
+        for fluid, solid in (([], []), ([[9, -7]], []), ([[9, -7], [-3, 0.5]], [[0, 5]])):
+            content = {side: {"observer": [{"point": point} for point in points]}
+                       for side, points in (("fluid", fluid), ("solid", solid))}
+            case = Case("coupled", pathlib.Path("case.toml"), "case", [], content)
+            drawn = np.array([*fluid, *solid, [0.0, 0.0], [1.0, 1.0]])
+            low, high = picture.bounds_of(case, [picture.Particles("fluid", drawn[-2:], 0.1)])
+            self.assertTrue((low < drawn.min(axis=0)).all() and (high > drawn.max(axis=0)).all(), (low, high))
 
     def test_what_is_wrong_is_told(self):
         (self.folder / "folder.svg").mkdir()

@@ -85,6 +85,29 @@ answer = { wanted_depth = 1e-6, pressure_at_most = -1 }
         self.assertEqual(self.faults(TWO_AXES, HEAD + "set = { fluid.z = 1 }\n"),
                          ["window.toml:4: error: [study] set: --set fluid.z=1: error: unknown key 'z' in [fluid]"])
 
+    def test_series_that_no_run_writes(self):
+        text = TWO_AXES + "".join(f'[[metric]]\nname = "{k}"\nseries = "{series}"\n' for k, series in enumerate((
+            "fluid.csv:swing[m]", "fluid.csv:fast[1]", "fluid.csv:sped[m/s]", "fluid.csv:energy", "solid.csv:swing[m]",
+            "fluid.csv:time[s]")))
+        self.assertEqual(self.faults(text), [
+            "window.toml:27: error: [[metric]] '2': fluid.csv will have no column 'sped[m/s]'; did you mean 'speed[m/s]'?",
+            "window.toml:30: error: [[metric]] '3': fluid.csv will have no column 'energy'; did you mean 'energy[J]'?",
+            "window.toml:33: error: [[metric]] '4': no run writes 'solid.csv'; did you mean 'fluid.csv'?"])
+        self.assertEqual(self.starts(), [])
+
+    def test_summaries_that_no_run_leaves(self):
+        text = TWO_AXES + "".join(f'[[metric]]\nname = "{k}"\nsummary = "{path}"\n' for k, path in enumerate((
+            "fluid.figures.anything", "fluid.steps", "flud.steps", "fluid", "fluid.wall_tim", "fluid.figures", "fluid.steps.all")))
+        example = ("'summary' must be PARTICIPANT.KEY, such as 'fluid.figures.largest_speed', the participant one of 'fluid', "
+                   "'solid', 'coupler', found")
+        faults = self.faults(text)
+        self.assertEqual(faults[:2], [f"window.toml:27: error: {example} 'flud.steps'; did you mean 'fluid'?",
+                                      f"window.toml:30: error: {example} 'fluid'"])
+        self.assertEqual([fault.partition("; there are")[0] for fault in faults[2:]], [
+            "window.toml:33: error: a summary has no number 'wall_tim'; did you mean 'wall_time'?",
+            "window.toml:36: error: a summary has no number 'figures'",
+            "window.toml:39: error: a summary has no number 'steps.all'"])
+
     def test_a_chart_that_leaves_an_axis_open(self):
         faults = self.faults(TWO_AXES + '[[chart]]\nx = "x"\ny = "wall_time"\n')
         self.assertEqual(faults, ["window.toml:19: error: the chart leaves the axis 'wait' open: draw it as 'lines' or "

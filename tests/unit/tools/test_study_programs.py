@@ -5,12 +5,13 @@ import unittest
 from toryu_testing.study_case import Study
 
 AXIS = '[[axis]]\nname = "x"\nvalues = [1, 2]\nkeys = ["fluid.x"]\n'
+METRIC = '[[metric]]\nname = "end"\nseries = "fluid.csv:speed[m/s]"\n'  # which nobody can tell beforehand
 
 
 class Programs(Study):
     def setUp(self):
         super().setUp()
-        self.write(AXIS)
+        self.write(AXIS + METRIC)
         self.mine = self.folder / "mine.py"
         text = (self.bin / "fluid_solver").read_text()
         first, rest = text.split("\n", 1)

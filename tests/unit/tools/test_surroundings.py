@@ -1,6 +1,8 @@
 """The launcher in surroundings that are against it: closed, full and broken streams, signals, terminals, settings of
 Python, file systems without locks."""
 
+import contextlib
+import io
 import os
 import pathlib
 import pty
@@ -11,10 +13,11 @@ import sys
 import termios
 import time
 import unittest
+from unittest import mock
 
 from launch_case import Launch
 
-from toryu import program
+from toryu import processes, program
 
 NO_LOCKS = os.environ.get("NO_LOCKS")  # a library in whose sight no file system has locks
 
@@ -167,6 +170,18 @@ class Faults(Surroundings):
     def test_a_program_that_is_done_after_the_run_began_may_be_the_first(self):
         self.plan(coupler="write used_case.toml met; wait 2")
         self.assertEqual(self.launch("--no-report").returncode, 0)
+
+    def test_a_program_that_goes_on_when_the_run_is_over_is_ended(self):
+        ended = (4, "fluid_solver was ended: it went on for 0 s after the run was over")
+        for fluid, end in (("", ended), ("trap 'exit 0' TERM; ", (0, "")), ("trap '' TERM; ", ended)):
+            commands = {"coupler": ["true"], "fluid_solver": ["bash", "-c", f"{fluid}while :; do sleep 0.01; done"]}
+            with mock.patch.multiple(processes, PATIENCE=0.5, QUIET=0.1, LAST_PATIENCE=0.5), \
+                    contextlib.redirect_stderr(io.StringIO()) as told:
+                start = time.monotonic()
+                code, said = processes.Run(commands, "coupler", os.environ)()
+            self.assertLess(time.monotonic() - start, 10)
+            self.assertIn("waiting for fluid_solver to end, for 0 s at most: the run is over\n", told.getvalue())
+            self.assertEqual((code, said), end)
 
     def test_a_program_that_is_none_is_refused(self):
         text = self.folder / "notes"

@@ -132,7 +132,7 @@ def run(options):
             print(f"{number_of_runs(study, make, known)}: where the next ones lie depends on these")
         program.must_be_printed()
         return DONE
-    checks.settings(study, runs, [s for s in known if s.key not in done], options.set)
+    checks.settings(study, runs, [s for s in known if s.key not in done], done.values(), options.set)
     if study.recession and known:
         study.recession.longest = checks.longest(study, runs, known[0], recession.LONGEST)
     if options.check:

@@ -9,14 +9,15 @@ import shutil
 import subprocess
 from dataclasses import replace
 
-from toryu import guests
+from toryu import guests, results
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.processes import DONE
 from toryu.study import timing
-from toryu.study.document import BadStudy
+from toryu.study.document import BadStudy, did_you_mean, is_number
 
 
 LONGEST_FAULT = 1000  # characters
+COLUMN = re.compile(r"\w+\.csv:.+")  # as --columns tells it
 
 
 def others(options):
@@ -54,8 +55,9 @@ def versions(executables):
             if isinstance(path, pathlib.Path) else path for path in executables]
 
 
-def settings(study, runs, waiting, extra):
-    """Runs `--check` on settings that hold every value of every axis once; lists all faults."""
+def settings(study, runs, waiting, done, extra):
+    """Runs `--check` on settings that hold every value of every axis once; lists all faults. `done`: records of those that
+    need none."""
     refuse(study, waiting)
     seen, chosen = set(), []
     for setting in waiting:
@@ -63,19 +65,55 @@ def settings(study, runs, waiting, extra):
         if not values <= seen:
             chosen.append(setting)
             seen |= values
+    told = check(study, runs, chosen, extra)
+    for record in done:
+        told |= {f"{path.name}:{column}" for path in record.folder.glob("*.csv")
+                 for column in results.read_series(record.folder, path.stem)}
+    if missing_columns(study, told, runs):  # which may come with several values together
+        told |= check(study, runs, [setting for setting in of_each_kind(waiting) if setting not in chosen], extra)
+    if faults := missing_columns(study, told, runs):
+        raise BadStudy("\n".join(faults))
 
-    def fault(setting):
+
+def check(study, runs, chosen, extra):
+    """FILE.csv:COLUMN of all series that runs of these settings would write; raises BadStudy with all that is wrong."""
+    def ask(setting):
         try:
-            done = subprocess.run(runs.command(setting, "--check"), capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            done = subprocess.run(runs.command(setting, "--check", "--columns"), capture_output=True, text=True,
+                                  stdin=subprocess.DEVNULL)
         except OSError as error:  # more than a command line takes
-            return f"{study.path}: error: the run with {setting}: {error.strerror}"[:LONGEST_FAULT]
-        return "" if done.returncode == DONE else done.stdout + done.stderr
+            return f"{study.path}: error: the run with {setting}: {error.strerror}"[:LONGEST_FAULT], ""
+        return ("", done.stdout) if done.returncode == DONE else (done.stdout + done.stderr, "")
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        words = [text for text in pool.map(fault, chosen) if text]
-    faults = dict.fromkeys(line for text in words for line in text.splitlines() if line.strip())
+        answers = list(pool.map(ask, chosen))
+    faults = dict.fromkeys(line for words, _ in answers for line in words.splitlines() if line.strip())
     if faults:
         raise BadStudy("\n".join(placed(study, line, extra) for line in faults))
+    return {line for _, words in answers for line in words.splitlines() if COLUMN.fullmatch(line)}
+
+
+def of_each_kind(waiting):
+    """One of each combination of values that are no numbers: a term that is there or not, a scheme, a shape."""
+    return {tuple(v for v in setting.values.values() if not is_number(v)): setting for setting in waiting}.values()
+
+
+def missing_columns(study, told, runs):
+    """Of the metrics, what of their series no run will write, if anything is known of that. Programs of a user, and those on
+    other hosts, are not asked for theirs."""
+    faults = []
+    for metric in study.metrics if told else ():
+        if metric.series in told or not metric.series:
+            continue
+        file, _, column = metric.series.partition(":")
+        files = {series.partition(":")[0] for series in told}
+        columns = [series.partition(":")[2] for series in told if series.startswith(f"{file}:")]
+        if runs.passed_on and not columns:
+            continue
+        what = (f"{file} will have no column '{column}'{did_you_mean(column, sorted(columns))}" if columns else
+                f"no run writes '{file}'{did_you_mean(file, sorted(files))}")
+        faults.append(f"{study.path}{f':{metric.line}' if metric.line else ''}: error: [[metric]] '{metric.name}': {what}")
+    return faults
 
 
 def content(study, setting):

@@ -24,6 +24,7 @@ class Metric:
     unit: str
     scale: float
     series: str | None = None  # "fluid.csv:front_x[m]"
+    line: int | None = None  # of the file, where the series is named
     take: str = "last"
     shares: list[float] = field(default_factory=lambda: [0.0, 1.0])  # of the simulated time
     level: float | None = None  # about which the series swings
@@ -48,7 +49,9 @@ def read(table, study, earlier):
         table.fault(f"{table.name} needs one of {one_of(SOURCES)}, found {one_of(given) if given else 'none'}")
     metric = Metric(name, table.get("unit", str, ""), scale)
     of_run = study.of_run()
-    metric.summary, metric.run = table.get("summary", str, None), table.get("run", str, None, allowed=of_run)
+    metric.run = table.get("run", str, None, allowed=of_run)
+    if path := table.get("summary", str, None):
+        _read_summary(table, metric, path)
     if table.has("reference"):
         _read_reference(table, study, metric)
     if series := table.get("series", str, None):
@@ -65,8 +68,24 @@ def read(table, study, earlier):
     return metric
 
 
+def _read_summary(table, metric, path):
+    metric.summary = path
+    side, *keys = path.split(".")
+    numbers = [*results.SUMMARY, *results.VALUES]
+
+    def hint(word, allowed):
+        return "" if word in allowed else did_you_mean(word, allowed)
+
+    if side not in results.PARTICIPANTS or not keys:
+        table.fault(f"'summary' must be PARTICIPANT.KEY, such as 'fluid.figures.largest_speed', the participant one of "
+                    f"{one_of(results.PARTICIPANTS)}, found '{path}'{hint(side, results.PARTICIPANTS)}", "summary")
+    elif keys[0] not in numbers or (len(keys) == 2) != (keys[0] in results.VALUES):
+        table.fault(f"a summary has no number '{'.'.join(keys)}'{hint(keys[0], numbers)}; there are "
+                    f"{one_of([*results.SUMMARY, *(f'{key}.NAME' for key in results.VALUES)])}", "summary")
+
+
 def _read_series(table, metric, series):
-    metric.series = series
+    metric.series, metric.line = series, table.document.line(table.path, "series")
     metric.take = table.get("take", str, "last", allowed=TAKES)
     metric.shares = table.numbers("shares", 2, [0.0, 1.0])
     if metric.shares[0] < 0 or metric.shares[1] > 1:

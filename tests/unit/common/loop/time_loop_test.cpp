@@ -11,6 +11,7 @@
 
 #include "common/error/failure.hpp"
 #include "common/loop/outlook.hpp"
+#include "common/loop/series_columns.hpp"
 #include "common/run/options.hpp"
 
 namespace toryu {
@@ -252,9 +253,9 @@ class NamedSolver : public LimitedSolver {
 };
 
 TEST(Columns, NeedNamesOfTheirOwn) {
-  EXPECT_NO_THROW(check_columns(NamedSolver({"tip_x", "tip_y", "tip"}), "[body]"));
+  EXPECT_NO_THROW(check_columns(NamedSolver({"tip_x", "tip_y", "tip"}).observe(), "[body]"));
   try {
-    check_columns(NamedSolver({"tip_x", "tip_y", "tip_x"}), "[body]");
+    check_columns(NamedSolver({"tip_x", "tip_y", "tip_x"}).observe(), "[body]");
     FAIL() << "two columns of one name";
   } catch (const BadInput& error) {
     EXPECT_EQ(error.errors()[0].place, "[body]");

@@ -1,0 +1,53 @@
+#include "common/loop/series_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "common/case/nearest_word.hpp"
+#include "common/error/failure.hpp"
+
+namespace toryu {
+
+SeriesColumns series_columns(const std::string& participant, const std::vector<Observation>& observations) {
+  SeriesColumns series{participant + ".csv", {"time[s]"}};
+  for (const auto& observation : observations)
+    series.names.push_back(fmt::format("{}[{}]", observation.name, observation.unit));
+  return series;
+}
+
+void check_columns(const std::vector<Observation>& observations, const std::string& section) {
+  std::set<std::string> names;
+  for (const auto& observation : observations)
+    if (!names.insert(observation.name).second)
+      throw BadInput(
+          {{.place = section,
+            .message = fmt::format("two columns of the results would be named '{}': an observer, a "
+                                   "region or a wall needs another name",
+                                   observation.name)}});
+}
+
+void check_references(CaseFile& file, const Scene& scene, const SeriesColumns& series) {
+  const bool coupled = file.has("fluid") && file.has("solid");
+  for (std::size_t k = 0; k < scene.references.size(); ++k) {
+    const std::string& meant = scene.references[k].series;
+    const auto end = meant.find(".csv:");
+    const std::string of = meant.substr(0, end), column = meant.substr(end + 5);
+    const std::string key = fmt::format("reference.{}.series", k);
+    if (of == "coupler" ? !coupled : !file.has(of))
+      file.fault(key, fmt::format("a run of this case writes no series '{}.csv'", of));
+    if (of + ".csv" != series.file) continue;
+    if (std::find(series.names.begin(), series.names.end(), column) == series.names.end())
+      file.fault(key, fmt::format("{} will have no column '{}'{}", series.file, column,
+                                  did_you_mean(column, series.names)));
+  }
+}
+
+std::string listed(const SeriesColumns& series) {
+  std::string text;
+  for (const auto& name : series.names) text += fmt::format("{}:{}\n", series.file, name);
+  return text;
+}
+
+}  // namespace toryu
