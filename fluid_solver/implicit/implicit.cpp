@@ -17,7 +17,8 @@ constexpr double advection_share = 0.2;
 /// Unbalanced force over the driving one up to which a viscosity is taken to change with the velocity as its
 /// law says (Newton); farther off, where that may overshoot, it is kept (Picard).
 constexpr double newton_from = 0.1;
-/// Of the velocity: how far off the force is found again for its derivative. Rounding takes 1e-7 of that.
+/// Of the velocity, and that of walls where the medium is still slower: how far off the force is found again
+/// for its derivative. Rounding takes 1e-7 of that.
 constexpr double tangent_share = 1e-7;
 /// The linear solver leaves so much of the unbalanced force, which the next update of the viscosity changes
 /// by more, and at the last so much of what is tolerated.
@@ -60,6 +61,7 @@ void Implicit::advance(double dt) {
   move(state_.fluid, 0.5 * dt);
   move_boundaries(state_.time + 0.5 * dt);
   solve(dt);
+  note_surface(dt);
   count_forces(dt);
   move(state_.fluid, 0.5 * dt);
   for (std::size_t i = 0; i < state_.fluid.count; ++i) state_.fluid.rho[i] += dt * state_.fluid.drho[i];
@@ -83,7 +85,7 @@ void Implicit::solve(double dt) {
   for (double before = r.norm(); before > solver_.tolerance * driving;) {
     const bool near = before <= newton_from * driving && !overshot;
     const double wanted = last_tolerance * solver_.tolerance * driving / before;
-    const bool linear = !terms_.viscosity_varies();
+    const bool linear = !terms_.viscosity_varies() && !terms_.slides();
     correct(system, r, near && !linear ? Viscosity::renewed : Viscosity::kept,
             linear ? wanted : std::max(wanted, inner_tolerance), v, effort);
     r = system.unbalance(v, Viscosity::renewed);
@@ -102,9 +104,12 @@ void Implicit::solve(double dt) {
 
 void Implicit::correct(StepSystem& system, const StepSystem::Vector& r, Viscosity viscosity, double tolerance,
                        StepSystem::Vector& v, Effort& effort) const {
-  const double speed = v.norm();
+  const double of_walls = largest_wall_speed_ * std::sqrt(static_cast<double>(v.size()));
+  double speed = std::max(v.norm(), of_walls);
+  if (speed == 0) speed = r.norm();  // of a medium at rest that gravity pulls
   const Product product = [&](const StepSystem::Vector& x) -> StepSystem::Vector {
-    if (viscosity == Viscosity::kept) return r - system.unbalance(v + x, viscosity);  // is linear
+    if (viscosity == Viscosity::kept && !terms_.slides())
+      return r - system.unbalance(v + x, viscosity);  // is linear
     if (x.isZero(0)) return x;
     const double share = tangent_share * speed / x.norm();
     return (r - system.unbalance(v + share * x, viscosity)) / share;
@@ -129,6 +134,13 @@ void Implicit::fail_unless_solvable(double unbalance, const Effort& effort) cons
       "fluid", -1, state_.time,
       "the implicit step is not solved: unbalanced force over the driving one after " + taken,
       fmt::format("{:.3g}", unbalance), fmt::format("{:g} (fluid.implicit.tolerance)", solver_.tolerance));
+}
+
+void Implicit::note_surface(double dt) {
+  if (!state_.surface_record) return;
+  const auto timer = timers_.measure("surface of the work pieces");
+  state_.surface_record->add(state_.boundaries, state_.fluid, pressure_offset(), state_.neighbours.of_fluid(),
+                             kernel_, dt);
 }
 
 void Implicit::note_extremes() {

@@ -55,6 +55,8 @@ class Implicit final : public FluidModel {
                StepSystem::Vector& v, Effort& effort) const;
   /// Throws PhysicsFailure for a step that is still unbalanced after all that it may take.
   void fail_unless_solvable(double unbalance, const Effort& effort) const;
+  /// Adds what a step does to the work pieces to their record.
+  void note_surface(double dt);
   void note_extremes();
 
   Dynamics dynamics_;

@@ -10,8 +10,9 @@ constexpr const char* key_of_model = "fluid.model";
 
 /// Terms that are in the matrix, or act between steps.
 template <class Term>
-constexpr bool is_implicit = is_one_of<Term, BackgroundPressure, EnclosedMedium, ParticleShifting,
-                                       LaminarViscosity, PowerLaw, HerschelBulkley, Carreau>;
+constexpr bool is_implicit =
+    is_one_of<Term, BackgroundPressure, EnclosedMedium, ParticleShifting, LaminarViscosity, PowerLaw,
+              HerschelBulkley, Carreau, SlipLaw, Friction, Removal>;
 
 }  // namespace
 
@@ -38,6 +39,8 @@ std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene,
   if (with_solid) refuse(key_of_model, "an elastic solid is not coupled to");
   if (!is_viscous(p))
     refuse(key_of_model, "a viscosity ([fluid.laminar_viscosity], a law of shear) is needed by");
+  if (p.friction && !p.wall_slip)  // its force is not in the matrix; beside a slip it is a limit of that
+    refuse("fluid.friction", "[fluid.friction] without [fluid.wall_slip] is not part of");
   if (p.similarity)
     refuse("fluid.similarity", "its steps do not depend on the density, so nothing is chosen for");
   if (!p.wall_model.suction)

@@ -1,5 +1,6 @@
 #include "fluid_solver/implicit/step_system.hpp"
 
+#include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/weakly_compressible/pair_loop.hpp"
 
@@ -59,6 +60,9 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
       neighbours_(neighbours),
       boundaries_(boundaries),
       dt_(dt),
+      p_offset_(terms.slides()
+                    ? pressure_offset(terms.parameters.enclosed_medium, fluid, boundaries, terms.state)
+                    : 0.0),
       v_n_(velocities()),
       p_n_(padded(fluid.count)),
       c2_(padded(fluid.count)) {
@@ -71,6 +75,10 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
   }
   for (Boundary& boundary : boundaries) {
     boundary.force_on_fluid.by_cluster.resize(fluid.clusters());
+    if (terms.slides()) {
+      resize(boundary.slip_velocity, boundary.V.size());
+      boundary.shear_stress.resize(boundary.V.size());
+    }
     if (!terms.viscosity_varies()) continue;
     boundary.eta.resize(boundary.V.size());
     resize(boundary.eta_grad_v, boundary.V.size());
@@ -161,8 +169,10 @@ void StepSystem::evaluate(Viscosity viscosity) {
     {
 #pragma omp for schedule(dynamic, 8)
       for (std::size_t c = 0; c < fluid_.clusters(); ++c) compress(W, c);
-      for (Boundary& boundary : boundaries_)
+      for (Boundary& boundary : boundaries_) {
         extrapolate(boundary, fluid_, terms_.kernel, terms_.body_force.gravity);
+        if (terms_.slides()) let_slide(boundary, fluid_, terms_.kernel, terms_.parameters, p_offset_);
+      }
       if (terms_.viscosity_varies()) {
 #pragma omp for schedule(dynamic, 8)
         for (std::size_t c = 0; c < fluid_.clusters(); ++c) stresses(W, c, viscosity);

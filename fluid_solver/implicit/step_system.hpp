@@ -5,8 +5,10 @@
 ///     p_i(v) = p_i^n + c_i^2 dt drho_i(v),   c_i^2 = dp/drho at rho_i^n
 ///     drho_i(v) = rho_i sum_j V_j v_ij . gradW_ij
 ///
-/// with the walls' pressure and velocity extrapolated from p(v) and v. For a given viscosity it is linear in
-/// v: with V the viscous sweep, D and G those of continuity and pressure and K = rho c^2,
+/// with the walls' pressure and velocity extrapolated from p(v) and v; where the medium slides, with the slip
+/// of v, found wall particle by wall particle as by the explicit model. For a given viscosity, and without
+/// slip, it is linear in v: with V the viscous sweep, D and G those of continuity and pressure and K = rho
+/// c^2,
 ///
 ///     (rho/dt - V + dt G K D) v = rho v^n/dt - G p^n + rho g + what walls that move do.
 ///
@@ -34,6 +36,7 @@ struct ImplicitTerms {
   ImplicitTerms(const Parameters& of_case, const Vec& gravity, const Kernel& W,
                 const EquationOfState& of_medium);
   bool viscosity_varies() const { return std::holds_alternative<VariableViscosityTerm>(chosen.viscous); }
+  bool slides() const { return parameters.wall_slip.has_value(); }
   PairSweeps sweeps() const { return {chosen, body_force, viscous_walls, true, parameters.density, false}; }
 
   Parameters parameters;
@@ -86,6 +89,7 @@ class StepSystem {
   const ClusterList& neighbours_;
   std::vector<Boundary>& boundaries_;
   double dt_;
+  double p_offset_;  ///< what contact adds to the pressure, for friction [Pa]
   Vector v_n_;
   Field p_n_, c2_;               ///< [Pa], [m2/s2]
   std::vector<Moment> moments_;  ///< of a cluster each, where the viscosity varies

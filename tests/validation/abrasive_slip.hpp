@@ -19,17 +19,24 @@ struct SlidingFlow {
   double removed_depth = 0;      ///< Preston's, mean of the work piece since the start [m]
 };
 
+/// Between the plates, or of the tube [m].
+inline double passage_width(const FluidCase& the_case) {
+  if (const auto& similarity = the_case.parameters.similarity) return similarity->passage_width;
+  const Box& medium = the_case.parameters.regions.front().box;
+  return medium.max[1] - medium.min[1];
+}
+
 class SlidingMeans {
  public:
   explicit SlidingMeans(const FluidCase& the_case) : the_case_(the_case) {
     const Box& medium = the_case.parameters.regions.front().box;
-    width_ = the_case.parameters.similarity->passage_width;
+    width_ = passage_width(the_case);
     middle_ = 0.5 * (medium.min[0] + medium.max[0]);
     for (const auto& wall : the_case.scene.walls)
       if (wall.motion) motion_ = *wall.motion;
   }
 
-  void sample(const WeaklyCompressible& solver) {
+  void sample(const FluidModel& solver) {
     const double middle = middle_ + motion_.displacement_at(solver.time())[0];
     const auto& f = solver.particles();
     const auto& p = the_case_.parameters;
@@ -83,7 +90,8 @@ inline SlidingFlow run_abrasive_slip(const std::string& name, double spacing,
                                      std::vector<std::string> overrides = {}) {
   overrides.push_back("fluid.spacing=" + std::to_string(spacing));
   const FluidCase the_case = sliding_case(name, overrides);
-  WeaklyCompressible solver = the_case.solver();
+  const auto model = make_model(the_case.parameters, the_case.scene);
+  FluidModel& solver = *model;
   const auto out = std::filesystem::path(testing::TempDir()) / ("abrasive_slip_" + std::to_string(getpid()));
   std::filesystem::create_directories(out);
   solver.record_surface(out);
@@ -104,13 +112,14 @@ inline SlidingFlow run_abrasive_slip(const std::string& name, double spacing,
 inline DevelopedFlow exact_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const FluidCase the_case = sliding_case(name, overrides);
   const Parameters& p = the_case.parameters;
-  return {viscosity_of(p), p.similarity->passage_width, p.similarity->mean_speed, the_case.scene.geometry,
+  const double mean_speed = p.similarity ? p.similarity->mean_speed : 0.05;  // of the pistons
+  return {viscosity_of(p), passage_width(the_case), mean_speed, the_case.scene.geometry,
           [law = *p.wall_slip](double tau) { return slip_speed(law, tau); }};
 }
 
 /// Holds pressure gradient and slip speed to the exact ones.
-inline void expect_sliding(const std::string& name, double spacing, double gradient_error, double slip_error,
-                           const std::vector<std::string>& overrides = {}) {
+inline SlidingFlow expect_sliding(const std::string& name, double spacing, double gradient_error,
+                                  double slip_error, const std::vector<std::string>& overrides = {}) {
   const DevelopedFlow exact = exact_of(name, overrides);
   const SlidingFlow flow = run_abrasive_slip(name, spacing, overrides);
   testing::Test::RecordProperty("gradient_and_slip_over_exact",
@@ -119,6 +128,7 @@ inline void expect_sliding(const std::string& name, double spacing, double gradi
   EXPECT_NEAR(flow.pressure_gradient / exact.pressure_gradient(), 1, gradient_error)
       << name << ' ' << spacing;
   EXPECT_NEAR(flow.slip_speed / exact.slip_speed(), 1, slip_error) << name << ' ' << spacing;
+  return flow;
 }
 
 }  // namespace toryu::fluid

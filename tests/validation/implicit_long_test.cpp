@@ -1,8 +1,8 @@
-// The throat of cases/abrasive_throat by implicit steps, 20 particles across, against a staggered-grid Stokes
-// solution.
+// By implicit steps: the throat of cases/abrasive_throat, 20 particles across, against a staggered-grid
+// Stokes solution, and media that slide (cases/abrasive_slip).
 #include <gtest/gtest.h>
 
-#include "tests/validation/fluid_case.hpp"
+#include "tests/validation/abrasive_slip.hpp"
 
 namespace toryu::fluid {
 namespace {
@@ -24,6 +24,12 @@ TEST(ImplicitThroat, HasThePressureDropOfTheStokesFlow) {
   }
   RecordProperty("pressure_drop", std::to_string(sum / samples));
   EXPECT_NEAR(sum / samples, 0.708e6, 0.03 * 0.708e6);
+}
+
+TEST(ImplicitSlipLong, HasThePressureDropAndSlipOfLessAndMoreSlipAndOfAPowerLaw) {
+  for (const char* b : {"1e-7", "1e-6"})
+    expect_sliding("implicit.toml", 1e-4, 0.02, 0.02, {std::string("fluid.wall_slip.coefficient=") + b});
+  expect_sliding("implicit_power_law.toml", 1e-4, 0.02, 0.02);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-// The slit of cases/abrasive_slit by implicit steps, at the medium's own density and in real pascals.
+// The slits of cases/abrasive_slit and cases/abrasive_slip by implicit steps, at the medium's own density and
+// in real pascals.
 #include "fluid_solver/implicit/implicit.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/validation/channel.hpp"
+#include "tests/validation/abrasive_slip.hpp"
 
 namespace toryu::fluid {
 namespace {
@@ -23,6 +24,14 @@ TEST(ImplicitSlit, HasThePressureDropAndProfileOfItsRealMedium) {
 
 TEST(ImplicitSlit, HasThePressureDropAndProfileOfAPowerLaw) {
   expect_slit("implicit.toml", 1e-4, 0.02, 0.02);
+}
+
+TEST(ImplicitSlip, HasThePressureDropAndSlipAndRemovesWhateverTheSpacing) {
+  const double fine = expect_sliding("implicit.toml", 1e-4, 0.02, 0.02).removed_depth,
+               coarse = run_abrasive_slip("implicit.toml", 2e-4).removed_depth;
+  RecordProperty("depth_at_10_over_20_across", std::to_string(coarse / fine));
+  EXPECT_GT(fine, 0);
+  EXPECT_NEAR(coarse / fine, 1, 0.05);
 }
 
 /// Products of the matrix that a run takes, by the largest viscosity of its medium.

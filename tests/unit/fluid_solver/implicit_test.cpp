@@ -10,7 +10,6 @@
 
 #include "common/error/failure.hpp"
 #include "common/sph/skin.hpp"
-#include "fluid_solver/implicit/implicit_faults.hpp"
 #include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
@@ -168,11 +167,12 @@ void thin_under_shear(Setting& s) {
 
 // With a step of no length the pressure is that of the state: the rates are those of the explicit model.
 TEST(ImplicitMatrix, HasTheRatesOfTheExplicitSweepsAtWallsToo) {
-  for (const bool varies : {false, true})
+  for (const auto& [varies, slides] : {std::pair{false, false}, {true, false}, {false, true}, {true, true}})
     for (const auto extrapolation : {WallExtrapolation::mean, WallExtrapolation::fit}) {
       Setting s = stirred_slit();
       s.parameters.wall_model.extrapolation = extrapolation;
       if (varies) thin_under_shear(s);
+      if (slides) s.parameters.wall_slip = SlipLaw{.coefficient = 1e-7, .exponent = 1.5};
       Implicit model(s.parameters, s.scene);
       model.advance(1e-3);  // a flow that nobody chose
       Particles fluid = model.particles();
@@ -194,6 +194,28 @@ TEST(ImplicitMatrix, HasTheRatesOfTheExplicitSweepsAtWallsToo) {
         EXPECT_NEAR(found.drho[i], fluid.drho[i], 1e-12 * std::abs(fluid.drho[i]));
       }
     }
+}
+
+/// Of the particles of the wall that has the largest.
+double largest_slip(const Implicit& model) {
+  double largest = 0;
+  for (const Boundary& wall : model.boundaries())
+    largest = std::max(largest, largest_norm(wall.slip_velocity, wall.count));
+  return largest;
+}
+
+TEST(Implicit, StartsToSlideFromRest) {
+  Setting s = stirred_slit();
+  thin_under_shear(s);
+  s.parameters.wall_slip = SlipLaw{.coefficient = 1e-7, .exponent = 1.5};
+  Implicit model(s.parameters, s.scene);
+  for (int n = 0; n < 10; ++n) model.advance(2e-3);
+  EXPECT_GT(largest_slip(model), 0.01 * largest_norm(model.particles().v, model.particles().count));
+  Setting at_rest = s;
+  for (auto& wall : at_rest.scene.walls) wall.motion.reset();
+  Implicit falling(at_rest.parameters, at_rest.scene);  // nothing moves but what gravity pulls
+  falling.advance(2e-3);
+  EXPECT_TRUE(std::isfinite(largest_slip(falling)));
 }
 
 TEST(Implicit, KeepsMomentumInEmptySpace) {
@@ -343,38 +365,6 @@ TEST(Implicit, SaysThatAStepIsNotSolved) {
   thin_under_shear(s);
   EXPECT_THAT(failure_of(s, {.largest_viscosity_updates = 1}),
               HasSubstr("after 1 update of the viscosity (fluid.implicit.largest_viscosity_updates) = "));
-}
-
-std::string faults_of(const Parameters& p, bool with_solid = false, const Scene& scene = {}) {
-  std::string all;
-  for (const auto& [key, message] : implicit_faults(p, scene, with_solid)) all += key + ": " + message + "\n";
-  return all;
-}
-
-TEST(ImplicitFaults, NameTheTerm) {
-  Parameters p = stirred_slit().parameters;
-  EXPECT_EQ(faults_of(p), "");
-  EXPECT_THAT(faults_of(p, true), HasSubstr("fluid.model: an elastic solid is not coupled to"));
-  p.surface_tension = SurfaceTension{1};
-  p.friction = Friction{};
-  EXPECT_EQ(faults_of(p),
-            "fluid.friction: [fluid.friction] is not part of model = \"implicit\"\n"
-            "fluid.surface_tension: [fluid.surface_tension] is not part of model = \"implicit\"\n");
-  p.model = Model::weakly_compressible;
-  EXPECT_EQ(faults_of(p, true), "");
-  Scene pressed;
-  pressed.walls.resize(2);
-  pressed.walls[1].name = "ram";
-  pressed.walls[1].press.emplace();
-  EXPECT_EQ(faults_of(stirred_slit().parameters, false, pressed),
-            "wall.1.press: the wall 'ram' is pressed, which is not part of model = \"implicit\"\n");
-  Parameters thin = stirred_slit().parameters;
-  thin.laminar_viscosity.reset();
-  thin.wall_model.suction = false;
-  thin.density_diffusion = DensityDiffusion{};
-  EXPECT_THAT(faults_of(thin), HasSubstr("is needed by model"));
-  EXPECT_THAT(faults_of(thin), HasSubstr("fluid.wall_model.suction: "));
-  EXPECT_THAT(faults_of(thin), HasSubstr("fluid.density_diffusion: "));
 }
 
 }  // namespace
