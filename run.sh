@@ -22,4 +22,8 @@ for word in "$@"; do # a participant in Python
   break
 done
 "$root/tools/build.sh" release -DTORYU_TESTS?=OFF "${targets[@]}"
+if [[ " $* " == *" --ranks"[\ =]* ]]; then # the fluid over MPI has a build of its own
+  "$root/tools/install.sh" ranks
+  "$root/tools/build.sh" ranks -DTORYU_TESTS?=OFF fluid_solver
+fi
 exec "${toryu[@]}" launch "$@"

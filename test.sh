@@ -4,7 +4,7 @@
 #   ./test.sh             all but the long ones
 #   ./test.sh --browser   and the report in a browser
 #   ./test.sh --all       and the long validation, the benchmarks, the browser, clang-tidy on every file, and the unit
-#                         tests by Clang and for other processors
+#                         tests by Clang and for other processors, and what goes over MPI: ranks, a fluid of LAMMPS
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -29,6 +29,26 @@ run_tests() { # FOLDER CTEST-OPTIONS...
   ctest --test-dir "$1" --output-on-failure --no-tests=error --parallel $(($(nproc) + 1)) "${@:2}" | tee -a "$results" || failed=1
 }
 
+# In a folder of its own, for the plain build has no MPI in it.
+test_over_mpi() {
+  local options=() targets=(coupler solid_solver fluid_solver) names=()
+  if tools/install.sh ranks; then
+    options+=(-DTORYU_MPI=ON) targets+=(ranks_test) names+=(FluidOverRanks ranks)
+  else
+    options+=(-DTORYU_MPI=OFF)
+    echo "test.sh: the tests of ranks are left out: their packages cannot be installed" >&2
+  fi
+  if tools/install.sh lammps; then
+    options+=(-DTORYU_LAMMPS=ON) targets+=(lammps_fluid fake_solid) names+=(lammps_fluid conformance.lammps_fluid)
+  else
+    options+=(-DTORYU_LAMMPS=OFF)
+    echo "test.sh: the tests of lammps_fluid are left out: their packages cannot be installed" >&2
+  fi
+  [ ${#names[@]} -gt 0 ] || return 0
+  tools/build.sh ranks -DTORYU_TESTS=ON -DTORYU_WARNINGS_AS_ERRORS=ON "${options[@]}" "${targets[@]}"
+  run_tests build/ranks --tests-regex "^($(IFS='|' && echo "${names[*]}"))[._]"
+}
+
 tools/install.sh "${groups[@]}"
 tools/build.sh release -DTORYU_TESTS=ON -DTORYU_PYTHON=ON -DTORYU_WARNINGS_AS_ERRORS=ON
 run_tests build/release --label-exclude "^($(IFS='|' && echo "${without[*]}"))\$"
@@ -37,6 +57,7 @@ run_tests build/debug --label-regex '^unit$'
 if [ -n "$all" ]; then
   tools/check_code.sh --all || failed=1
   tools/test_targets.sh || failed=1
+  test_over_mpi
 fi
 
 awk -v seconds=$SECONDS '/tests passed, [0-9]+ tests? failed out of/ {

@@ -19,6 +19,13 @@ Vec ForceOnFluid::friction() const {
   return sum;
 }
 
+void ForceOnFluid::make_room(std::size_t clusters) {
+  if (of_part)
+    resize(by_particle, clusters * lane_count);
+  else
+    by_cluster.resize(clusters);
+}
+
 void Boundary::place(const std::vector<Vec>& positions, const std::vector<double>& volumes,
                      double rest_density, double strip_width, Geometry geometry) {
   count = positions.size();
@@ -77,6 +84,13 @@ void Boundary::keep(const std::vector<std::uint32_t>& kept) {
   count = kept.size();
   id.resize(count);
   strips.index(x[0], count);
+}
+
+void Boundary::take_all_but_lists(const Boundary& other) {
+  ClusterList for_wall = std::move(list_for_wall), for_fluid = std::move(list_for_fluid);
+  *this = other;
+  list_for_wall = std::move(for_wall);
+  list_for_fluid = std::move(for_fluid);
 }
 
 void Boundary::sort() {

@@ -20,8 +20,18 @@ namespace toryu::fluid {
 struct ForceOnFluid {
   std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
   std::vector<Vec> friction_by_cluster;  ///< the same of the friction alone; empty where there is none
+  /// Where the fluid is spread over ranks, whose clusters are others than those of the whole: the force over
+  /// the mass of each particle, in their place [m/s2]. Rank 0 makes those of the whole of them.
+  VecField by_particle = {};
+  bool of_part = false;  ///< whether it is
   Vec friction() const;
   Vec force() const;  ///< the sum of both
+  /// For what is done to so many clusters of the fluid.
+  void make_room(std::size_t clusters);
+  /// What the last evaluation did to a cluster. What it did to particles out of reach nobody asks for.
+  void forget(std::size_t cluster) {
+    if (!of_part) by_cluster[cluster].setZero();
+  }
 };
 
 /// Impulse since the start [N.s per metre depth], and the friction's share of it.
@@ -140,6 +150,8 @@ struct Boundary {
   bool covers(const Vec& point, double spacing, const std::vector<Vec>& shifts = {Vec::Zero()}) const;
   /// Takes away all particles but those at `kept`, which rises.
   void keep(const std::vector<std::uint32_t>& kept);
+  /// Becomes `other` but for its lists: another part of the same fluid is near it.
+  void take_all_but_lists(const Boundary& other);
   /// Puts the particles in strip order again after they moved.
   void sort();
   /// Sets position, velocity and acceleration to those at `time` [s].

@@ -47,37 +47,76 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
 }
 
 void FluidModel::spread_over(Ranks& ranks) {
-  std::vector<InputError> faults;
-  const auto refuse = [&](bool is_there, std::string_view place, std::string_view what) {
-    if (is_there)
-      faults.push_back(
-          {.place = std::string(place), .message = fmt::format("{} does not go over ranks", what)});
-  };
-  for_each_term(parameters_, [&]<class Term>(const std::optional<Term>& term) {
-    if constexpr (!is_one_of<Term, DensityDiffusion, ArtificialViscosity, LaminarViscosity>)
-      refuse(term.has_value(), "[fluid]", Term::section);
-  });
-  refuse(parameters_.model != Model::weakly_compressible, "[fluid]", "the implicit model");
-  refuse(parameters_.has_open_ends(), "[fluid]", "an open end");
-  refuse(parameters_.wall_model.extrapolation == WallExtrapolation::fit, "[fluid.wall_model]",
-         "extrapolation by a fit");
-  refuse(scene_.geometry != Geometry::plane, "[case]", "an axis");
-  refuse(scene_.periodic != Periodic::none, "[case]", "periodic space");
-  for (const Boundary& boundary : state_.boundaries) {
-    refuse(boundary.is_interface(), "[solid]", "a solid");
-    refuse(std::holds_alternative<PressedMotion>(boundary.motion), "[[wall]]", "a wall that is pressed");
-    refuse(boundary.turns(), "[[wall]]", "a wall that turns");
-  }
-  if (!faults.empty()) throw BadInput(faults);
   ranks_ = &ranks;
+  for (Boundary& boundary : state_.boundaries) boundary.force_on_fluid.of_part = true;
+  state_.neighbours.divide(state_.fluid, state_.boundaries, ranks);
+}
+
+/// What the fluid does to the particles of a boundary.
+void FluidModel::collect_at(Boundary& boundary) {
+  std::vector<Field*> fields;
+  const auto add = [&](Field& component) {
+    if (!component.empty()) fields.push_back(&component);
+  };
+  for_each_field(boundary, [&](auto& field) {
+    if (field.kind == FieldKind::derived) for_each_component(field, add);
+  });
+  for (Field* field : {&boundary.m, &boundary.rho}) add(*field);  // which may follow from the pressure
+  ranks_->collect_at(static_cast<std::size_t>(&boundary - state_.boundaries.data()), fields);
+}
+
+void FluidModel::collect(FluidModel* whole) {
+  for (Boundary& boundary : state_.boundaries) collect_at(boundary);
+  Neighbours::collect(state_.neighbours, *ranks_, whole ? &whole->state_.neighbours : nullptr);
+  collect_fluid(whole ? &whole->state_.fluid : nullptr);
+  if (!whole) return;
+  State& to = whole->state_;
+  to.time = state_.time;
+  for (std::size_t b = 0; b < to.boundaries.size(); ++b)
+    to.boundaries[b].take_all_but_lists(state_.boundaries[b]);
+  to.gravity_impulse = state_.gravity_impulse;
+  to.work_of_gravity_change = state_.work_of_gravity_change;
+  to.potential_of_moves = state_.potential_of_moves;
+  to.largest = state_.largest;
+  to.density_rate_known = state_.density_rate_known;
+  to.contact_changed = state_.contact_changed;
+  to.impedance_wanted = state_.impedance_wanted;
+}
+
+void FluidModel::collect_fluid(Particles* whole) {
+  const auto components = [](Particles& fluid) {
+    std::vector<Field*> all;
+    for_each_field(fluid, [&](auto& field) {
+      for_each_component(field, [&](Field& component) { all.push_back(&component); });
+    });
+    return all;
+  };
+  Field number(state_.fluid.id.begin(), state_.fluid.id.end()), number_in_whole(ranks_->masses().size());
+  std::vector<const Field*> of_part{&number};
+  std::vector<Field*> of_whole;
+  if (whole) of_whole.push_back(&number_in_whole);
+  const auto here = components(state_.fluid), there = whole ? components(*whole) : std::vector<Field*>{};
+  for (std::size_t n = 0; n < here.size(); ++n) {
+    if (here[n]->empty()) continue;
+    of_part.push_back(here[n]);
+    if (whole) of_whole.push_back(there[n]), there[n]->resize(number_in_whole.size());
+  }
+  ranks_->collect(of_part, of_whole);
+  if (!whole) return;
+  const auto end = static_cast<std::ptrdiff_t>(whole->count);
+  whole->id.assign(number_in_whole.begin(), number_in_whole.begin() + end);
+  for (Field* field : of_whole) std::fill(field->begin() + end, field->end(), (*field)[whole->count - 1]);
+  std::fill(whole->m.begin() + end, whole->m.end(), 0.0);  // idle lanes weigh nothing
 }
 
 void FluidModel::save() {
   saved_ = state_;
+  if (ranks_) ranks_->save();
 }
 
 void FluidModel::restore() {
   state_ = *saved_;
+  if (ranks_) ranks_->restore();
 }
 
 void FluidModel::write_state(std::ostream& stream) const {
@@ -90,6 +129,13 @@ void FluidModel::read_state(std::istream& stream) {
     resize_present_fields(state_.fluid, padded(state_.fluid.count));
     state_.open_ends->find(state_.fluid);
   }
+  if (ranks_)
+    spread_over(*ranks_);
+  else
+    list_anew();
+}
+
+void FluidModel::list_anew() {
   state_.neighbours.rebuild(state_.fluid, state_.boundaries);
 }
 
@@ -107,6 +153,7 @@ void FluidModel::attach(const Interface& interface, bool rigid) {
   refuse_in_layers(positions);
   Boundary boundary;
   boundary.name = "interface";
+  boundary.force_on_fluid.of_part = ranks_;
   boundary.motion = std::move(motion);
   boundary.place(positions, interface.volume, parameters_.density, parameters_.strip_width());
   boundary.make_work_piece(faces);
@@ -137,7 +184,7 @@ void FluidModel::begin_window(const InterfaceMotion& motion, double dt) {
   if (!rigid_interface_.empty()) boundary.orientation = rotation_between(rigid_interface_, motion.position);
   state_.contact_changed = state_.impedance_wanted = !motion.impulse.empty();
   if (std::all_of(motion.impulse.begin(), motion.impulse.end(), [](double J) { return J == 0; })) return;
-  const GivenImpulse given = give_impulse(motion.impulse, boundary, state_.fluid, kernel_);
+  const GivenImpulse given = give_impulse(motion.impulse, state_.boundaries, state_.fluid, kernel_, ranks_);
   interface().note_impulse(given.not_given, given.received, given.work);
   boundary.impulse.total += given.received;
   boundary.work += given.work;
@@ -146,8 +193,8 @@ void FluidModel::begin_window(const InterfaceMotion& motion, double dt) {
 InterfaceLoad FluidModel::take_load() {
   InterfaceLoad load = interface().take_load();
   if (state_.impedance_wanted)
-    load.impedance = impedance(state_.boundaries.back(), state_.fluid, kernel_, parameters_.density,
-                               parameters_.sound_speed);
+    load.impedance = impedance(state_.boundaries, state_.fluid, kernel_, parameters_.density,
+                               parameters_.sound_speed, ranks_);
   return load;
 }
 
@@ -284,11 +331,11 @@ void FluidModel::count_forces(double dt) {
       pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
   if (state_.open_ends) state_.open_ends->count(dt);
-  const Field& m = state_.fluid.m;
+  const Field& m = ranks_ ? ranks_->masses() : state_.fluid.m;
+  const std::size_t count = ranks_ ? m.size() : padded(state_.fluid.count);
   const Vec gravity = scene_.gravity_at(state_.time + 0.5 * dt);
   state_.gravity_impulse +=
-      dt * std::reduce(m.begin(), m.begin() + static_cast<std::ptrdiff_t>(padded(state_.fluid.count))) *
-      gravity;
+      dt * std::reduce(m.begin(), m.begin() + static_cast<std::ptrdiff_t>(count)) * gravity;
   if (state_.open_ends) state_.gravity_impulse -= dt * state_.open_ends->layer_mass() * gravity;
   if (scene_.gravity_change) state_.work_of_gravity_change += dt * power_of(gravity - scene_.gravity, dt);
 }

@@ -62,10 +62,14 @@ class FluidModel : public Solver {
   /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.
   void record_surface(const std::filesystem::path& out);
 
-  /// From the next step on the fluid is spread over `ranks`: this model holds a part of it. What is summed
-  /// over particles, loads and what is found of the free surface is of that part then. Throws BadInput where
-  /// the case has what does not go over ranks.
+  /// From the next step on the fluid is spread over `ranks`: this model holds a part of it. Forces, impulses
+  /// and loads are those of the whole on rank 0; what else is summed over particles is of the part.
   void spread_over(Ranks& ranks);
+  /// Of a fluid that is spread, called on all ranks: on rank 0 `whole` becomes all of it, as one process has
+  /// it, but for its records, and its lists of neighbours (`list_anew`). Elsewhere `whole` is null.
+  void collect(FluidModel* whole);
+  /// Finds the lists of neighbours again.
+  void list_anew();
 
   // the coupled run's side
   /// How far the kernel sees [m].
@@ -74,12 +78,12 @@ class FluidModel : public Solver {
     return {reach(), time_step_limit(), parameters_.density, parameters_.sound_speed, parameters_.spacing};
   }
   /// `rigid`: of a solid that does not deform, and may turn by any angle.
-  void attach(const Interface& interface, bool rigid = false);
+  virtual void attach(const Interface& interface, bool rigid = false);
   /// What it will report once a solid is attached, whose particles nobody has told yet.
   std::vector<Observation> observe_beside_solid();
-  void begin_window(const InterfaceMotion& motion, double dt);
+  virtual void begin_window(const InterfaceMotion& motion, double dt);
   /// The mean load over the window, with the impedance if the motion asked for it.
-  InterfaceLoad take_load();
+  virtual InterfaceLoad take_load();
 
   double time() const { return state_.time; }
   std::optional<Frame> walls() const override { return frame_of_walls(state_.boundaries); }
@@ -103,7 +107,7 @@ class FluidModel : public Solver {
   const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
   /// Where rows of the fluid do not fit between faces.
   const std::vector<Misfit>& misfits() const { return misfits_; }
-  Timers& timers() { return timers_; }
+  virtual const Timers& timers() const { return timers_; }
   long list_builds() const { return state_.neighbours.builds(); }
 
   /// Rows may be nearer to each other; a look costs about half a step.
@@ -156,6 +160,7 @@ class FluidModel : public Solver {
   /// Counts what the last evaluation is about to do in `dt` [s], so that the sum is the change of momentum to
   /// rounding.
   void count_forces(double dt);
+  void collect_at(Boundary& boundary);  ///< of a fluid that is spread
 
   Parameters parameters_;
   Scene scene_;
@@ -168,6 +173,7 @@ class FluidModel : public Solver {
   Ranks* ranks_ = nullptr;  ///< over which the fluid is spread
 
  private:
+  void collect_fluid(Particles* whole);
   void fill_regions();
   void start_flow(std::size_t particle);
   PressedMotion pressed(const Wall& wall, const std::vector<Vec>& points) const;

@@ -1,14 +1,15 @@
 /// How the fluid beside the elastic solid's interface answers its motion: the impedance that a coupling
-/// scheme may hand the solid, and the impulse that comes back for it.
+/// scheme may hand the solid, and the impulse that comes back for it. Over ranks either is known on rank 0.
 #pragma once
 
 #include <vector>
 
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
-/// The impedance of each particle of `interface`, by id, dim values [kg/(s.m)]:
+/// The impedance of each particle of the interface, the last of the boundaries, by id, dim values [kg/(s.m)]:
 ///
 ///     rho_0 c_0 a_i,   a_i = 2 V_i sum_j V_j gradW_ij
 ///
@@ -16,8 +17,9 @@ namespace toryu::fluid {
 /// -p a_i, and over a plane face the a_i of all rows in reach sum up to its area. A change dv of the normal
 /// speed sends a wave of pressure rho_0 c_0 dv into the fluid (Joukowsky 1898), which holds until echoes
 /// come.
-std::vector<double> impedance(const Boundary& interface, const Particles& fluid, const Kernel& kernel,
-                              double rest_density, double sound_speed);
+std::vector<double> impedance(const std::vector<Boundary>& boundaries, const Particles& fluid,
+                              const Kernel& kernel, double rest_density, double sound_speed,
+                              const Ranks* ranks = nullptr);
 
 /// What giving an impulse did.
 struct GivenImpulse {
@@ -26,9 +28,9 @@ struct GivenImpulse {
   std::vector<double> not_given;  ///< by id, where no fluid was in reach; as `impulse` was given [N s/m]
 };
 
-/// Takes `impulse` (by id, dim values a particle of `interface` [N s/m]) out of the fluid: the share of j in
-/// reach of i is m_j W_ij/sum_k m_k W_ik, so that sums agree to rounding.
-GivenImpulse give_impulse(const std::vector<double>& impulse, Boundary& interface, Particles& fluid,
-                          const Kernel& kernel);
+/// Takes `impulse` (by id, dim values a particle of the interface, the last of `boundaries` [N s/m]) out of
+/// the fluid: the share of j in reach of i is m_j W_ij/sum_k m_k W_ik, so that sums agree to rounding.
+GivenImpulse give_impulse(const std::vector<double>& impulse, const std::vector<Boundary>& boundaries,
+                          Particles& fluid, const Kernel& kernel, const Ranks* ranks = nullptr);
 
 }  // namespace toryu::fluid

@@ -26,6 +26,7 @@
 #include "fluid_solver/implicit/implicit_faults.hpp"
 #include "fluid_solver/implicit/implicit_twin.hpp"
 #include "fluid_solver/open_ends/section.hpp"
+#include "fluid_solver/processes.hpp"
 #include "fluid_solver/stability_warnings.hpp"
 #include "fluid_solver/start_checks.hpp"
 #include "fluid_solver/wall_rows.hpp"
@@ -62,7 +63,8 @@ void take_turns(FluidLink& link, FluidModel& model, RunRecord& record) {
   take_windows(link, model, record, [&](const FluidLink::Turn& turn) {
     model.begin_window(turn.motion, turn.dt);
     advance_window(model, record, turn.time, turn.dt, 1, [&](const SubSteps&) { link.count_step(); });
-    link.send(model.take_load(), model.time_step_limit(),
+    const InterfaceLoad load = model.take_load();
+    link.send(load, model.time_step_limit(),
               {.kinetic_energy = model.kinetic_energy(),
                .potential_energy = model.potential_energy(),
                .momentum = model.momentum()});
@@ -218,43 +220,69 @@ void check_enclosed(FluidModel& model, const fluid::Parameters& parameters) {
   throw BadInput({{key, 0, 0, message}});
 }
 
-ExitCode solve(const Options& options) {
-  CaseFile file(options.case_path, options.overrides);
-  Scene scene = read_scene(file);
-  fluid::Parameters parameters;
-  file.read("fluid", parameters, "a weakly compressible fluid by delta-SPH");
-  file.ignore_sections({"solid", "coupling"});
-  check_sections(file, scene, parameters);
-  if (options.describe) {
-    print(file.description());
-    return ExitCode::done;
-  }
-  check_folder(file, options.out);
+/// What the case says, complete and checked but for what only its particles show.
+struct Prepared {
+  Scene scene = {};
+  fluid::Parameters parameters = {};
+  std::optional<fluid::Parameters> twin = {};
+  Scene real_scene = {};  ///< where a flow of similarity is computed
+};
+
+/// Of what was read from `file`; tells of what is made of it.
+Prepared prepare(const Options& options, CaseFile& file, Scene scene, fluid::Parameters parameters) {
+  const auto add = [&](const std::vector<fluid::StartFault>& faults) {
+    for (const auto& [key, message] : faults) file.fault(key, message);
+  };
   for (const auto& [key, message] : fluid::axis_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();  // open ends have as many rows as there are spacings
-  if (parameters.has_open_ends())
-    for (const auto& [key, message] : fluid::open_end_faults(parameters, scene, solid_parts(file, scene)))
-      file.fault(key, message);
+  if (parameters.has_open_ends()) add(fluid::open_end_faults(parameters, scene, solid_parts(file, scene)));
+  add(fluid::process_faults(parameters, scene));
   file.throw_if_faulty();
   fluid::leave_out(left_out_of_fluid(file, scene), parameters);
   fluid::repeat_holes(Period(scene), parameters);
   for (const auto& taken : fluid::complete_medium(parameters)) log::info("{}", taken);
   for (const auto& [key, message] : fluid::similarity_faults(parameters, scene.geometry, file.has("solid")))
     file.fault(key, message);
-  for (const auto& [key, message] : fluid::implicit_faults(parameters, scene, file.has("solid")))
-    file.fault(key, message);
+  add(fluid::implicit_faults(parameters, scene, file.has("solid")));
   file.throw_if_faulty();
-  const auto twin = fluid::implicit_twin(parameters, scene);
-  const Scene real_scene = scene;
+  Prepared prepared{.scene = scene, .twin = fluid::implicit_twin(parameters, scene), .real_scene = scene};
   if (parameters.similarity) {
-    const std::string made = fluid::make_similar(parameters, scene);
+    const std::string made = fluid::make_similar(parameters, prepared.scene);
     log::info("{}", made);
     if (options.outlook) print("[fluid]: " + made + '\n');
   }
+  prepared.parameters = std::move(parameters);
+  return prepared;
+}
+
+Prepared read_again(const Options& options) {
+  CaseFile file(options.case_path, options.overrides);
+  Scene scene = read_scene(file);
+  fluid::Parameters parameters;
+  file.read("fluid", parameters, "");
+  file.ignore_sections({"solid", "coupling"});
+  return prepare(options, file, std::move(scene), std::move(parameters));
+}
+
+ExitCode solve(const Options& options) {
+  CaseFile file(options.case_path, options.overrides);
+  Scene read = read_scene(file);
+  fluid::Parameters given;
+  file.read("fluid", given, "a weakly compressible fluid by delta-SPH");
+  file.ignore_sections({"solid", "coupling"});
+  check_sections(file, read, given);
+  if (options.describe) {
+    print(file.description());
+    return ExitCode::done;
+  }
+  check_folder(file, options.out);
+  const Prepared prepared = prepare(options, file, std::move(read), std::move(given));
+  const Scene& scene = prepared.scene;
+  const fluid::Parameters& parameters = prepared.parameters;
   if (options.outlook && !file.has("solid")) tell_flow(parameters, scene);
   for (const auto& [key, message] : fluid::start_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
-  const auto made = fluid::make_model(parameters, scene);
+  const auto made = fluid::make_spread_model(parameters, scene);
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
   check_start(model, "[fluid]");
@@ -271,7 +299,7 @@ ExitCode solve(const Options& options) {
     write_start(options.start_frames, "fluid", model);
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
     for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
-    if (options.outlook) tell_outlook(model, scene.end_time, twin, real_scene);
+    if (options.outlook) tell_outlook(model, scene.end_time, prepared.twin, prepared.real_scene);
     if (options.columns) print(listed(series));
     return ExitCode::done;
   }
@@ -282,8 +310,19 @@ ExitCode solve(const Options& options) {
   return ExitCode::done;
 }
 
+/// The case of the program's arguments, for a process that computes a part of it and says nothing.
+std::pair<fluid::Parameters, Scene> find_part(int argc, char** argv) {
+  open_log("fluid_solver", "", "error");
+  const Options options = parse_options("fluid_solver", {argv + 1, argv + argc});
+  Prepared prepared = read_again(options);
+  return {std::move(prepared.parameters), std::move(prepared.scene)};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  return toryu::run_program("fluid_solver", argc, argv, solve, toryu::CanCheckpoint::yes);
+  return toryu::fluid::over_processes(
+      argc, argv,
+      [&] { return toryu::run_program("fluid_solver", argc, argv, solve, toryu::CanCheckpoint::yes); },
+      [&] { return find_part(argc, argv); });
 }

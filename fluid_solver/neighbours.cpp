@@ -55,10 +55,12 @@ double Neighbours::best_skin(const Particles& fluid, const std::vector<Boundary>
 void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, double dt, Ranks* ranks) {
   ++state_.builds;
   state_.skin = best_skin(fluid, boundaries, dt, ranks);
-  // An own particle sees one reach far, to ghosts and walls whose gradients and pressures see one more.
-  if (ranks) ranks->divide(fluid, 2 * (support_ + state_.skin));
+  if (ranks) ranks->divide(fluid, depth_of_ghosts());
   sort(fluid, strips_);
-  if (ranks) ranks->find(fluid, strips_);
+  if (ranks) {
+    ranks->find(fluid);
+    ranks->number(fluid, strips_);
+  }
   state_.fluid = fluid.x;
   state_.boundaries.resize(boundaries.size());
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
@@ -68,10 +70,30 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, doub
     state_.boundaries[b] = boundaries[b].x;
   }
   build_lists(fluid.count, boundaries);
+  if (ranks) ranks->note_lists(fluid, boundaries);
 }
 
 void Neighbours::rebuild(const Particles& fluid, std::vector<Boundary>& boundaries) {
   if (state_.builds > 0) build_lists(fluid.count, boundaries);
+}
+
+void Neighbours::divide(Particles& fluid, std::vector<Boundary>& boundaries, Ranks& ranks) {
+  if (state_.builds == 0) return;
+  for (int a = 0; a < dim; ++a) fluid.x[a].swap(state_.fluid[a]);  // they were divided there
+  ranks.divide(fluid, depth_of_ghosts(), &state_.fluid);
+  ranks.find(fluid);
+  for (int a = 0; a < dim; ++a) fluid.x[a].swap(state_.fluid[a]);
+  build_lists(fluid.count, boundaries);
+  ranks.note_lists(fluid, boundaries);
+}
+
+void Neighbours::collect(const Neighbours& part, const Ranks& ranks, Neighbours* whole) {
+  const VecField& x = part.state_.fluid;
+  if (!whole) return ranks.collect({&x[0], &x[1]}, {});
+  VecField all = std::move(whole->state_.fluid);
+  resize(all, ranks.masses().size());
+  ranks.collect({&x[0], &x[1]}, {&all[0], &all[1]});
+  whole->state_ = {std::move(all), part.state_.boundaries, part.state_.skin, part.state_.builds};
 }
 
 void Neighbours::build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries) {

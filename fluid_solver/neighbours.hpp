@@ -37,6 +37,10 @@ class Neighbours {
   /// Finds the lists again that were built where a checkpoint says: in a fluid and boundaries whose particles
   /// are in that order.
   void rebuild(const Particles& fluid, std::vector<Boundary>& boundaries);
+  /// Divides a fluid over `ranks` that every process has from a checkpoint, with the lists that it says.
+  void divide(Particles& fluid, std::vector<Boundary>& boundaries, Ranks& ranks);
+  /// On rank 0 these become those of the whole fluid, of which `part` is spread over `ranks`, without lists.
+  static void collect(const Neighbours& part, const Ranks& ranks, Neighbours* whole);
 
   const ClusterList& of_fluid() const { return of_fluid_; }
   long builds() const { return state_.builds; }
@@ -56,6 +60,9 @@ class Neighbours {
   }
   double best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
                    const Ranks* ranks) const;
+  /// Over ranks: an own particle sees one reach far, to ghosts and walls whose gradients and pressures see
+  /// one more [m].
+  double depth_of_ghosts() const { return 2 * (support_ + state_.skin); }
   void build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries);
 
   double support_, largest_skin_;

@@ -21,7 +21,7 @@ void catch_interruptions() {
   struct sigaction action = {};
   action.sa_handler = request;
   action.sa_flags = SA_RESTART;  // a half-done write goes on
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
     // who started this program ignored it on purpose, as nohup does SIGHUP to outlive the terminal

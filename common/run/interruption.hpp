@@ -1,10 +1,10 @@
-/// SIGINT, SIGTERM and SIGHUP as a wish that a program fulfils at its next step.
+/// Signals as a wish that a program fulfils at its next step.
 #pragma once
 
 namespace toryu {
 
-/// From now on SIGINT, SIGTERM and SIGHUP only ask to stop; one that is ignored, as SIGHUP under nohup, stays
-/// so.
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1, which mpirun passes on to its processes, only ask to
+/// stop; one that is ignored, as SIGHUP under nohup, stays so.
 void catch_interruptions();
 /// True once one of them came.
 bool interruption_requested();

@@ -1,5 +1,7 @@
 /// What a fluid that is spread over several processes asks of the others. A process has its own particles
 /// and, as ghosts in the same arrays, those of others that are near. A fluid in one process has no ranks.
+/// What is summed over particles is collected on rank 0, in the order in which one process stores them:
+/// sums round as they do there.
 #pragma once
 
 #include "common/sph/strip_order.hpp"
@@ -7,18 +9,44 @@
 
 namespace toryu::fluid {
 
+struct Boundary;
+
 class Ranks {
  public:
   virtual ~Ranks() = default;
   /// Of the values of all processes.
   virtual double largest(double value) const = 0;
+
+  // where lists of neighbours are built
   /// Gives each process its own particles, with ghosts up to `depth` [m] around them, in the order in which
-  /// the whole fluid was stored. The first time every process has all of it.
-  virtual void divide(Particles& fluid, double depth) = 0;
-  /// Finds the ghosts, and those of whom others have ghosts, where they are after sorting by `strips`.
-  virtual void find(const Particles& fluid, const StripOrder& strips) = 0;
-  /// Gives the ghosts the rates that their owners have found.
-  virtual void share_rates(Particles& fluid) const = 0;
+  /// the whole fluid was stored. The first time every process has all of it. A field `beside` those of the
+  /// fluid goes with them.
+  virtual void divide(Particles& fluid, double depth, VecField* beside = nullptr) = 0;
+  /// Finds the ghosts, and those of whom others have ghosts, where they are after sorting.
+  virtual void find(const Particles& fluid) = 0;
+  /// Finds the places in the whole fluid after sorting by `strips`.
+  virtual void number(const Particles& fluid, const StripOrder& strips) = 0;
+  /// Notes who is near which boundary by the lists as they are now.
+  virtual void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries) = 0;
+  /// Keeps who is where, and brings it back.
+  virtual void save() = 0;
+  virtual void restore() = 0;
+
+  // between two of them
+  /// Gives the ghosts what their owners have found.
+  virtual void share(const std::vector<Field*>& fields) const = 0;
+  /// The masses of the whole fluid, on rank 0 [kg/m].
+  virtual const Field& masses() const = 0;
+  /// On rank 0 `force_on_fluid` of each boundary becomes that on the whole fluid.
+  virtual void collect_forces(std::vector<Boundary>& boundaries) const = 0;
+  /// Brings `values` of the particles near boundary `b`, and their masses, to rank 0, cluster by cluster of
+  /// the whole fluid; nothing elsewhere.
+  virtual std::vector<Field> collect_beside(std::size_t b, const std::vector<const Field*>& values) const = 0;
+  /// On rank 0 `values` of the particles of boundary `b` become those of the ranks that have all of the fluid
+  /// near them.
+  virtual void collect_at(std::size_t b, const std::vector<Field*>& values) const = 0;
+  /// On rank 0 `whole` becomes the values of the whole fluid; elsewhere nothing happens.
+  virtual void collect(const std::vector<const Field*>& part, const std::vector<Field*>& whole) const = 0;
 };
 
 }  // namespace toryu::fluid

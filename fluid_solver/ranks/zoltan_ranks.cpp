@@ -62,20 +62,23 @@ void for_each_carried(Fluid& fluid, Visit&& visit) {
 
 /// The state of the particles at `places`, field by field, after the owner, the place in the whole fluid and
 /// the number of each.
-void pack(Particles& fluid, const std::vector<std::uint32_t>& places, const std::vector<int>& owners,
-          const std::vector<std::uint32_t>& place_in_whole, std::vector<double>& message) {
+void pack(Particles& fluid, const VecField* beside, const std::vector<std::uint32_t>& places,
+          const std::vector<int>& owners, const std::vector<std::uint32_t>& place_in_whole,
+          std::vector<double>& message) {
   message.push_back(static_cast<double>(places.size()));
   message.insert(message.end(), owners.begin(), owners.end());
   for (const auto i : places) message.push_back(place_in_whole[i]);
   for (const auto i : places) message.push_back(fluid.id[i]);
-  for_each_carried(fluid, [&](const Field& component) {
+  const auto add = [&](const Field& component) {
     for (const auto i : places) message.push_back(component[i]);
-  });
+  };
+  for_each_carried(fluid, add);
+  for (int a = 0; beside && a < dim; ++a) add((*beside)[a]);
 }
 
 /// What `pack` has made of the particles of all ranks becomes `fluid`, in the order of the whole.
-void unpack(const std::vector<std::vector<double>>& messages, Particles& fluid, std::vector<int>& owners,
-            std::vector<std::uint32_t>& place_in_whole) {
+void unpack(const std::vector<std::vector<double>>& messages, Particles& fluid, VecField* beside,
+            std::vector<int>& owners, std::vector<std::uint32_t>& place_in_whole) {
   struct Entry {
     double place_in_whole;
     std::size_t message, number;
@@ -103,10 +106,13 @@ void unpack(const std::vector<std::vector<double>>& messages, Particles& fluid, 
     fluid.id.push_back(static_cast<std::uint32_t>(value(entry, 2)));
   }
   std::size_t c = 3;
-  for_each_carried(fluid, [&](Field& component) {
+  const auto take = [&](Field& component) {
     for (std::size_t i = 0; i < order.size(); ++i) component[i] = value(order[i], c);
     ++c;
-  });
+  };
+  for_each_carried(fluid, take);
+  if (beside) resize(*beside, fluid.rho.size());
+  for (int a = 0; beside && a < dim; ++a) take((*beside)[a]);
 }
 
 }  // namespace
@@ -117,10 +123,10 @@ ZoltanRanks::ZoltanRanks(MPI_Comm communicator) : communicator_(communicator) {
   MPI_Comm_rank(communicator_, &rank_);
   MPI_Comm_size(communicator_, &size_);
   zoltan_.reset(Zoltan_Create(communicator_));
-  for (const auto& [name, value] : {std::pair{"LB_METHOD", "RCB"},
+  for (const auto& [name, value] : {std::pair{"DEBUG_LEVEL", "0"},  // before it says what it does
+                                    {"LB_METHOD", "RCB"},
                                     {"KEEP_CUTS", "1"},
                                     {"RETURN_LISTS", "NONE"},
-                                    {"DEBUG_LEVEL", "0"},
                                     {"NUM_GID_ENTRIES", "1"},
                                     {"NUM_LID_ENTRIES", "1"}})
     check(Zoltan_Set_Param(zoltan_.get(), name, value), name);
@@ -156,9 +162,9 @@ void ZoltanRanks::balance(const Particles& fluid) {
   ++balancings_;
 }
 
-void ZoltanRanks::divide(Particles& fluid, double depth) {
+void ZoltanRanks::divide(Particles& fluid, double depth, VecField* beside) {
   const auto ranks = static_cast<std::size_t>(size_);
-  if (balancings_ == 0) {  // any share of the whole will do to find cuts
+  if (!divided_) {  // any share of the whole will do to find cuts
     own_.clear();
     for (std::size_t i = static_cast<std::size_t>(rank_); i < fluid.count; i += ranks)
       own_.push_back(static_cast<std::uint32_t>(i));
@@ -187,12 +193,13 @@ void ZoltanRanks::divide(Particles& fluid, double depth) {
   }
   std::vector<std::vector<double>> messages(ranks);
   for (std::size_t r = 0; r < ranks; ++r)
-    if (!there[r].empty()) pack(fluid, there[r], owners[r], place_in_whole_, messages[r]);
-  unpack(all_to_all(messages, communicator_), fluid, owners_, place_in_whole_);
+    if (!there[r].empty()) pack(fluid, beside, there[r], owners[r], place_in_whole_, messages[r]);
+  unpack(all_to_all(messages, communicator_), fluid, beside, owners_, place_in_whole_);
   held_ = fluid.id;
+  divided_ = true;
 }
 
-void ZoltanRanks::find(const Particles& fluid, const StripOrder& strips) {
+void ZoltanRanks::find(const Particles& fluid) {
   const auto ranks = static_cast<std::size_t>(size_);
   std::unordered_map<std::uint32_t, std::uint32_t> place_of;  // by number
   for (std::size_t i = 0; i < fluid.count; ++i) place_of[fluid.id[i]] = static_cast<std::uint32_t>(i);
@@ -214,11 +221,10 @@ void ZoltanRanks::find(const Particles& fluid, const StripOrder& strips) {
   ghosts_there_ = all_to_all(wanted, communicator_);
   for (auto& numbers : ghosts_there_)
     for (auto& number : numbers) number = place_of.at(number);
-  number_all(fluid, strips);
 }
 
 /// Finds the places in the whole fluid, as it is sorted now: each rank sorts the particles of some strips.
-void ZoltanRanks::number_all(const Particles& fluid, const StripOrder& strips) {
+void ZoltanRanks::number(const Particles& fluid, const StripOrder& strips) {
   const auto ranks = static_cast<std::size_t>(size_);
   double first = std::numeric_limits<double>::infinity(), last = -first;
   const auto strip_of = [&](std::uint32_t i) {
@@ -254,30 +260,46 @@ void ZoltanRanks::number_all(const Particles& fluid, const StripOrder& strips) {
     for (std::size_t k = 0; k < places[r].size(); ++k) place_in_whole_[asked[r][k]] = places[r][k];
 }
 
-void ZoltanRanks::share_rates(Particles& fluid) const {
+void ZoltanRanks::share(const std::vector<Field*>& fields) const {
   const auto ranks = static_cast<std::size_t>(size_);
-  const std::array<Field*, dim + 1> rates{&fluid.a[0], &fluid.a[1], &fluid.drho};
   std::vector<std::vector<double>> messages(ranks);
   for (std::size_t r = 0; r < ranks; ++r)
-    for (const Field* rate : rates)
-      for (const auto i : ghosts_there_[r]) messages[r].push_back((*rate)[i]);
+    for (const Field* field : fields)
+      for (const auto i : ghosts_there_[r]) messages[r].push_back((*field)[i]);
   const auto received = all_to_all(messages, communicator_);
   for (std::size_t r = 0; r < ranks; ++r) {
     auto value = received[r].begin();
-    for (Field* rate : rates)
-      for (const auto i : ghosts_here_[r]) (*rate)[i] = *value++;
+    for (Field* field : fields)
+      for (const auto i : ghosts_here_[r]) (*field)[i] = *value++;
   }
 }
 
-Particles ZoltanRanks::gather(const Particles& fluid) const {
-  Particles whole = fluid;
-  std::vector<std::vector<double>> messages(static_cast<std::size_t>(size_));
-  const std::vector<int> owners(own_.size(), rank_);
-  if (!own_.empty()) pack(whole, own_, owners, place_in_whole_, messages[0]);
-  std::vector<int> owners_there;
-  std::vector<std::uint32_t> places_there;
-  unpack(all_to_all(messages, communicator_), whole, owners_there, places_there);
-  return whole;
+/// Of the particles of a boundary whose place is in the part of this rank, those that have fluid near them.
+std::vector<std::uint32_t> ZoltanRanks::own_of(const Boundary& boundary) const {
+  std::vector<std::uint32_t> own;
+  for (const auto c : boundary.list_for_wall.active())
+    for (std::size_t w = c * lane_count; w < std::min((c + 1) * lane_count, boundary.count); ++w) {
+      double x[3] = {boundary.x[0][w], boundary.x[1][w], 0};
+      int owner = 0, part = 0;
+      if (size_ > 1)
+        check(Zoltan_LB_Point_PP_Assign(zoltan_.get(), x, &owner, &part), "a place without an owner");
+      if (owner == rank_) own.push_back(static_cast<std::uint32_t>(w));
+    }
+  return own;
+}
+
+void ZoltanRanks::note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries) {
+  std::vector<std::uint32_t> places;
+  for (const auto i : own_) places.push_back(place_in_whole_[i]);
+  whole_ = Gatherer(communicator_, own_, places);
+  masses_.assign(padded(whole_.places().size()), 0.0);
+  whole_.gather({&fluid.m}, {&masses_});
+  beside_walls_ = BesideWalls(communicator_, fluid, boundaries, own_, place_in_whole_);
+  at_walls_.clear();
+  for (const Boundary& boundary : boundaries) {
+    const auto own = own_of(boundary);
+    at_walls_.emplace_back(communicator_, own, own);
+  }
 }
 
 }  // namespace toryu::fluid

@@ -7,21 +7,52 @@
 
 #include <memory>
 
+#include "fluid_solver/ranks/beside_walls.hpp"
 #include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
-class ZoltanRanks final : public Ranks {
+/// Who is where since lists of neighbours were built last.
+struct Division {
+  bool divided_ = false;                  ///< else every rank has all of the fluid
+  std::vector<std::uint32_t> held_ = {};  ///< numbers of the particles as `divide` leaves them
+  std::vector<int> owners_ = {};          ///< of these
+  /// By place: the place in the whole fluid. Sorting keeps the order of ties, so it must be known.
+  std::vector<std::uint32_t> place_in_whole_ = {};
+  std::vector<std::uint32_t> own_ = {};  ///< places of the own particles
+  /// Places, by rank: of own particles of which it has ghosts, and of ghosts that it owns.
+  std::vector<std::vector<std::uint32_t>> ghosts_there_ = {}, ghosts_here_ = {};
+  Gatherer whole_ = {};  ///< of the own particles
+  Field masses_ = {};    ///< of the whole fluid, on rank 0 [kg/m]
+  BesideWalls beside_walls_ = {};
+  std::vector<Gatherer> at_walls_ = {};  ///< by boundary: of its particles
+};
+
+class ZoltanRanks final : public Ranks, private Division {
  public:
   explicit ZoltanRanks(MPI_Comm communicator);
 
   double largest(double value) const override;
-  void divide(Particles& fluid, double depth) override;
-  void find(const Particles& fluid, const StripOrder& strips) override;
-  void share_rates(Particles& fluid) const override;
-  /// The state of the whole fluid in the order in which one process stores it, on rank 0; no particles
-  /// elsewhere.
-  Particles gather(const Particles& fluid) const;
+  void divide(Particles& fluid, double depth, VecField* beside) override;
+  void find(const Particles& fluid) override;
+  void number(const Particles& fluid, const StripOrder& strips) override;
+  void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries) override;
+  void save() override { saved_ = *this; }
+  void restore() override { static_cast<Division&>(*this) = saved_; }
+  void share(const std::vector<Field*>& fields) const override;
+  const Field& masses() const override { return masses_; }
+  void collect_forces(std::vector<Boundary>& boundaries) const override {
+    beside_walls_.collect_forces(boundaries);
+  }
+  std::vector<Field> collect_beside(std::size_t b, const std::vector<const Field*>& values) const override {
+    return beside_walls_.collect(b, values);
+  }
+  void collect_at(std::size_t b, const std::vector<Field*>& values) const override {
+    at_walls_[b].gather({values.begin(), values.end()}, values);
+  }
+  void collect(const std::vector<const Field*>& part, const std::vector<Field*>& whole) const override {
+    whole_.gather(part, whole);
+  }
 
   int size() const { return size_; }
   std::size_t own_count() const { return own_.size(); }
@@ -37,19 +68,13 @@ class ZoltanRanks final : public Ranks {
   };
   void balance(const Particles& fluid);
   bool is_balanced() const;
-  void number_all(const Particles& fluid, const StripOrder& strips);
+  std::vector<std::uint32_t> own_of(const Boundary& boundary) const;
 
   MPI_Comm communicator_;
   int rank_ = 0, size_ = 1;
   std::unique_ptr<Zoltan_Struct, Destroy> zoltan_;
   long balancings_ = 0;
-  std::vector<std::uint32_t> held_;  ///< numbers of the particles as `divide` leaves them
-  std::vector<int> owners_;          ///< of these
-  /// By place: the place in the whole fluid. Sorting keeps the order of ties, so it must be known.
-  std::vector<std::uint32_t> place_in_whole_;
-  std::vector<std::uint32_t> own_ = {};  ///< places of the own particles
-  /// Places, by rank: of own particles of which it has ghosts, and of ghosts that it owns.
-  std::vector<std::vector<std::uint32_t>> ghosts_there_, ghosts_here_;
+  Division saved_ = {};
 };
 
 }  // namespace toryu::fluid

@@ -156,7 +156,7 @@ void Dynamics::log_conformation_rates(Particles& fluid, const ClusterList& neigh
 void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
                         std::vector<Boundary>& boundaries, Timers& timers) const {
   const bool density = wanted != RatesOf::velocity, velocity = wanted != RatesOf::density;
-  for (auto& boundary : boundaries) boundary.force_on_fluid.by_cluster.resize(fluid.clusters());
+  for (auto& boundary : boundaries) boundary.force_on_fluid.make_room(fluid.clusters());
   if (viscosity_varies())
     for (auto& boundary : boundaries) {
       boundary.eta.resize(boundary.V.size());

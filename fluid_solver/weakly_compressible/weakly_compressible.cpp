@@ -169,9 +169,14 @@ void WeaklyCompressible::evaluate(RatesOf wanted, double time) {
   if (scene_.gravity_change) dynamics_.set_gravity(scene_.gravity_at(time));
   if (state_.open_ends) state_.open_ends->impose(state_.fluid, time, scene_.gravity_at(time));
   dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_);
-  if (ranks_) ranks_->share_rates(state_.fluid);
+  share_rates();
   if (state_.open_ends)
     state_.open_ends->take_rates(state_.fluid, wanted != RatesOf::density, wanted != RatesOf::velocity);
+}
+
+void WeaklyCompressible::share_rates() {
+  Particles& fluid = state_.fluid;
+  if (ranks_) ranks_->share({&fluid.a[0], &fluid.a[1], &fluid.drho});
 }
 
 void WeaklyCompressible::step_midpoint(double dt) {
@@ -195,8 +200,10 @@ void WeaklyCompressible::step_symplectic(double dt) {
   const std::size_t clusters = state_.fluid.clusters();
   if (!state_.density_rate_known || (state_.contact_changed && parameters_.consistent_gradients))
     evaluate(RatesOf::density, state_.time);
-  else if (state_.contact_changed)
+  else if (state_.contact_changed) {
     dynamics_.renew_density_rates(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);
+    share_rates();
+  }
   state_.density_rate_known = true;
   state_.contact_changed = false;
   add(state_.fluid.x, 0.5 * dt, state_.fluid.v, clusters);
@@ -216,11 +223,13 @@ void WeaklyCompressible::step_symplectic(double dt) {
 
 /// Notes what the forces of the evaluation by which the velocity advances do to others over `dt`.
 void WeaklyCompressible::accumulate_reaction(double dt) {
+  if (ranks_) ranks_->collect_forces(state_.boundaries);
   for (Boundary& boundary : state_.boundaries) {
     auto* interface = std::get_if<MovingInterface>(&boundary.motion);
     if (!interface && !boundary.turns()) continue;
     const auto timer = timers_.measure(interface ? "reaction on the interface" : "reaction on what turns");
     dynamics_.react(state_.fluid, pressure_offset(), boundary);
+    if (ranks_) collect_at(boundary);
     if (interface) interface->add_load(boundary, boundary.force_on_fluid.force(), dt);
   }
   note_surface(dt);

@@ -21,7 +21,7 @@
 
 namespace toryu::fluid {
 
-class WeaklyCompressible final : public FluidModel {
+class WeaklyCompressible : public FluidModel {
  public:
   WeaklyCompressible(const Parameters& parameters, const Scene& scene);
 
@@ -47,6 +47,7 @@ class WeaklyCompressible final : public FluidModel {
   void evaluate(RatesOf wanted, double time);  ///< with the gravity at `time` [s]
   void accumulate_reaction(double dt);
   void shift(double dt);
+  void share_rates();  ///< with the other ranks
   void note_surface(double dt);
   void note_extremes();
 

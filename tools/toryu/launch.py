@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from toryu import PROGRAMS, guests, program, replay, summary_text
+from toryu import PROGRAMS, guests, program, ranks, replay, summary_text
 from toryu.case import PROGRAMS_OF, BadCase, resolve
 from toryu.folder_lock import FolderTaken, lock_folder
 from toryu.installation import COMMAND, ROOT
@@ -303,6 +303,8 @@ def main(arguments):
     settle_replay(options, case)
     settle_folder(options, case)
     executables = programs(options, case)
+    if fault := ranks.fault_of(options, executables):
+        return complain(fault)
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [PACKAGES, os.environ.get("PYTHONPATH")]))
     commands = {name: [str(executable), options.case, f"--out={options.out}", *options.passed_on]
                 for name, executable in executables.items()}
@@ -315,7 +317,7 @@ def main(arguments):
     # A program that takes a solver's place checks its own input when it starts.
     own = [name for name, executable in executables.items() if pathlib.Path(executable).parent == options.bin]
     placement = Placement(options, case, executables, own)
-    commands = {name: command + placement.network for name, command in commands.items()}
+    commands = ranks.over_ranks(options, {name: command + placement.network for name, command in commands.items()})
     own = {name: commands[name] for name in own}
     others = [command[0] for name, command in commands.items() if name not in {**own, **placement.jobs}]
     if options.check:

@@ -45,6 +45,8 @@ def parse(arguments):
     parser.add_argument("--only", choices=["fluid", "solid"], help="the side of a replay that runs")
     parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
     parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
+    parser.add_argument("--ranks", metavar="N", help="compute the fluid by N processes with a part of it each, over MPI; the "
+                        "results are the same to the last bit (docs/ranks.md)")
     parser.add_argument("--watch", metavar="PORT", nargs="?", const="", help="serve the report of the run while it runs, to a "
                         "browser on this machine, with a button that ends it; --watch OUT in place of a case watches the "
                         "run that writes into the results folder OUT")

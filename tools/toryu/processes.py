@@ -72,12 +72,12 @@ def ends_with_this_process():
     return end_with_the_parent
 
 
-def start(command, stream, environment=None, descriptors=()):
-    """Starts a process in a group of its own that is asked to end if this one dies. `stream` takes what it says; it has
-    those `descriptors` of this process."""
+def start(command, stream, environment=None, descriptors=(), errors=None):
+    """Starts a process in a group of its own that is asked to end if this one dies. `stream` takes what it says, and
+    `errors` what it says on standard error, if that is to be told apart; it has those `descriptors` of this process."""
     return subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=stream,
-                            stderr=subprocess.STDOUT if stream else None, process_group=0, pass_fds=descriptors,
-                            preexec_fn=ends_with_this_process())
+                            stderr=errors or (subprocess.STDOUT if stream else None), process_group=0,
+                            pass_fds=descriptors, preexec_fn=ends_with_this_process())
 
 
 @dataclass

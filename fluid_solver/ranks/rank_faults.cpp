@@ -1,0 +1,44 @@
+#include "fluid_solver/ranks/rank_faults.hpp"
+
+#include <fmt/format.h>
+
+namespace toryu::fluid {
+
+namespace {
+
+/// Terms that need nothing of a ghost but its state, and whose forces on walls are known by particle. One
+/// that is added later is refused until somebody has made sure of it.
+template <class Term>
+constexpr bool goes_over_ranks = is_one_of<Term, DensityDiffusion, ArtificialViscosity, LaminarViscosity,
+                                           BackgroundPressure, CentralForce>;
+
+}  // namespace
+
+std::vector<StartFault> rank_faults(const Parameters& p, const Scene& scene) {
+  std::vector<StartFault> faults;
+  const auto refuse = [&](bool is_there, const std::string& key, const std::string& what) {
+    if (is_there) faults.push_back({key, what + " not go over ranks: start the case in one process"});
+  };
+  for_each_term(p, [&]<class Term>(const std::optional<Term>& term) {
+    if constexpr (!goes_over_ranks<Term>)
+      refuse(term.has_value(), std::string("fluid.") + Term::section,
+             std::string("[fluid.") + Term::section + "] does");
+  });
+  refuse(p.model != Model::weakly_compressible, "fluid.model", "the implicit model does");
+  refuse(p.has_open_ends(), "fluid", "inlets and outlets do");
+  refuse(p.wall_model.extrapolation == WallExtrapolation::fit, "fluid.wall_model.extrapolation",
+         "fits through the faces of walls do");
+  refuse(scene.geometry != Geometry::plane, "case.geometry", "a flow about an axis does");
+  refuse(scene.periodic != Periodic::none, "case.periodic", "periodic space does");
+  refuse(scene.gravity_change.has_value(), "case.gravity_change", "gravity that changes does");
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    const Wall& wall = scene.walls[w];
+    refuse(wall.press.has_value(), fmt::format("wall.{}.press", w),
+           fmt::format("the wall '{}', which is pressed, does", wall.name));
+    refuse(wall.motion && wall.motion->turns(), fmt::format("wall.{}.box", w),
+           fmt::format("the wall '{}', which turns, does", wall.name));
+  }
+  return faults;
+}
+
+}  // namespace toryu::fluid

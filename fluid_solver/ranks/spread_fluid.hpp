@@ -1,0 +1,51 @@
+/// A fluid that is spread over MPI ranks, as the program on rank 0 sees it: a model of the whole that has a
+/// part of it advanced on each rank, and brings their states together where it is asked for its own.
+#pragma once
+
+#include <functional>
+#include <utility>
+
+#include "fluid_solver/ranks/zoltan_ranks.hpp"
+#include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
+
+namespace toryu::fluid {
+
+class SpreadFluid final : public WeaklyCompressible {
+ public:
+  /// On rank 0; the others `follow`.
+  SpreadFluid(const Parameters& parameters, const Scene& scene, MPI_Comm communicator);
+
+  double time_step_limit() const override { return part_.time_step_limit(); }
+  std::string_view time_step_rule() const override { return part_.time_step_rule(); }
+  void advance(double dt) override;
+  void save() override;
+  void restore() override;
+  void write_state(std::ostream& stream) const override;
+  void read_state(std::istream& stream) override;
+  void check(double time) const override;
+  Frame frame() const override;
+  std::optional<Frame> walls() const override;
+  std::vector<Observation> observe() const override;
+  void record(double time) override;
+
+  void attach(const Interface& interface, bool rigid) override;
+  void begin_window(const InterfaceMotion& motion, double dt) override;
+  InterfaceLoad take_load() override;
+  const Timers& timers() const override { return part_.timers(); }
+
+ private:
+  /// Brings the state of the whole up to date.
+  void collect() const;
+
+  MPI_Comm communicator_;
+  ZoltanRanks ranks_of_parts_;
+  mutable WeaklyCompressible part_;
+  FluidModel& whole_ = *this;    ///< which who only asks brings up to date too
+  mutable bool behind_ = false;  ///< the parts have advanced since it was collected last
+  mutable bool listed_ = true;   ///< its lists of neighbours are those of its state
+};
+
+/// Does what rank 0 orders, until it orders the end: on the other ranks, of the case that `read` gives.
+void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Scene>()>& read);
+
+}  // namespace toryu::fluid
