@@ -137,6 +137,15 @@ TEST(MixedSolid, RefusesWhatBothWouldShare) {
             "solid.load: load 'pull' acts on no particle of the solid");
 }
 
+TEST(MixedSolid, TellsOfPartsThatCannotBeFilled) {
+  Parameters p = plate_and_bar();
+  p.loads.clear(), p.observers.clear(), p.clamps.clear();
+  p.spacing = 0.07;
+  const std::string said = faults(p);
+  EXPECT_NE(said.find("region 'plate' is 1.14 spacings long along x"), std::string::npos) << said;
+  EXPECT_NE(said.find("region 'bar' is 0.571 spacings long along x"), std::string::npos) << said;
+}
+
 /// Under loads and impedances on its whole interface, with the steps of the faster part.
 void moves_as_alone(Formulation formulation) {
   Parameters p = plate_and_bar();
