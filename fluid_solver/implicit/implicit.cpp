@@ -114,8 +114,15 @@ void Implicit::correct(StepSystem& system, const StepSystem::Vector& r, Viscosit
     const double share = tangent_share * speed / x.norm();
     return (r - system.unbalance(v + share * x, viscosity)) / share;
   };
-  const KrylovResult found = solve_by_gmres(product, system.diagonal(), r, tolerance,
-                                            solver_.largest_iterations - effort.iterations);
+  const BlockJacobi blocks(system.diagonal());
+  std::optional<CoarseFlow> coarse;
+  if (scene_.periodic == Periodic::none) coarse.emplace(system.coarse_flow());
+  const Product preconditioner = [&](const StepSystem::Vector& x) -> StepSystem::Vector {
+    if (!coarse) return blocks(x);
+    return blocks(x) + coarse->correction(state_.fluid.x, state_.fluid.m, x);
+  };
+  const KrylovResult found =
+      solve_by_gmres(product, preconditioner, r, tolerance, solver_.largest_iterations - effort.iterations);
   v += found.x;
   effort.iterations += found.iterations;
 }

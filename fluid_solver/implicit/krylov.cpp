@@ -7,27 +7,6 @@ namespace toryu::fluid {
 
 namespace {
 
-/// Divides by the diagonal blocks.
-class BlockJacobi {
- public:
-  explicit BlockJacobi(const DiagonalBlocks& blocks) {
-    for (const auto& block : blocks) inverse_.push_back(block.inverse());
-  }
-  Eigen::VectorXd operator()(const Eigen::VectorXd& b) const {
-    const auto n = static_cast<Eigen::Index>(inverse_.size());
-    Eigen::VectorXd x(2 * n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Vector2d of_i = inverse_[static_cast<std::size_t>(i)] * Eigen::Vector2d(b[i], b[n + i]);
-      x[i] = of_i[0];
-      x[n + i] = of_i[1];
-    }
-    return x;
-  }
-
- private:
-  DiagonalBlocks inverse_;
-};
-
 /// Directions between restarts.
 constexpr long most_directions = 60;
 
@@ -77,18 +56,32 @@ class Directions {
 
 }  // namespace
 
-KrylovResult solve_by_gmres(const Product& product, const DiagonalBlocks& blocks, const Eigen::VectorXd& b,
+BlockJacobi::BlockJacobi(const DiagonalBlocks& blocks) {
+  for (const auto& block : blocks) inverse_.push_back(block.inverse());
+}
+
+Eigen::VectorXd BlockJacobi::operator()(const Eigen::VectorXd& b) const {
+  const auto n = static_cast<Eigen::Index>(inverse_.size());
+  Eigen::VectorXd x(2 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector2d of_i = inverse_[static_cast<std::size_t>(i)] * Eigen::Vector2d(b[i], b[n + i]);
+    x[i] = of_i[0];
+    x[n + i] = of_i[1];
+  }
+  return x;
+}
+
+KrylovResult solve_by_gmres(const Product& product, const Product& preconditioner, const Eigen::VectorXd& b,
                             double tolerance, long largest_iterations) {
-  const BlockJacobi divide(blocks);
   const double wanted = tolerance * b.norm();
   KrylovResult result{.x = Eigen::VectorXd::Zero(b.size())};
   for (Eigen::VectorXd r = b; r.norm() > wanted && result.iterations < largest_iterations;) {
     const long most = std::min(most_directions, largest_iterations - result.iterations);
     Directions directions(r, most);
     while (directions.count() < most && directions.residual() > wanted)
-      directions.add(product(divide(directions.newest())));
+      directions.add(product(preconditioner(directions.newest())));
     result.iterations += directions.count();
-    result.x += divide(directions.best());
+    result.x += preconditioner(directions.best());
     if (directions.residual() <= wanted) break;
     r = b - product(result.x);
   }

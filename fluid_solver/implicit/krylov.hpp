@@ -1,8 +1,7 @@
 /// Solves A x = b where only products A x are known: GMRES (Saad & Schultz 1986), for A is not symmetric
-/// where walls extrapolate, with the diagonal blocks of A as preconditioner from the right, so that the
-/// residual is that of b - A x. A product costs far more than its sums, and BiCGSTAB, which needs two an
-/// iteration, takes a quarter more of them (cases/abrasive_throat). The sums have one order whatever the
-/// number of threads.
+/// where walls extrapolate, with a preconditioner from the right, so that the residual is that of b - A x. A
+/// product costs far more than its sums, and BiCGSTAB, which needs two an iteration, takes a quarter more of
+/// them (cases/abrasive_throat). The sums have one order whatever the number of threads.
 #pragma once
 
 #include <Eigen/Dense>
@@ -22,8 +21,18 @@ struct KrylovResult {
 /// Blocks of the components of one particle, component after component in x.
 using DiagonalBlocks = std::vector<Eigen::Matrix2d>;
 
+/// Divides by the diagonal blocks.
+class BlockJacobi {
+ public:
+  explicit BlockJacobi(const DiagonalBlocks& blocks);
+  Eigen::VectorXd operator()(const Eigen::VectorXd& b) const;
+
+ private:
+  DiagonalBlocks inverse_;
+};
+
 /// From x = 0 until |b - A x| < tolerance |b|, in at most `largest_iterations`.
-KrylovResult solve_by_gmres(const Product& product, const DiagonalBlocks& blocks, const Eigen::VectorXd& b,
+KrylovResult solve_by_gmres(const Product& product, const Product& preconditioner, const Eigen::VectorXd& b,
                             double tolerance, long largest_iterations);
 
 }  // namespace toryu::fluid

@@ -8,6 +8,10 @@ namespace toryu::fluid {
 
 namespace {
 
+/// Of the grid of the preconditioner. A throat of n = 0.4, 20 across, takes 6 products a step with cells of h
+/// to 3 h, and as walls hold by 0.2, 1, 4 and 16 it takes 9, 6, 4 and 3 (17 without the grid).
+constexpr double cell_over_h = 2, hold_of_walls = 16;
+
 /// The first component of all particles, then the second.
 StepSystem::Vector vector_of_all(const VecField& field, std::size_t count) {
   const auto n = static_cast<Eigen::Index>(count);
@@ -229,6 +233,26 @@ std::vector<StepSystem::Block> StepSystem::diagonal() const {
     for (std::size_t c = 0; c < fluid_.clusters(); ++c) of_cluster(W, c);
   });
   return blocks;
+}
+
+CoarseFlow StepSystem::coarse_flow() const {
+  const Parameters& p = terms_.parameters;
+  const bool varies = terms_.viscosity_varies();
+  const double mu = p.laminar_viscosity ? p.laminar_viscosity->dynamic_viscosity : 0;
+  const double hold = hold_of_walls / (p.spacing * p.spacing);
+  CoarseFlow coarse(fluid_.x, fluid_.count, cell_over_h * p.h());
+  for (std::size_t i = 0; i < fluid_.count; ++i) {
+    const double dt_V = dt_ * fluid_.V[i];
+    coarse.add(at(fluid_.x, i), fluid_.m[i], dt_V * (varies ? fluid_.eta[i] : mu),
+               dt_ * dt_V * fluid_.rho[i] * c2_[i]);
+  }
+  if (terms_.viscous_walls)
+    for (const Boundary& wall : boundaries_)
+      for (const std::uint32_t cluster : wall.list_for_wall.active())
+        for (std::size_t w = cluster * lane_count; w < (cluster + 1) * lane_count && w < wall.count; ++w)
+          coarse.hold(at(wall.x, w), hold * dt_ * wall.V[w] * (varies ? wall.eta[w] : mu));
+  coarse.factorise();
+  return coarse;
 }
 
 }  // namespace toryu::fluid

@@ -26,6 +26,7 @@
 
 #include "common/sph/renormalisation.hpp"
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/implicit/coarse_flow.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
 
@@ -70,6 +71,8 @@ class StepSystem {
   Vector unbalance(const Vector& v, Viscosity viscosity);
   /// The blocks of the matrix 1 - dt da/dv on its diagonal, those of the walls' extrapolation left out.
   std::vector<Block> diagonal() const;
+  /// What the system is to smooth velocities, for its preconditioner.
+  CoarseFlow coarse_flow() const;
 
  private:
   Vector velocities() const;

@@ -14,7 +14,7 @@ struct Solved {
 Solved solved(long size, double tolerance, long most) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Identity(size, size);
   for (long i = 0; i < size; ++i) A(i, i) = static_cast<double>(i + 1), A(i, (i + 1) % size) += 1;
-  const DiagonalBlocks ones(static_cast<std::size_t>(size / 2), Eigen::Matrix2d::Identity());
+  const BlockJacobi ones(DiagonalBlocks(static_cast<std::size_t>(size / 2), Eigen::Matrix2d::Identity()));
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(size);
   const KrylovResult found = solve_by_gmres(
       [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x; }, ones, b, tolerance, most);
