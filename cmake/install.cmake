@@ -111,7 +111,7 @@ set_target_properties(participant PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME tor
 target_compile_features(participant INTERFACE cxx_std_20)
 target_link_libraries(participant INTERFACE Eigen3::Eigen cereal::cereal fmt::fmt
   $<LINK_ONLY:spdlog::spdlog> $<LINK_ONLY:tomlplusplus::tomlplusplus> $<LINK_ONLY:CycloneDDS::ddsc>
-  $<LINK_ONLY:OpenMP::OpenMP_CXX> $<LINK_ONLY:ZLIB::ZLIB> $<LINK_ONLY:xxhash>)
+  $<LINK_ONLY:OpenMP::OpenMP_CXX> $<LINK_ONLY:ZLIB::ZLIB> $<LINK_ONLY:OpenSSL::Crypto> $<LINK_ONLY:xxhash>)
 target_sources(participant INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES
   common/case/case_file.hpp common/case/input_file.hpp common/case/parameter_table.hpp common/error/failure.hpp
   common/link/participant.hpp common/run/interruption.hpp common/run/network.hpp common/run/options.hpp common/run/program.hpp common/run/provenance.hpp

@@ -18,7 +18,7 @@ dimensions, as processes that are coupled over DDS. Cases and studies are
 text files; a run ends in a report. The programs are built for every level
 of x86-64, and the processor decides which of them runs.")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-h5py")
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-matplotlib, python3-svgelements, python3-ezdxf")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "openssl, python3-matplotlib, python3-svgelements, python3-ezdxf")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME toryu-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -26,5 +26,5 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "build another fluid or solid for to
 A library and headers for programs that take the place of the fluid or of the
 solid in a coupled run of toryu, and a CMake package: find_package(toryu).")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "toryu (= ${PROJECT_VERSION}), cyclonedds-dev, libcereal-dev, libeigen3-dev, \
-libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libxxhash-dev, zlib1g-dev")
+libfmt-dev, libspdlog-dev, libssl-dev, libtomlplusplus-dev, libxxhash-dev, zlib1g-dev")
 include(CPack)

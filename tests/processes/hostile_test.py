@@ -18,19 +18,20 @@ BURST = 100  # between two looks at whether the run goes on
 END_TIME = "0.1"  # [s] of the strip, some seconds of wall time
 
 
-def ports_of(out):
-    """The ports of the run: two for each process, from 7410 + 250 times its domain on (RTPS 2.5, 9.6.2.3)."""
+def ports_of(out, count=12):
+    """The first ports of the run: two for each process, from 7410 + 250 times its domain on (RTPS 2.5, 9.6.2.3)."""
     name = int((out / "run.secret").read_text()[:16], 16)
-    return range(7410 + 250 * (1 + name % 100), 7410 + 250 * (1 + name % 100) + 12)
+    first = 7410 + 250 * (1 + name % 100)
+    return range(first, first + count)
 
 
 class Recorder:
-    """Datagrams on the loopback device that go to `ports`, without their Ethernet, IP and UDP headers."""
+    """Datagrams on a network device that go to `ports`, without their Ethernet, IP and UDP headers."""
 
-    def __init__(self, ports):
+    def __init__(self, ports, device="lo"):
         self.ports = ports
         self.socket = socket.socket(socket.AF_PACKET, socket.SOCK_RAW, socket.htons(ETH_P_ALL))
-        self.socket.bind(("lo", 0))
+        self.socket.bind((device, 0))
         self.socket.settimeout(1.0)
 
     def __enter__(self):

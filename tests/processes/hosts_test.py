@@ -3,9 +3,11 @@
     hosts_test.py BIN [GROUP]"""
 import pathlib
 import sys
+import tempfile
 import time
 import unittest
 
+from toryu import identities
 from toryu.processes import BAD_INPUT, DONE, PEER_LOST
 from toryu_testing import three_hosts
 from toryu_testing.process_case import LIMIT, NAMES, SOLVERS, ProcessCase
@@ -39,8 +41,15 @@ class Results(HostsCase):
         settings = {"end_time": "0.01", "settings": NO_CHECKPOINTS}
         one = self.run_of_three(**SOLVERS, **settings).start_all()
         self.assert_all_end(one, DONE)
-        run = self.run_over_hosts(SOLVERS, **settings).start_all()
-        self.assert_all_end(run, DONE)
+        with tempfile.TemporaryDirectory(prefix="toryu_identities_") as folder:
+            identities.make(pathlib.Path(folder) / "own", encrypt=True)
+            for extra in ([], [f"--secure={folder}/own"]):
+                with self.subTest(extra=extra):
+                    run = self.run_over_hosts(SOLVERS, **settings).start_all(extra)
+                    self.assert_all_end(run, DONE)
+                    self.assert_same(run, one)
+
+    def assert_same(self, run, one):
         over_hosts = {}
         for role in ROLES:
             run.out = run.folder(role)

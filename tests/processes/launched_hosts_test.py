@@ -11,6 +11,7 @@ import sys
 import unittest
 
 import toryu
+from toryu import identities
 from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, MACHINE, PEER_LOST
 from toryu_testing import three_hosts
 from toryu_testing.launched_hosts import Launched
@@ -65,6 +66,24 @@ class Results(HostsCase):
                 log = (run.out / "log.txt").read_text()
                 for name in ("coupler", "fluid_solver", "solid_solver"):
                     self.assertIn(f" {name} info: toryu ", log)
+
+    def test_are_the_same_secured_by_a_folder_that_each_host_has(self):
+        run = self.hosts()
+        one = run.base / "one"
+        self.assert_end(run.start(ON_ONE, SHORT, out=one), DONE)
+        folder = run.base / "identities"
+        identities.make(folder)
+        secure = f"--secure={folder}"
+        self.assert_end(run.start(ON_THREE, SHORT, secure), BAD_INPUT, "solid_solver on 10.77.0.3",
+                        f"--secure {folder}: error: is no folder; './run.sh --make-identities FOLDER' makes one")
+        for role in ON_THREE:  # whose /tmp is a folder of its own
+            there = run.disk(role) / folder.relative_to("/tmp")
+            there.mkdir(parents=True)
+            for name in ("ca.pem", "governance.p7s", f"{role}.pem", f"{role}.key", f"{role}.p7s"):
+                shutil.copy(folder / name, there)
+        code, said = run.start(ON_THREE, SHORT, secure, "--overwrite").end()
+        self.assertEqual(code, DONE, said)
+        self.assert_same(run.out, one)
 
     def test_of_a_fluid_alone_come_from_its_host(self):
         run = self.hosts()

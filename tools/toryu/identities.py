@@ -26,8 +26,9 @@ FROM_COUPLER = {"fluid": ("session", "checkpoint_request", "interface_to_fluid",
 DAYS, MOST_DAYS = 365, 36500
 NEW_KEY = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-sha256")
 
-# What is not of the messages is alike in both kinds: Cyclone DDS passes over participants of another kind in silence, so
-# that they could not be named.
+# Each packet is authenticated, which costs less than each of its parts; what is encrypted besides is the content of messages.
+# What is of participants is alike with and without: Cyclone DDS passes over those of another kind in silence, so that they
+# could not be named.
 GOVERNANCE = """<?xml version="1.0" encoding="utf-8"?>
 <dds><domain_access_rules><domain_rule>
   <domains><id_range><min>0</min><max>230</max></id_range></domains>
@@ -35,15 +36,15 @@ GOVERNANCE = """<?xml version="1.0" encoding="utf-8"?>
   <enable_join_access_control>true</enable_join_access_control>
   <discovery_protection_kind>ENCRYPT</discovery_protection_kind>
   <liveliness_protection_kind>ENCRYPT</liveliness_protection_kind>
-  <rtps_protection_kind>NONE</rtps_protection_kind>
+  <rtps_protection_kind>SIGN</rtps_protection_kind>
   <topic_access_rules><topic_rule>
     <topic_expression>*</topic_expression>
     <enable_discovery_protection>true</enable_discovery_protection>
     <enable_liveliness_protection>true</enable_liveliness_protection>
     <enable_read_access_control>true</enable_read_access_control>
     <enable_write_access_control>true</enable_write_access_control>
-    <metadata_protection_kind>{kind}</metadata_protection_kind>
-    <data_protection_kind>NONE</data_protection_kind>
+    <metadata_protection_kind>NONE</metadata_protection_kind>
+    <data_protection_kind>{data}</data_protection_kind>
   </topic_rule></topic_access_rules>
 </domain_rule></domain_access_rules></dds>
 """
@@ -92,7 +93,7 @@ def openssl(*words, text=None):
         refuse(f"error: the machine: 'openssl {words[0]}' failed: {done.stderr.strip()}", MACHINE)
 
 
-def make(folder, kind, days):
+def make(folder, encrypt=False, days=DAYS):
     """Fills the new folder. The key of the CA ends with this function: nobody can make another identity of the run."""
     os.umask(0o077)
     folder.mkdir(parents=True)
@@ -105,7 +106,7 @@ def make(folder, kind, days):
 
         openssl("req", "-x509", *NEW_KEY, "-keyout", key, "-out", folder / "ca.pem", "-days", days,
                 "-subj", f"/CN=toryu {secrets.token_hex(4)}")
-        sign(GOVERNANCE.format(kind=kind), "governance.p7s")
+        sign(GOVERNANCE.format(data="ENCRYPT" if encrypt else "NONE"), "governance.p7s")
         for part in ("coupler", "fluid", "solid"):
             openssl("req", *NEW_KEY, "-keyout", folder / f"{part}.key", "-out", request, "-subj", f"/CN={part}")
             openssl("x509", "-req", "-in", request, *authority, "-sha256", "-days", days, "-set_serial",
@@ -130,7 +131,7 @@ def main(arguments):
     if folder.exists():
         refuse(f"--make-identities {folder}: error: is there already; remove it first, or give another folder")
     try:
-        make(folder, "ENCRYPT" if options.encrypt else "SIGN", options.days)
+        make(folder, options.encrypt, options.days)
     except OSError as error:
         if error.errno in program.SHORTAGES:
             raise

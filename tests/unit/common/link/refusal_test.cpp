@@ -81,7 +81,7 @@ TEST_F(LinkTest, ADamagedAnswerEndsTheRun) {
 TEST_F(LinkTest, AnotherProtocolUnitsAndDimensionAreRefusedTogether) {
   fluid_->say_hello(wire::protocol + 1, "CGS", 3);
   EXPECT_THAT([&] { coupler_.gather({}); },
-              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 7, the coupler's is 6\n"
+              ThrowsMessage<BadInput>("raw_fluid: error: protocol is 8, the coupler's is 7\n"
                                       "raw_fluid: error: system of units is CGS, the coupler's is SI\n"
                                       "raw_fluid: error: dimension is 3, the coupler's is 2"));
 }
