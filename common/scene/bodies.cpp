@@ -28,10 +28,11 @@ double finest_spacing(const CaseFile& file) {
   return finest;
 }
 
-/// The fluid's face that stands off the other body, the body's and how far they are apart along `axis`.
+/// The fluid's face that stands off the other body, the body's, and what lies between along `axis`.
 struct Gap {
   int axis;
   double face, other;  ///< [m]
+  Box space;
   double width() const { return std::abs(other - face); }
 };
 
@@ -58,11 +59,17 @@ std::optional<Gap> gap_between(const Box& fluid, const Box& other, double least)
   if (!fluid.is_rectangle() || !other.is_rectangle()) return {};
   for (int axis = 0; axis < dim; ++axis) {
     const int across = 1 - axis;
-    const double shared =
-        std::min(fluid.max[across], other.max[across]) - std::max(fluid.min[across], other.min[across]);
-    if (shared <= least) continue;
-    if (fluid.min[axis] - other.max[axis] > least) return Gap{axis, fluid.min[axis], other.max[axis]};
-    if (other.min[axis] - fluid.max[axis] > least) return Gap{axis, fluid.max[axis], other.min[axis]};
+    const double low = std::max(fluid.min[across], other.min[across]),
+                 high = std::min(fluid.max[across], other.max[across]);
+    if (high - low <= least) continue;
+    const auto gap = [&](double face, double of_other) {
+      Gap found{axis, face, of_other, {}};
+      found.space.min[axis] = std::min(face, of_other), found.space.max[axis] = std::max(face, of_other);
+      found.space.min[across] = low, found.space.max[across] = high;
+      return found;
+    };
+    if (fluid.min[axis] - other.max[axis] > least) return gap(fluid.min[axis], other.max[axis]);
+    if (other.min[axis] - fluid.max[axis] > least) return gap(fluid.max[axis], other.min[axis]);
   }
   return {};
 }
@@ -210,12 +217,22 @@ class Bodies {
       for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
         for (const Body& other : *bodies)
           if (const auto gap = gap_between(region.part.within[0], other.part.within[0], touching * spacing))
-            if (gap->width() < apart * spacing && !is_at_seam(*gap))
+            if (gap->width() < apart * spacing && !is_at_seam(*gap) && !is_filled(*gap))
               said.push_back(gap_text(region, other, *gap, spacing));
     return said;
   }
 
  private:
+  /// Whether other bodies take all of it: of those that stand side by side the fluid touches the first one.
+  bool is_filled(const Gap& gap) const {
+    Part left{{gap.space}, {}};
+    for (const auto* bodies : {&bodies_.fluid, &bodies_.walls, &bodies_.solid})
+      for (const Body& body : *bodies)
+        if (body.part.within.size() == 1 && body.part.without.empty())
+          left.without.push_back(body.part.within[0]);
+    return !place_in(left, tolerance_);
+  }
+
   /// Whether the fluid's face is none, since space repeats itself there.
   bool is_at_seam(const Gap& gap) const {
     return period_.along(gap.axis) && std::min(std::abs(gap.face - domain_.min[gap.axis]),

@@ -48,6 +48,34 @@ TEST(Bodies, ClampsGoWithOutlinesThatTheyStandOn) {
   EXPECT_FALSE(moving_clamps("[[0,2.1], [3,2.1], [3,3], [1,3.5], [0,3]]")) << "it stands off";
 }
 
+TEST(Bodies, ThatStandSideBySideHaveNoGapBetween) {
+  const auto gaps = [](const std::string& bodies) {
+    const CaseText text(water + bodies);
+    CaseFile file(text.folder(), {});
+    return gap_warnings(file, read_scene(file));
+  };
+  const auto part = [](const std::string& list, const std::string& name, const std::string& box) {
+    return "[[" + list + "]]\nname='" + name + "'\nbox={" + box + "}\n";
+  };
+  const std::string back = "min=[1.05,0], max=[1.2,1]", front = "min=[1,0], max=[1.05,1]",
+                    lower_front = "min=[1,0], max=[1.05,0.6]", upper_front = "min=[1,0.6], max=[1.05,1]";
+  ASSERT_EQ(gaps(part("wall", "back", back)).size(), 1u);
+  EXPECT_TRUE(gaps(part("wall", "back", back))
+                  .front()
+                  .starts_with("the fluid's region 'water' ends at x = 1 m, 0.5 spacings off the wall "
+                               "'back': it does not rest on it"));
+  EXPECT_EQ(gaps(part("wall", "back", back) + part("wall", "front", front)), std::vector<std::string>{});
+  EXPECT_EQ(gaps(part("wall", "back", back) + part("wall", "lower", lower_front)).size(), 1u) << "above it";
+  EXPECT_EQ(gaps(part("wall", "back", back) + part("wall", "lower", lower_front) +
+                 part("wall", "upper", upper_front)),
+            std::vector<std::string>{});
+  EXPECT_EQ(gaps(part("wall", "back", back) + part("fluid.region", "more", front)),
+            std::vector<std::string>{});
+  EXPECT_EQ(gaps("[solid]\nspacing=0.025\n" + part("solid.region", "back", back) +
+                 part("solid.region", "front", front)),
+            std::vector<std::string>{});
+}
+
 TEST(Bodies, SayWhichTurnsAreNotLookedAt) {
   const auto unknown = [](const std::string& place) {
     const CaseText text(water + "[[wall]]\nname='star'\npolygon=[[-2,-2], [-1,-1.6], [0,-2], [-1,0]]\n" +
