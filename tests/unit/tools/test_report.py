@@ -157,6 +157,17 @@ class Page(unittest.TestCase):
                       "solid.csv is empty", "solid_summary.toml is damaged"):
             self.assertIn(words, page)
 
+    def test_a_damaged_frame_that_can_be_read_and_holds_less_is_passed_over(self):
+        self.make(frames=3)
+        with h5py.File(self.out / "frames/fluid_000000.hdf", "a") as frame:
+            del frame["VTKHDF/PointData"]
+            frame.create_group("VTKHDF/PointData")
+        page = self.page()
+        fluid, solid = self.content(page)["bodies"]
+        self.assertEqual((fluid["times"], solid["times"]), ([0.2, 0.4], [0, 0.2, 0.4]))
+        self.assertEqual(len(fluid["quantities"]), 3)
+        self.assertIn("fluid_000000.hdf cannot be read", page)
+
     def test_a_run_that_goes_on_is_no_bug(self):
         self.make(frames=2)
         for summary in self.out.glob("*_summary.toml"):
