@@ -93,6 +93,7 @@ void check_series(CaseFile& file, const Scene& scene, const std::string& partici
   for (std::size_t k = 0; k < scene.references.size(); ++k) {
     const std::string& series = scene.references[k].series;
     const auto end = series.find(".csv:");
+    if (end == std::string::npos) continue;  // a fault that is told already
     const std::string of = series.substr(0, end), column = series.substr(end + 5);
     const std::string key = fmt::format("reference.{}.series", k);
     if (of == "coupler" ? !coupled : !file.has(of))
@@ -135,12 +136,16 @@ void run_recorded(RunRecord& record, const std::function<void()>& body, const st
   } catch (...) {
     if (leave) leave();
     const Ending ending = ending_of_exception();
-    try {
-      record.write_last();
-      record.finish(ending.code, ending.reason);
-    } catch (const std::exception& failure) {
-      log::error("{}", failure.what());  // what ended the run says more, and is thrown on
-    }
+    // What ended the run says more than what fails here, is thrown on, and is told then.
+    const auto nevertheless = [&](const std::function<void()>& work) {
+      try {
+        work();
+      } catch (const std::exception& failure) {
+        if (failure.what() != ending.reason) log::error("{}", failure.what());
+      }
+    };
+    nevertheless([&] { record.write_last(); });
+    nevertheless([&] { record.finish(ending.code, ending.reason); });
     throw;
   }
   record.finish(ExitCode::done, "");

@@ -39,7 +39,7 @@ from toryu_testing import made_up_run
 
 HERE = pathlib.Path(__file__).resolve().parent
 CASES = HERE.parents[1] / "cases"
-LIMIT = 60  # [s] within which a check ends
+LIMIT = 300  # [s] within which a check ends, of half a million particles beside other work too
 PLACED = re.compile(r".+: error: .+")
 servers = contextlib.ExitStack()
 options = argparse.Namespace(count=40, seed=1, bin=PROGRAMS, memory=4_000_000_000)  # [bytes] that a check may take
