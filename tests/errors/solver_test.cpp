@@ -73,6 +73,9 @@ TEST(Programs, RefuseAReferenceOverASeriesThatTheyDoNotWrite) {
             "--set reference.0.series=\"fluid.csv:kinetic_enery[J/m]\": error: fluid.csv will have no column "
             "'kinetic_enery[J/m]'; did you mean 'kinetic_energy[J/m]'?\n");
   for (const auto& program : {fluid, solid}) EXPECT_EQ(check(program, of_interface).error, "");
+  for (const auto& program : {fluid, solid})
+    EXPECT_EQ(check(program, "--set 'reference.0.series=\"\"'").error,
+              "--set reference.0.series=\"\": error: 'series' in [[reference]] must not be empty\n");
   EXPECT_EQ(check(solid, of_fluid).error, "");
 }
 
