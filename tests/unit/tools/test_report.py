@@ -310,6 +310,11 @@ class Pieces(unittest.TestCase):
         self.assertEqual(wall["poses"], [])
         self.assertEqual(scene.motion_charts([wall], 2.0), [])
 
+    def test_a_case_that_ends_before_it_starts_has_no_charts(self):
+        wall = {"name": "w", "about": [0.0, 0.0], "poses": [[0.0, 0.0, 0.0, 0.0, 1.0, 0.0], [1.0, 1.0, 0.0, 0.0, 1.0, 0.0]]}
+        self.assertEqual(len(scene.motion_charts([wall], 1.0)), 2)
+        self.assertEqual(scene.motion_charts([wall], -1.0), [])
+
 
 if __name__ == "__main__":
     unittest.main()
