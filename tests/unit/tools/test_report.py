@@ -168,6 +168,15 @@ class Page(unittest.TestCase):
         self.assertEqual(len(fluid["quantities"]), 3)
         self.assertIn("fluid_000000.hdf cannot be read", page)
 
+    def test_a_damaged_size_of_a_frame_asks_for_no_memory(self):
+        self.make(frames=3)
+        with h5py.File(self.out / "frames/fluid_000001.hdf", "a") as frame:
+            del frame["VTKHDF/PointData/pressure"]
+            frame.create_dataset("VTKHDF/PointData/pressure", shape=(1 << 54,), chunks=(1024,), dtype="f4")
+        page = self.page()
+        self.assertEqual(self.content(page)["bodies"][0]["times"], [0, 0.4])
+        self.assertIn("fluid_000001.hdf cannot be read: Unable to allocate", page)
+
     def test_a_run_that_goes_on_is_no_bug(self):
         self.make(frames=2)
         for summary in self.out.glob("*_summary.toml"):
