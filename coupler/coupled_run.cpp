@@ -129,7 +129,7 @@ void CoupledRun::write_checkpoint() {
   attempt([&] { folder = opened_ = open_checkpoint(settings_.out, opened_); });
   if (failure.empty()) failure = let_participants_write(folder);
   attempt([&] {
-    write_part(folder, "coupler", "coupler", [&](std::ostream& stream) { write_state(stream); });
+    write_part(folder, "coupler", {"coupler"}, [&](std::ostream& stream) { write_state(stream); });
     complete_checkpoint(folder, state_.time, checkpoints_.case_text, {"fluid", "solid", "coupler"});
   });
   checkpoints_due_.note(state_.time, wall_time());
@@ -154,7 +154,7 @@ void CoupledRun::write_state(std::ostream& stream) {
 }
 
 void CoupledRun::read_state(const std::filesystem::path& folder) {
-  read_part(folder, "coupler", "coupler", [&](std::istream& stream) {
+  read_part(folder, "coupler", {"coupler"}, [&](std::istream& stream) {
     read_states(stream, state_);
     scheme_->read_state(stream);
     record_->read_state(stream, state_.time);

@@ -23,6 +23,7 @@ struct Program {
   std::string name;  ///< as others shall see it
   std::string side;  ///< "fluid" or "solid"
   bool keeps_state = false;
+  std::string sources;  ///< a sum over its text
   py::object make;
 };
 
@@ -115,7 +116,7 @@ ExitCode compute(const Program& program, const Options& options) {
   const double joined = link.waiting_time();              // the record's time begins now
   if (program.side == "fluid") scene.frame_interval = 0;  // without particles of its own
   RunRecord record(program.side, options, scene, side, particle_counts(side), side.timers());
-  record.made_by(program.name);
+  record.made_by({program.name, program.sources});
   Unlocked<Link> unlocked{link};
   const auto take = [&](const auto& turn) {
     side.begin_window(turn);
@@ -148,8 +149,9 @@ int run(const Program& program, std::vector<std::string> arguments) {
 PYBIND11_MODULE(toryu_participant, module) {
   module.doc() = "The compiled part of toryu.participant.";
   module.def("run", [](const std::string& name, const std::string& side, bool keeps_state,
-                       const py::object& make, const std::vector<std::string>& arguments) {
-    return run({name, side, keeps_state, make}, arguments);
+                       const std::string& sources, const py::object& make,
+                       const std::vector<std::string>& arguments) {
+    return run({name, side, keeps_state, sources, make}, arguments);
   });
 }
 

@@ -35,7 +35,7 @@ int run_side(const std::string& side, bool can_repeat, int argc, char** argv, Jo
         if (turn->task == Task::window)
           answer(link, recording, *turn);
         else  // all that it answers is in the record
-          link.confirm_checkpoint([&] { write_part(turn->checkpoint, side, role, [](std::ostream&) {}); });
+          link.confirm_checkpoint([&] { write_part(turn->checkpoint, side, {role}, [](std::ostream&) {}); });
       }
     } catch (...) {
       link.leave();

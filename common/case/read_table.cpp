@@ -55,6 +55,8 @@ void ReadTable::text(const std::string& key, std::string& value, const TextRule&
   if (!node) return;
   const auto read = checked_text(key, *node, rule.allowed, place_of_key(key));
   if (!read) return;
+  if (rule.required && !rule.names_columns && read->empty())
+    return fault(place_of_key(key), fmt::format("'{}'{} must not be empty", key, where_));
   if (rule.names_columns && (read->empty() || read->find_first_of(",;[]\"\n\r\t") != std::string::npos))
     return fault(place_of_key(key),
                  fmt::format("'{}'{} names columns of the results: it must not be empty nor hold any of , ; "

@@ -29,6 +29,15 @@ void check_values(const std::vector<double>& values, std::size_t particles, std:
           fmt::format("{}: {} of interface particle {} is {}", sender, name, k / components, values[k]));
 }
 
+void check_above_zero(const std::vector<double>& values, std::size_t particles, const char* name,
+                      const std::string& sender) {
+  check_values(values, particles, 1, name, sender);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (values[k] <= 0)
+      throw PeerLost(
+          fmt::format("{}: {} of interface particle {} is {}, not above 0", sender, name, k, values[k]));
+}
+
 }  // namespace
 
 void set(double (&components)[3], const Vec& value) {
@@ -145,11 +154,12 @@ InterfaceLoad load(const toryu_Load& message) {
 void check(const Interface& interface, const std::string& sender) {
   const std::size_t count = interface.size();
   check_values(interface.position, count, dim, "reference position", sender);
-  check_values(interface.volume, count, 1, "volume", sender);
+  check_above_zero(interface.volume, count, "volume", sender);
   check_values(interface.area_vector, count, dim, "area vector", sender);
-  check_values(interface.mass, count, 1, "mass", sender);
-  if (!(interface.spacing > 0))
-    throw PeerLost(fmt::format("{}: spacing {} of the interface is not above 0", sender, interface.spacing));
+  check_above_zero(interface.mass, count, "mass", sender);
+  if (!(interface.spacing > 0) || !std::isfinite(interface.spacing))
+    throw PeerLost(
+        fmt::format("{}: spacing {} of the interface is not finite and above 0", sender, interface.spacing));
 }
 
 void check(const InterfaceMotion& motion, std::size_t particles, const std::string& sender) {

@@ -9,7 +9,6 @@
 #include "common/run/log.hpp"
 #include "common/run/options.hpp"
 #include "common/run/provenance.hpp"
-#include "common/state/checkpoint.hpp"
 #include "common/state/serialize.hpp"
 
 namespace toryu {
@@ -25,7 +24,7 @@ double processor_time() {
 RunRecord::RunRecord(const std::string& participant, const Options& options, const Scene& scene,
                      Solver& solver, const Counts& counts, const Timers& timers)
     : participant_(participant),
-      role_(participant + "_solver"),
+      author_{participant + "_solver"},
       solver_(solver),
       solver_timers_(timers),
       out_(options.out),
@@ -143,14 +142,14 @@ void RunRecord::write_checkpoint(const std::filesystem::path& folder) {
   now.series = series_.state();
   now.frames = frames_.state();
   if (walls_) now.walls = walls_->state();
-  write_part(folder, participant_, role_, [&](std::ostream& stream) {
+  write_part(folder, participant_, author_, [&](std::ostream& stream) {
     write_states(stream, now);
     solver_.write_state(stream);
   });
 }
 
 void RunRecord::read_checkpoint(const std::filesystem::path& folder) {
-  read_part(folder, participant_, role_, [&](std::istream& stream) {
+  read_part(folder, participant_, author_, [&](std::istream& stream) {
     read_states(stream, state_);
     solver_.read_state(stream);
   });

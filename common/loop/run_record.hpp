@@ -15,6 +15,7 @@
 #include "common/run/options.hpp"
 #include "common/run/solver.hpp"
 #include "common/scene/scene.hpp"
+#include "common/state/checkpoint.hpp"
 
 namespace toryu {
 
@@ -55,7 +56,7 @@ class RunRecord {
   void read_checkpoint(const std::filesystem::path& folder);
   const std::string& participant() const { return participant_; }
   /// Who writes the participant's part of a checkpoint, and alone can go on from it; without it, the solver.
-  void made_by(const std::string& program) { role_ = program; }
+  void made_by(const Author& author) { author_ = author; }
   /// Time of the state that was written last [s].
   double time() const { return state_.time; }
 
@@ -91,7 +92,8 @@ class RunRecord {
   void write_row(double time);
   void write_frame(double time);
 
-  std::string participant_, role_;
+  std::string participant_;
+  Author author_;
   Solver& solver_;
   const Timers& solver_timers_;
   std::filesystem::path out_;

@@ -33,6 +33,7 @@ void check_references(CaseFile& file, const Scene& scene, const SeriesColumns& s
   for (std::size_t k = 0; k < scene.references.size(); ++k) {
     const std::string& meant = scene.references[k].series;
     const auto end = meant.find(".csv:");
+    if (end == std::string::npos) continue;  // a fault that is told already
     const std::string of = meant.substr(0, end), column = meant.substr(end + 5);
     const std::string key = fmt::format("reference.{}.series", k);
     if (of == "coupler" ? !coupled : !file.has(of))

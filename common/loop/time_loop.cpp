@@ -102,12 +102,16 @@ void run_recorded(RunRecord& record, const std::function<void()>& body, const st
   } catch (...) {
     if (leave) leave();
     const Ending ending = ending_of_exception();
-    try {
-      record.write_last();
-      record.finish(ending.code, ending.reason);
-    } catch (const std::exception& failure) {
-      log::error("{}", failure.what());  // what ended the run says more, and is thrown on
-    }
+    // What ended the run says more than what fails here, is thrown on, and is told then.
+    const auto nevertheless = [&](const std::function<void()>& work) {
+      try {
+        work();
+      } catch (const std::exception& failure) {
+        if (failure.what() != ending.reason) log::error("{}", failure.what());
+      }
+    };
+    nevertheless([&] { record.write_last(); });
+    nevertheless([&] { record.finish(ending.code, ending.reason); });
     throw;
   }
   record.finish(ExitCode::done, "");

@@ -67,11 +67,11 @@ const std::string& build() {
 }
 
 /// All that must be alike for the same bits to come out.
-Properties properties_of(const std::string& role) {
+Properties properties_of(const Author& author) {
   const Provenance made = provenance(1);
-  return {{"program", role},
+  return {{"program", author.program},
           {"version", made.version},
-          {"build", build()},
+          {"build", build() + (author.sources.empty() ? "" : " with the sources " + author.sources)},
           {"compiler", made.compiler},
           {"instruction set", target()},
           {"precision", fmt::format("{} bytes a number", sizeof(double))}};
@@ -79,9 +79,9 @@ Properties properties_of(const std::string& role) {
 
 constexpr const char* first_line = "toryu checkpoint part 1";
 
-std::string header_of(const std::string& role) {
+std::string header_of(const Author& author) {
   std::string text = std::string(first_line) + '\n';
-  for (const auto& [name, value] : properties_of(role)) text += fmt::format("{}: {}\n", name, value);
+  for (const auto& [name, value] : properties_of(author)) text += fmt::format("{}: {}\n", name, value);
   return text + '\n';
 }
 
@@ -217,21 +217,21 @@ void abandon_checkpoint(const fs::path& folder) noexcept {
   fs::remove_all(folder, ignored);
 }
 
-void write_part(const fs::path& folder, const std::string& name, const std::string& role,
+void write_part(const fs::path& folder, const std::string& name, const Author& author,
                 const std::function<void(std::ostream&)>& write) {
   std::ostringstream stream(std::ios::binary);
   write(stream);
   const std::string payload = std::move(stream).str();
   const fs::path path = folder / (name + ".state"), temporary = part_of(path);
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  file << header_of(role) << fmt::format("{} {}\n", payload.size(), checksum(payload));
+  file << header_of(author) << fmt::format("{} {}\n", payload.size(), checksum(payload));
   file.write(payload.data(), static_cast<std::streamsize>(payload.size()));
   file.close();
   if (!file) fail_to_write(temporary, errno);
   give_name(path);
 }
 
-void read_part(const fs::path& folder, const std::string& name, const std::string& role,
+void read_part(const fs::path& folder, const std::string& name, const Author& author,
                const std::function<void(std::istream&)>& read) {
   const fs::path path = folder / (name + ".state");
   std::ifstream file(path, std::ios::binary);
@@ -239,7 +239,7 @@ void read_part(const fs::path& folder, const std::string& name, const std::strin
   if (!file) refuse(path, fmt::format("cannot be read: {}", std::strerror(errno)));
   if (!std::getline(file, line) || line != first_line) refuse(path, "is no part of a checkpoint");
   std::vector<InputError> errors;
-  for (const auto& [property, ours] : properties_of(role)) {
+  for (const auto& [property, ours] : properties_of(author)) {
     std::getline(file, line);
     const std::string prefix = property + ": ";
     if (!line.starts_with(prefix)) refuse_damaged(path, "its head is not whole");

@@ -54,14 +54,20 @@ void complete_checkpoint(const std::filesystem::path& folder, double time, const
 /// Removes what is there of a checkpoint that will not become whole.
 void abandon_checkpoint(const std::filesystem::path& folder) noexcept;
 
-/// Writes the part `name` ("fluid") of the program `role` ("fluid_solver") into `folder`: what `write` puts
+/// Who writes a part, and alone can go on from it.
+struct Author {
+  std::string program;
+  std::string sources = {};  ///< a sum over the text of a program that is not compiled
+};
+
+/// Writes the part `name` ("fluid") of the program `author` ("fluid_solver") into `folder`: what `write` puts
 /// into the stream. The file gets its name when it is on the disk. Throws MachineFailure, naming the file
 /// and the reason, if that fails.
-void write_part(const std::filesystem::path& folder, const std::string& name, const std::string& role,
+void write_part(const std::filesystem::path& folder, const std::string& name, const Author& author,
                 const std::function<void(std::ostream&)>& write);
 /// Reads a part. Throws BadInput if it was written by another program, version or target (with what differs),
 /// or if it is damaged.
-void read_part(const std::filesystem::path& folder, const std::string& name, const std::string& role,
+void read_part(const std::filesystem::path& folder, const std::string& name, const Author& author,
                const std::function<void(std::istream&)>& read);
 
 /// Throws BadInput that names every key in which `case_text` differs from the case of the checkpoint, except

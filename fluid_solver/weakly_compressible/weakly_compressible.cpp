@@ -132,6 +132,18 @@ std::string_view WeaklyCompressible::time_step_rule() const {
   return smallest_limit(parameters_, dynamics_.medium(), state_.largest, scene_.geometry).rule;
 }
 
+std::vector<Power> WeaklyCompressible::powers() const {
+  const ClusterList& neighbours = state_.neighbours.of_fluid();
+  if (neighbours.clusters() == 0) return dynamics_.powers(state_.fluid, neighbours, state_.boundaries);
+  // Pressures of the last evaluation are half a step older than the velocities. Where both swing, as sound
+  // does, their product would be wrong by the step, always to the same side.
+  Particles fluid = state_.fluid;
+  std::vector<Boundary> boundaries = state_.boundaries;
+  Timers not_told;
+  dynamics_.evaluate(RatesOf::both, fluid, neighbours, boundaries, not_told);
+  return dynamics_.powers(fluid, neighbours, boundaries);
+}
+
 void WeaklyCompressible::advance_from(const Start& start, double dt) {
 #pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < state_.fluid.clusters(); ++c) {

@@ -30,9 +30,7 @@ class WeaklyCompressible : public FluidModel {
   /// A step by the integrator of the case.
   void advance(double dt) override;
   std::vector<ActiveTerm> active_terms() const override { return dynamics_.active_terms(); }
-  std::vector<Power> powers() const override {
-    return dynamics_.powers(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);
-  }
+  std::vector<Power> powers() const override;
 
  private:
   /// The state at the start of a midpoint step.

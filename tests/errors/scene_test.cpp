@@ -346,6 +346,11 @@ TEST(ReferenceFault, OfTheNames) {
   EXPECT_EQ(reference_faults("tip.csv", "tip_y[m]", "y[m]"),
             "case.toml:11:1: error: 'series' must be FILE.csv:COLUMN, such as "
             "'solid.csv:tip_displacement_x[m]', found 'tip_y[m]'");
+  EXPECT_EQ(reference_faults("tip.csv", "", "y[m]"),
+            "case.toml:11:1: error: 'series' in [[reference]] must not be empty");
+  EXPECT_EQ(reference_faults("", "solid.csv:tip_y[m]", ""),
+            "case.toml:10:1: error: 'file' in [[reference]] must not be empty\n"
+            "case.toml:12:1: error: 'column' in [[reference]] must not be empty");
   EXPECT_EQ(
       reference_faults("tip.csv", "sold.csv:tip_y[m]", "y[m]"),
       "case.toml:11:1: error: no series 'sold.csv'; there are 'fluid', 'solid', 'coupler'; did you mean "

@@ -86,6 +86,9 @@ TEST(Programs, RefuseAReferenceOverASeriesThatTheyDoNotWrite) {
                   "--set 'coupling.scheme=\"serial_implicit\"'")
                 .error,
             "");
+  for (const auto& program : {fluid, solid, coupler})
+    EXPECT_EQ(check(program, "--set 'reference.0.series=\"\"'").error,
+              "--set reference.0.series=\"\": error: 'series' in [[reference]] must not be empty\n");
 }
 
 TEST(Programs, RefuseSlipBesideASolid) {

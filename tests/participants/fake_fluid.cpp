@@ -55,11 +55,11 @@ ExitCode run(const Options& options) {
   try {
     const Interface interface = link.join(traits);
     if (const auto folder = link.restart(); !folder.empty())
-      read_part(folder, "fluid", role, [&](std::istream& stream) { read_states(stream, time); });
+      read_part(folder, "fluid", {role}, [&](std::istream& stream) { read_states(stream, time); });
     while (const auto turn = link.next_turn()) {
       if (turn->task == Task::checkpoint) {
         link.confirm_checkpoint([&] {
-          write_part(turn->checkpoint, "fluid", role,
+          write_part(turn->checkpoint, "fluid", {role},
                      [&](std::ostream& stream) { write_states(stream, time); });
         });
         continue;

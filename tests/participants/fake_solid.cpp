@@ -77,11 +77,11 @@ ExitCode run(const Options& options) {
     const Interface interface = strip();
     link.register_interface(interface, motion_at(0, interface));
     if (const auto folder = link.restart(); !folder.empty())
-      read_part(folder, "solid", role, [&](std::istream& stream) { read_states(stream, time); });
+      read_part(folder, "solid", {role}, [&](std::istream& stream) { read_states(stream, time); });
     while (const auto turn = link.next_turn()) {
       if (turn->task == Task::checkpoint) {
         link.confirm_checkpoint([&] {
-          write_part(turn->checkpoint, "solid", role,
+          write_part(turn->checkpoint, "solid", {role},
                      [&](std::ostream& stream) { write_states(stream, time); });
         });
         continue;

@@ -139,6 +139,14 @@ class Python(unittest.TestCase):
         self.assert_ends(self.solid(advance="position = position[:, 0]"), "solid", BUG, PEER_LOST,
                          "Still: position has the shape (30,), not (30, 2)")
 
+    def test_a_mistake_in_a_row_of_the_series_is_told_once(self):
+        with self.fluid(more="def observe(self): return {'a[m]': 1 / (self.windows - 10)}") as run:
+            run.start_all()
+            self.assert_end(run, "fluid", BUG, "in observe: ZeroDivisionError")
+            said = (run.out / "fluid.err").read_text()
+            self.assertEqual(said.count("ZeroDivisionError"), 1, said)
+            self.assertTrue((run.out / "fluid_summary.toml").exists())
+
     def test_another_kind_is_refused(self):
         self.assert_ends(self.fluid("return pressure"), "fluid", BUG, PEER_LOST, "Push.advance answered ndarray, not Load")
         self.assert_ends(self.solid(advance="return"), "solid", BUG, PEER_LOST, "Still.advance answered nothing, not Motion")
@@ -157,6 +165,12 @@ class Python(unittest.TestCase):
                                  f"return Interface(self.x, volume, area_vector, mass, spacing, id={numbers}")
             self.assert_ends(self.run_of(solid=text.format(begin="pass", advance="pass")), "solid", BUG, PEER_LOST,
                              f"Still: id {why}")
+
+    def test_particles_have_volume_and_mass(self):
+        for mistake, why in (("mass[3] = 0", "mass of interface particle 3 is 0, not above 0"),
+                             ("volume[5] = -1e-6", "volume of interface particle 5 is -1e-06, not above 0"),
+                             ("spacing = 0.0", "spacing is 0, not above 0")):
+            self.assert_ends(self.solid(begin=mistake), "solid", BUG, PEER_LOST, f"Still: {why}")
 
     def test_what_is_not_there_is_named(self):
         self.assert_ends(self.fluid(more="advance = None"), "fluid", BUG, PEER_LOST, "'NoneType' object is not callable")
@@ -215,6 +229,21 @@ class Python(unittest.TestCase):
             run.start_all(extra=["--restart"])
             self.assert_end(run, "fluid", BAD_INPUT, "my_fluid")
 
+    def test_another_text_does_not_go_on_from_its_checkpoint(self):
+        with self.fluid(end_time="0.002") as run:
+            run.start_all()
+            for name in trio.ROLES:
+                self.assert_end(run, name, DONE)
+            run.end_time = "0.003"
+            run.start_all(extra=["--restart"])  # the same text does
+            for name in trio.ROLES:
+                self.assert_end(run, name, DONE)
+            text = run.programs["fluid"].read_text()
+            run.programs["fluid"].write_text(text.replace("100.0", "101.0"))
+            run.end_time = "0.004"
+            run.start_all(extra=["--restart"])
+            self.assert_end(run, "fluid", BAD_INPUT, "cannot go on: its build is", "with the sources")
+
     def test_its_series_is_written_as_often_as_the_case_says(self):
         with self.fluid(more="def observe(self): return {'windows[1]': self.windows}", end_time="0.005") as run:
             run.start_all()
@@ -230,6 +259,13 @@ class Python(unittest.TestCase):
             run.start_all()
             for name in trio.ROLES:
                 self.assert_end(run, name, DONE)
+
+    def test_steps_are_counted_by_the_thread_that_takes_the_windows(self):
+        thread = ("def begin(self, interface):\n        import threading\n        self.interface = interface\n"
+                  "        def tick():\n            while True: time.sleep(0.001); self.count_step()\n"
+                  "        threading.Thread(target=tick, name='pulse', daemon=True).start()")
+        self.assert_ends(self.fluid(more=thread), "fluid", BUG, PEER_LOST,
+                         "Push.count_step is called by the thread 'pulse', not by that which calls 'advance'")
 
     def test_a_long_window_ends_when_the_coupler_dies(self):
         endless = ("if self.windows == 3:\n            os.write(2, b'now')\n"

@@ -36,7 +36,7 @@ void fail(const std::string& fault, double time) {
 void write_checkpoint(const std::string& fault, const std::filesystem::path& folder) {
   if (fault == "full checkpoint") throw std::runtime_error("no space left");
   if (fault == "slow checkpoint") std::this_thread::sleep_for(std::chrono::milliseconds(600));
-  write_part(folder, "fluid", role, [](std::ostream&) {});
+  write_part(folder, "fluid", {role}, [](std::ostream&) {});
 }
 
 /// Faults in what is sent.

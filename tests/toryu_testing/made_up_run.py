@@ -147,10 +147,10 @@ calls = 310
 """)
 
 
-def make_results(out, sides=("fluid", "solid"), end=0.4, frames=21):
+def make_results(out, sides=("fluid", "solid"), end=0.4, frames=21, rows=801):
     """A complete run."""
     out.mkdir(parents=True, exist_ok=True)
-    times = np.linspace(0, end, 801)
+    times = np.linspace(0, end, rows)
     for side, body in (("fluid", fluid), ("solid", solid)):
         if side not in sides:
             continue

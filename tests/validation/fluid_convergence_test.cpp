@@ -4,6 +4,7 @@
 
 #include "tests/one_thread.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
+#include "tests/validation/fluid_case.hpp"
 
 namespace toryu::fluid {
 namespace {
@@ -23,6 +24,34 @@ TEST(EnergyBalance, RemainsOpenByTheSquareOfTheStep) {
     }
     EXPECT_LT(left[0], 0.01) << spacing;
     EXPECT_LT(left[1], 0.35 * left[0]) << spacing;
+  }
+}
+
+/// Largest |energy_remainder| to `end` [s], over the energy dissipated by then.
+double largest_remainder(WeaklyCompressible solver, double end, double share) {
+  double largest = 0;
+  while (solver.time() < end - 1e-12) {
+    const auto row = after(solver, std::min(solver.time() + end / 50, end), share);
+    largest = std::max(largest, std::abs(row.at("energy_remainder")));
+  }
+  return largest / columns(solver).at("dissipated_energy");
+}
+
+TEST(EnergyBalance, OfADamBreakAndAWaveRemainsOpenByTheSquareOfTheStep) {
+  const struct {
+    const char* name;
+    std::vector<std::string> settings;
+    double end, largest;
+  } cases[] = {{"dam_break", {"fluid.spacing=0.0057150"}, 0.06, 0.01},
+               {"standing_wave", {"fluid.spacing=0.05"}, 0.4, 0.2}};
+  for (const auto& [name, settings, end, largest] : cases) {
+    std::vector<double> left;
+    for (const double share : {1.0, 0.5, 0.25})
+      left.push_back(largest_remainder(FluidCase(name, settings).solver(), end, share));
+    const double slope = std::log2(left[0] / left[2]) / 2;
+    RecordProperty(name, std::to_string(left[0]) + ", slope " + std::to_string(slope));
+    EXPECT_LT(left[0], largest) << name;
+    EXPECT_GT(slope, 1.7) << name;
   }
 }
 

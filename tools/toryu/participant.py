@@ -23,6 +23,7 @@ interface in C++.
 
 import dataclasses
 import functools
+import hashlib
 import io
 import json
 import os
@@ -143,7 +144,8 @@ class Participant:
         """Runs the participant as a program with the options of the solvers, named as its file, and ends Python with its
         exit code."""
         name = pathlib.Path(sys.argv[0]).stem
-        code = compiled().run(name, cls.side, cls.state is not None, functools.partial(Checked, cls), sys.argv)
+        module = compiled()
+        code = module.run(name, cls.side, cls.state is not None, sources(), functools.partial(Checked, cls), sys.argv)
         ending = threading.Timer(PATIENCE, give_up_threads, [name, code])
         ending.daemon = True
         ending.start()
@@ -187,6 +189,21 @@ def compiled():
     return toryu_participant
 
 
+def is_own(path):
+    """Whether code is the participant's or this project's, not that of a package."""
+    return not path.startswith(sys.prefix + "/lib/") and "-packages/" not in path
+
+
+def sources():
+    """A sum over all own code that is loaded, which tells a program from one whose text was changed."""
+    found = hashlib.sha256()
+    for name, module in sorted(sys.modules.items()):
+        path = getattr(module, "__file__", None)
+        if path and is_own(path) and os.path.isfile(path):
+            found.update(name.encode() + pathlib.Path(path).read_bytes())
+    return found.hexdigest()[:16]
+
+
 class Checked:
     """A participant as the compiled part calls it: plain values in, checked ones out."""
 
@@ -198,16 +215,30 @@ class Checked:
         self.count = 0  # of the interface's particles
         self.columns = None  # that the first row has
         self.kept = {}  # the state at the start of the window
+        self.misuse = None  # of a method that is there to be called
 
     def count_steps_by(self, count):
-        self.participant.count_step = count
+        caller = threading.get_ident()
+
+        def count_step():
+            if threading.get_ident() != caller:  # the link is one thread's, and would not tell when `advance` hangs
+                self.misuse = WrongAnswer(f"{self.name}.count_step is called by the thread "
+                                          f"'{threading.current_thread().name}', not by that which calls 'advance'")
+                sys.exit()  # the thread
+            count()
+
+        self.participant.count_step = count_step
 
     # What it answers
 
     def ask(self, method, *arguments):
         if not hasattr(self.participant, method):
             raise WrongAnswer(f"{self.name} has no method '{method}'")
-        return called(getattr(self.participant, method), *arguments)
+        try:
+            return called(getattr(self.participant, method), *arguments)
+        finally:
+            if self.misuse:
+                raise self.misuse
 
     def answer(self, kind, method, *arguments):
         """What a method of the participant answers, which must be of that kind."""
@@ -260,8 +291,15 @@ class Checked:
             found.velocity = np.zeros((n, 2))
         told = self.fields(found, {"id": (n,), "position": (n, 2), "volume": (n,), "area_vector": (n, 2), "mass": (n,),
                                    "spacing": (), "velocity": (n, 2)})
+        for name in ("volume", "mass", "spacing"):
+            self.check_above_zero(name, told[name])
         self.look_at_state()
         return told | {"id": self.numbers_of_particles(told["id"])}
+
+    def check_above_zero(self, name, found):
+        for k in np.flatnonzero(found <= 0)[:1]:
+            of = "" if name == "spacing" else f" of interface particle {k}"
+            raise WrongAnswer(f"{self.name}: {name}{of} is {found[k]:g}, not above 0")
 
     def numbers_of_particles(self, found):
         wrong = np.flatnonzero((found < 0) | (found > LARGEST_ID) | (found != np.floor(found)))
@@ -378,7 +416,6 @@ def ending_of(error):
     if isinstance(error, WrongAnswer):
         return BUG, str(error)
     frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if frame.line and frame.filename != __file__
-           and not frame.filename.startswith(sys.prefix + "/lib/")]
+    own = [frame for frame in frames if frame.line and frame.filename != __file__ and is_own(frame.filename)]
     place = "".join(f"{frame.filename}:{frame.lineno}: in {frame.name}: " for frame in (own or frames)[-1:])
     return BUG, place + traceback.format_exception_only(error)[-1].strip()

@@ -89,7 +89,7 @@ class Process:
     ended: bool = False
     asked_to_end: bool = False  # by us, so how it ended says nothing
     overdue: bool = False  # it was ended, as the lead was done and it was not
-    left_early: bool = False  # it ended as if all were done before the programs had met
+    left_early: str = ""  # before what it ended as if all were done
     is_stand: bool = False  # for a program on another host: asked to pause and to end, not made to
     running: int = -1  # of a stand: readable when its program has ended, and it only brings here what that wrote
     unread: bytes = b""
@@ -125,7 +125,7 @@ class Process:
 
     def fate(self):
         if self.left_early:
-            return f"ended with exit code {self.status} before it had joined the run: no participant of a coupled run"
+            return f"ended with exit code {self.status} before {self.left_early}"
         if self.overdue:
             return f"was ended: it went on for {PATIENCE:.0f} s after the run was over"
         if self.status >= 0:
@@ -145,7 +145,11 @@ def weight(process):
         return 9
     if process.status < 0:
         return 4
-    return {BAD_INPUT: 0, PHYSICS_FAILED: 1, MACHINE: 2, INTERRUPTED: 5, PEER_LOST: 6}.get(process.status, 3)
+    return weight_of(process.status)
+
+
+def weight_of(exit_code):
+    return {BAD_INPUT: 0, PHYSICS_FAILED: 1, MACHINE: 2, INTERRUPTED: 5, PEER_LOST: 6}.get(exit_code, 3)
 
 
 def cause_of(failed, processes, lead):
@@ -284,9 +288,18 @@ class Run:
         if self.deadline is not None or self.have_met() or any(p.is_over() for p in self.processes if p.name == self.lead):
             return
         for process in (p for p in self.processes if p.ended):
-            process.left_early = True
+            process.left_early = "it had joined the run: no participant of a coupled run"
             self.failed.append(process)
         self.deadline = time.monotonic()
+
+    def _look_for_deserters(self):
+        """Where all that failed lost a peer, the peer is one that ended as if all were done."""
+        if any(weight(process) < weight_of(PEER_LOST) for process in self.failed):
+            return
+        for process in self.processes:
+            if process.status == DONE and process.name != self.lead and not process.asked_to_end:
+                process.left_early = "the run was over"
+                self.failed.append(process)
 
     def _end_the_rest(self):
         rest = [p for p in self.processes if not p.is_over()]
@@ -365,6 +378,7 @@ class Run:
             return INTERRUPTED, "interrupted"
         if not self.failed:
             return DONE, ""
+        self._look_for_deserters()
         cause = cause_of(self.failed, self.processes, self.lead)
         return cause.exit_code(), "\n".join(cause.held_lines + [f"{cause.name} {cause.fate()}"])
 

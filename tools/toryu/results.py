@@ -11,7 +11,8 @@ import tomllib
 from dataclasses import dataclass
 
 PARTICIPANTS = ("fluid", "solid", "coupler")
-DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError, IndexError)  # of h5py and json
+# Of h5py and json. A damaged size asks for any amount of memory.
+DAMAGED = (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError, IndexError, MemoryError)
 
 
 def read(out):

@@ -99,7 +99,7 @@ void compute_window(FluidLink& link, const FluidLink::Turn& turn, Run& run) {
 void begin(const std::filesystem::path& checkpoint, Start start, const Parameters& parameters, Run& run) {
   if (checkpoint.empty()) return note_start(start, parameters, run);
   Numbers state;
-  read_part(checkpoint, "fluid", role, [&](std::istream& stream) { read_states(stream, state); });
+  read_part(checkpoint, "fluid", {role}, [&](std::istream& stream) { read_states(stream, state); });
   // Each particle starts on the rank that has its place.
   for (std::size_t i = 0; i < static_cast<std::size_t>(start.physics.fluid_count); ++i)
     for (std::size_t a = 0; a < dim; ++a) start.position[dim * i + a] = state[6 * i + a];
@@ -113,7 +113,7 @@ void take_turns(FluidLink& link, Run& run) {
     if (turn->task == Task::checkpoint) {
       link.confirm_checkpoint([&] {
         Numbers state = run.state();
-        write_part(turn->checkpoint, "fluid", role,
+        write_part(turn->checkpoint, "fluid", {role},
                    [&](std::ostream& stream) { write_states(stream, state); });
       });
       continue;

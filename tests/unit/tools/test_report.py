@@ -157,6 +157,26 @@ class Page(unittest.TestCase):
                       "solid.csv is empty", "solid_summary.toml is damaged"):
             self.assertIn(words, page)
 
+    def test_a_damaged_frame_that_can_be_read_and_holds_less_is_passed_over(self):
+        self.make(frames=3)
+        with h5py.File(self.out / "frames/fluid_000000.hdf", "a") as frame:
+            del frame["VTKHDF/PointData"]
+            frame.create_group("VTKHDF/PointData")
+        page = self.page()
+        fluid, solid = self.content(page)["bodies"]
+        self.assertEqual((fluid["times"], solid["times"]), ([0.2, 0.4], [0, 0.2, 0.4]))
+        self.assertEqual(len(fluid["quantities"]), 3)
+        self.assertIn("fluid_000000.hdf cannot be read", page)
+
+    def test_a_damaged_size_of_a_frame_asks_for_no_memory(self):
+        self.make(frames=3)
+        with h5py.File(self.out / "frames/fluid_000001.hdf", "a") as frame:
+            del frame["VTKHDF/PointData/pressure"]
+            frame.create_dataset("VTKHDF/PointData/pressure", shape=(1 << 54,), chunks=(1024,), dtype="f4")
+        page = self.page()
+        self.assertEqual(self.content(page)["bodies"][0]["times"], [0, 0.4])
+        self.assertIn("fluid_000001.hdf cannot be read: Unable to allocate", page)
+
     def test_a_run_that_goes_on_is_no_bug(self):
         self.make(frames=2)
         for summary in self.out.glob("*_summary.toml"):
@@ -298,6 +318,11 @@ class Pieces(unittest.TestCase):
         wall, = scene.walls_of({"wall": [{"name": "w", "box": {"min": [0, 0], "max": [1, 1]}}]})
         self.assertEqual(wall["poses"], [])
         self.assertEqual(scene.motion_charts([wall], 2.0), [])
+
+    def test_a_case_that_ends_before_it_starts_has_no_charts(self):
+        wall = {"name": "w", "about": [0.0, 0.0], "poses": [[0.0, 0.0, 0.0, 0.0, 1.0, 0.0], [1.0, 1.0, 0.0, 0.0, 1.0, 0.0]]}
+        self.assertEqual(len(scene.motion_charts([wall], 1.0)), 2)
+        self.assertEqual(scene.motion_charts([wall], -1.0), [])
 
 
 if __name__ == "__main__":

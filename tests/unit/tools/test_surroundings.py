@@ -183,6 +183,15 @@ class Faults(Surroundings):
             self.assertIn("waiting for fluid_solver to end, for 0 s at most: the run is over\n", told.getvalue())
             self.assertEqual((code, said), end)
 
+    def test_a_program_that_is_done_before_the_run_is_over_is_the_cause(self):
+        lost = "say {}: error: peer lost: solid_solver was killed or stopped; end 4"
+        self.plan(coupler="write used_case.toml met; wait 1; " + lost.format("coupler"),
+                  fluid="wait 1; " + lost.format("fluid_solver"))
+        done = self.launch("--solid", "/bin/true", "--no-report", "--overwrite")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("solid_solver ended with exit code 0 before the run was over", done.stderr)
+        self.assertNotIn("fluid_solver ended", done.stderr)
+
     def test_a_program_that_is_none_is_refused(self):
         text = self.folder / "notes"
         text.write_text("no program\n")

@@ -1,6 +1,7 @@
 """Frames for the page: positions and fields as 16-bit codes, compressed, in as many frames as fit the size limit."""
 
 import base64
+import contextlib
 import zlib
 from dataclasses import dataclass
 
@@ -57,25 +58,24 @@ class Body:
 
     def __init__(self, out, name, faults=None, newest=False):
         self.name = name
-        self.quantities = []
         self.count = 0
         self.typical_displacement = 0.0  # [m], of 95 % of the particles, at the time when it is largest
-        files = results.list_frames(out, name, faults)
-        self.files = [(time, path) for time, path in (files[-1:] if newest else files) if self.takes(path, faults)]
+        files = results.list_frames(out, name, faults)[-1 if newest else 0:]
+        self.quantities = quantities_of_most(sampled([path for _, path in files]))
+        self.files = [(time, path) for time, path in files if self.takes(path, faults)]
 
     def takes(self, path, faults):
-        """Whether the frame can be read; the first one that can says what there is to draw."""
+        """Whether all that is drawn can be read from the frame."""
         try:
             with h5py.File(path) as file:
                 points, fields = file["VTKHDF/Points"][:], file["VTKHDF/PointData"]
-                found = self.quantities or quantities(fields)
-                shapes = [np.isfinite(points[:, :2]).shape, *(np.isfinite(q.values(fields)).shape for q in found)]
+                shapes = [np.isfinite(points[:, :2]).shape, *(np.isfinite(q.values(fields)).shape for q in self.quantities)]
             if shapes[0][1] != 2 or any(shape != (len(points),) for shape in shapes[1:]):
                 raise ValueError("its fields are of unequal sizes")
         except results.DAMAGED as error:
             results.note(faults, path, f"cannot be read: {error}")
             return False
-        self.quantities, self.count = found, self.count or len(points)
+        self.count = self.count or len(points)
         return len(points) > 0
 
     def bytes_per_frame(self):
@@ -111,6 +111,20 @@ def quantities(point_data):
     return sorted(found, key=lambda q: next((i for i, word in enumerate(first) if word in q.label.lower()), 9))
 
 
+def quantities_of_most(paths):
+    """What can be drawn of most of the frames: one that is damaged may still be read, and hold less."""
+    found = {}
+    for path in paths:
+        with contextlib.suppress(*results.DAMAGED), h5py.File(path) as file:
+            present = quantities(file["VTKHDF/PointData"])
+            found.setdefault(tuple((q.field, q.component) for q in present), []).append(present)
+    return max(found.values(), key=lambda alike: (len(alike), len(alike[0])), default=[[]])[0]
+
+
+def sampled(values):
+    return [values[i] for i in np.unique(np.linspace(0, len(values) - 1, SAMPLED_FRAMES).round().astype(int))] if values else []
+
+
 def chosen_frames(bodies):
     """Every k-th frame, k the smallest that keeps the size limit; the last one always."""
     size = sum(len(body.files) * body.bytes_per_frame() for body in bodies)
@@ -128,7 +142,7 @@ def finite_box(points):
 def measure(body, domain):
     """Sets the ranges of the quantities (of the values of some frames, without the outermost) and returns the
     smallest box that holds all particles inside `domain` ((x, y) min, (x, y) max)."""
-    chosen = np.unique(np.linspace(0, len(body.files) - 1, SAMPLED_FRAMES).round().astype(int))
+    chosen = sampled(range(len(body.files)))
     samples = [[] for _ in body.quantities]
     boxes = []
     for i, (_, path) in enumerate(body.files):

@@ -90,7 +90,10 @@ def motion_charts(walls, end):
     lines = {"velocity": [], "displacement": [], "angle": []}
     for alike in groups.values():
         name = joined([results.readable(wall["name"]) for wall in alike])
-        times, x, y, angle, v_x, v_y = np.array([row for row in alike[0]["poses"] if row[0] <= end * (1 + 1e-9)]).T
+        poses = [row for row in alike[0]["poses"] if row[0] <= end * (1 + 1e-9)]
+        if not poses:  # a damaged case ends before it starts
+            continue
+        times, x, y, angle, v_x, v_y = np.array(poses).T
         about = alike[0]["about"]
         for letter, moved, velocity in (("x", x - about[0], v_x), ("y", y - about[1], v_y)):
             if velocity.any():

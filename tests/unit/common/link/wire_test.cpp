@@ -1,6 +1,7 @@
 /// What is checked of each message before it is used, and how endings travel.
 #include "common/link/wire.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -52,6 +53,48 @@ TEST(WireCheck, NamesAWrongCount) {
   motion.velocity.pop_back();
   EXPECT_THAT([&] { wire::check(motion, 2, "solid_solver: window 12"); },
               ThrowsMessage<PeerLost>("solid_solver: window 12: 3 values of velocity came, 4 were awaited"));
+}
+
+Interface interface_of_two() {
+  return {.id = {4, 9},
+          .position = {0, 0, 1, 0},
+          .volume = {1, 1},
+          .area_vector = {0, 0, 0, 1},
+          .mass = {2, 2},
+          .spacing = 1};
+}
+
+TEST(WireCheck, ParticlesOfTheInterfaceHaveVolumesAndMassesAboveZero) {
+  EXPECT_NO_THROW(wire::check(interface_of_two(), "my_solid"));
+  for (const double value : {0.0, -0.0, -2.0}) {
+    auto interface = interface_of_two();
+    interface.volume[1] = value;
+    EXPECT_THAT([&] { wire::check(interface, "my_solid"); },
+                ThrowsMessage<PeerLost>(
+                    fmt::format("my_solid: volume of interface particle 1 is {}, not above 0", value)));
+    interface = interface_of_two();
+    interface.mass[0] = value;
+    EXPECT_THAT([&] { wire::check(interface, "my_solid"); },
+                ThrowsMessage<PeerLost>(
+                    fmt::format("my_solid: mass of interface particle 0 is {}, not above 0", value)));
+  }
+  auto interface = interface_of_two();
+  interface.mass[1] = nan;
+  EXPECT_THAT([&] { wire::check(interface, "my_solid"); },
+              ThrowsMessage<PhysicsFailure>("my_solid: mass of interface particle 1 is nan"));
+  interface.mass.pop_back();
+  EXPECT_THAT([&] { wire::check(interface, "my_solid"); },
+              ThrowsMessage<PeerLost>("my_solid: 1 values of mass came, 2 were awaited"));
+}
+
+TEST(WireCheck, SpacingOfTheInterfaceIsFiniteAndAboveZero) {
+  for (const double value : {0.0, -1.0, std::numeric_limits<double>::infinity(), nan}) {
+    auto interface = interface_of_two();
+    interface.spacing = value;
+    EXPECT_THAT([&] { wire::check(interface, "my_solid"); },
+                ThrowsMessage<PeerLost>(
+                    fmt::format("my_solid: spacing {} of the interface is not finite and above 0", value)));
+  }
 }
 
 TEST(WireCheck, LoadMayLackFrictionButNotHaveHalfOfIt) {

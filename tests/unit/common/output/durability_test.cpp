@@ -74,7 +74,7 @@ TEST_F(Durability, OfASeriesAndOfASummary) {
 
 TEST_F(Durability, OfACheckpoint) {
   const fs::path folder = open_checkpoint(out);
-  write_part(folder, "fluid", "fluid_solver", [](std::ostream& stream) { stream << "state"; });
+  write_part(folder, "fluid", {"fluid_solver"}, [](std::ostream& stream) { stream << "state"; });
   complete_checkpoint(folder, 0.5, "[case]\n", {"fluid"});
   expect_synchronised(3);
 }

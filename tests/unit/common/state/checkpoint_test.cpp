@@ -30,7 +30,7 @@ class CheckpointFiles : public testing::Test {
 
   fs::path write_one() const {
     const fs::path folder = open_checkpoint(out_);
-    write_part(folder, "fluid", "fluid_solver", [](std::ostream& stream) { stream << "some state"; });
+    write_part(folder, "fluid", {"fluid_solver"}, [](std::ostream& stream) { stream << "some state"; });
     complete_checkpoint(folder, 0.05, case_text, {"fluid"});
     return folder;
   }
@@ -40,7 +40,7 @@ class CheckpointFiles : public testing::Test {
   void read_newest() const {
     const Checkpoint checkpoint = checkpoint_to_restart(out_);
     check_same_case(checkpoint, case_text);
-    read_part(checkpoint.folder, "fluid", "fluid_solver", [](std::istream&) {});
+    read_part(checkpoint.folder, "fluid", {"fluid_solver"}, [](std::istream&) {});
   }
 
   fs::path out_ = fs::path(testing::TempDir()) / ("checkpoint_" + std::to_string(getpid()));
@@ -93,6 +93,19 @@ TEST_F(CheckpointFiles, DamageIsToldOfWithTheWayAroundIt) {
   EXPECT_THAT([&] { read_newest(); }, ThrowsMessage<BadInput>(HasSubstr("case.toml: error: is damaged: ")));
   fs::remove_all(second);
   EXPECT_NO_THROW(read_newest());
+}
+
+TEST_F(CheckpointFiles, APartOfAnotherTextOfAProgramIsRefused) {
+  const fs::path folder = open_checkpoint(out_);
+  write_part(folder, "fluid", {"my_fluid", "1f"}, [](std::ostream& stream) { stream << "some state"; });
+  const auto read = [&](const Author& author) { read_part(folder, "fluid", author, [](std::istream&) {}); };
+  EXPECT_NO_THROW(read({"my_fluid", "1f"}));
+  EXPECT_THAT(
+      [&] {
+        read({"my_fluid", "2e"});
+      },
+      ThrowsMessage<BadInput>(AllOf(HasSubstr("cannot go on: its build is"), HasSubstr("with the sources 1f"),
+                                    HasSubstr("with the sources 2e"))));
 }
 
 TEST_F(CheckpointFiles, ANumberOfAnotherCaseIsNamedAsItIsWritten) {
