@@ -69,8 +69,8 @@ def datasets(path):
 
 
 def results(out):
-    """The content of all series and frames."""
-    return {path.name: path.read_bytes() for path in out.glob("*.csv")} | {
+    """The content of the solvers' series and of all frames; the coupler's has times of the clock."""
+    return {path.name: path.read_bytes() for path in out.glob("*.csv") if path.name != "coupler.csv"} | {
         path.name: datasets(path) for path in (out / "frames").iterdir()}
 
 
