@@ -33,13 +33,13 @@ run_tests() { # FOLDER CTEST-OPTIONS...
 test_over_mpi() {
   local options=() targets=(coupler solid_solver fluid_solver) names=()
   if tools/install.sh ranks; then
-    options+=(-DTORYU_MPI=ON) targets+=(ranks_test) names+=(FluidOverRanks ranks)
+    options+=(-DTORYU_MPI=ON) targets+=(ranks_test fake_solid) names+=(FluidOverRanks ranks conformance.fluid_over)
   else
     options+=(-DTORYU_MPI=OFF)
     echo "test.sh: the tests of ranks are left out: their packages cannot be installed" >&2
   fi
   if tools/install.sh lammps; then
-    options+=(-DTORYU_LAMMPS=ON) targets+=(lammps_fluid fake_solid) names+=(lammps_fluid conformance.lammps_fluid)
+    options+=(-DTORYU_LAMMPS=ON) targets+=(lammps_fluid fake_solid) names+=(lammps_fluid conformance.lammps)
   else
     options+=(-DTORYU_LAMMPS=OFF)
     echo "test.sh: the tests of lammps_fluid are left out: their packages cannot be installed" >&2

@@ -46,10 +46,27 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
   start_potential_ = potential_energy();
 }
 
+/// How many reaches of ghosts an own particle needs. It sees one reach far: to particles and walls whose
+/// gradients and pressures see one more. Shifting sees how its neighbours shift, who keep off a surface one
+/// reach from them. A viscosity that varies comes to walls from particles whose shear rates other walls make.
+int FluidModel::reaches_of_ghosts() const {
+  const Parameters& p = parameters_;
+  if (p.power_law || p.herschel_bulkley || p.carreau) return 4;
+  return p.seeks_free_surface() ? 3 : 2;
+}
+
 void FluidModel::spread_over(Ranks& ranks) {
   ranks_ = &ranks;
+  state_.neighbours.keep_ghosts(reaches_of_ghosts());
   for (Boundary& boundary : state_.boundaries) boundary.force_on_fluid.of_part = true;
   state_.neighbours.divide(state_.fluid, state_.boundaries, ranks);
+}
+
+/// Values of the particles as those of the whole fluid, on rank 0.
+Field FluidModel::of_whole(const Field& values) const {
+  Field whole(ranks_->masses().size(), 0.0);
+  ranks_->collect({&values}, {&whole});
+  return whole;
 }
 
 /// What the fluid does to the particles of a boundary.
@@ -204,12 +221,15 @@ void FluidModel::move_boundaries(double time) {
 
 void FluidModel::move_back_into_domain() {
   if (!period_.any()) return;
+  Field gained(state_.fluid.x[0].size());
   for (std::size_t i = 0; i < state_.fluid.count; ++i) {
     const Vec x = at(state_.fluid.x, i);
     const Vec back = x + period_.back_into_domain(x);
-    state_.potential_of_moves += state_.fluid.m[i] * (potential(x) - potential(back));
+    gained[i] = state_.fluid.m[i] * (potential(x) - potential(back));
     set(state_.fluid.x, i, back);
   }
+  if (ranks_ && ranks_->divided()) gained = of_whole(gained);
+  for (const double value : gained) state_.potential_of_moves += value;
   for (Boundary& boundary : state_.boundaries) {
     auto* prescribed = std::get_if<PrescribedMotion>(&boundary.motion);
     auto* interface = std::get_if<MovingInterface>(&boundary.motion);

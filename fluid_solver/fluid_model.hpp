@@ -173,6 +173,8 @@ class FluidModel : public Solver {
   Ranks* ranks_ = nullptr;  ///< over which the fluid is spread
 
  private:
+  int reaches_of_ghosts() const;
+  Field of_whole(const Field& values) const;
   void collect_fluid(Particles* whole);
   void fill_regions();
   void start_flow(std::size_t particle);

@@ -55,7 +55,7 @@ double Neighbours::best_skin(const Particles& fluid, const std::vector<Boundary>
 void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, double dt, Ranks* ranks) {
   ++state_.builds;
   state_.skin = best_skin(fluid, boundaries, dt, ranks);
-  if (ranks) ranks->divide(fluid, depth_of_ghosts());
+  if (ranks) ranks->divide(fluid, depth_of_ghosts(), shifts_);
   sort(fluid, strips_);
   if (ranks) {
     ranks->find(fluid);
@@ -70,7 +70,7 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, doub
     state_.boundaries[b] = boundaries[b].x;
   }
   build_lists(fluid.count, boundaries);
-  if (ranks) ranks->note_lists(fluid, boundaries);
+  if (ranks) ranks->note_lists(fluid, boundaries, near_interface(fluid.count, boundaries));
 }
 
 void Neighbours::rebuild(const Particles& fluid, std::vector<Boundary>& boundaries) {
@@ -80,11 +80,31 @@ void Neighbours::rebuild(const Particles& fluid, std::vector<Boundary>& boundari
 void Neighbours::divide(Particles& fluid, std::vector<Boundary>& boundaries, Ranks& ranks) {
   if (state_.builds == 0) return;
   for (int a = 0; a < dim; ++a) fluid.x[a].swap(state_.fluid[a]);  // they were divided there
-  ranks.divide(fluid, depth_of_ghosts(), &state_.fluid);
+  ranks.divide(fluid, depth_of_ghosts(), shifts_, &state_.fluid);
   ranks.find(fluid);
   for (int a = 0; a < dim; ++a) fluid.x[a].swap(state_.fluid[a]);
   build_lists(fluid.count, boundaries);
-  ranks.note_lists(fluid, boundaries);
+  ranks.note_lists(fluid, boundaries, near_interface(fluid.count, boundaries));
+}
+
+std::vector<std::uint32_t> Neighbours::near_interface(std::size_t fluid_count,
+                                                      const std::vector<Boundary>& boundaries) const {
+  std::vector<std::uint32_t> near;
+  if (boundaries.empty() || !boundaries.back().is_interface()) return near;
+  const Boundary& boundary = boundaries.back();
+  const VecField& x_b = state_.boundaries.back();
+  const double reach = support_ + state_.skin;
+  for (const auto c : boundary.list_for_fluid.active())
+    for (std::size_t i = c * lane_count; i < std::min((c + 1) * lane_count, fluid_count); ++i) {
+      const auto is_near = [&](const ShiftedNeighbours& sources) {
+        const Vec x = at(state_.fluid, i) + sources.shift;
+        return std::any_of(sources.sources.begin(), sources.sources.end(),
+                           [&](std::uint32_t j) { return (x - at(x_b, j)).squaredNorm() < reach * reach; });
+      };
+      const auto all = boundary.list_for_fluid.near(c);
+      if (std::any_of(all.begin(), all.end(), is_near)) near.push_back(static_cast<std::uint32_t>(i));
+    }
+  return near;
 }
 
 void Neighbours::collect(const Neighbours& part, const Ranks& ranks, Neighbours* whole) {

@@ -39,6 +39,8 @@ class Neighbours {
   void rebuild(const Particles& fluid, std::vector<Boundary>& boundaries);
   /// Divides a fluid over `ranks` that every process has from a checkpoint, with the lists that it says.
   void divide(Particles& fluid, std::vector<Boundary>& boundaries, Ranks& ranks);
+  /// How many reaches deep the ghosts of a fluid over ranks are.
+  void keep_ghosts(int reaches) { reaches_ = reaches; }
   /// On rank 0 these become those of the whole fluid, of which `part` is spread over `ranks`, without lists.
   static void collect(const Neighbours& part, const Ranks& ranks, Neighbours* whole);
 
@@ -60,12 +62,14 @@ class Neighbours {
   }
   double best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
                    const Ranks* ranks) const;
-  /// Over ranks: an own particle sees one reach far, to ghosts and walls whose gradients and pressures see
-  /// one more [m].
-  double depth_of_ghosts() const { return 2 * (support_ + state_.skin); }
+  double depth_of_ghosts() const { return reaches_ * (support_ + state_.skin); }  ///< over ranks [m]
+  /// Particles of the fluid in reach of the interface.
+  std::vector<std::uint32_t> near_interface(std::size_t fluid_count,
+                                            const std::vector<Boundary>& boundaries) const;
   void build_lists(std::size_t fluid_count, std::vector<Boundary>& boundaries);
 
   double support_, largest_skin_;
+  int reaches_ = 2;
   std::vector<Vec> shifts_;
   Geometry geometry_;
   StripOrder strips_;

@@ -6,11 +6,13 @@ namespace toryu::fluid {
 
 namespace {
 
-/// Terms that need nothing of a ghost but its state, and whose forces on walls are known by particle. One
-/// that is added later is refused until somebody has made sure of it.
+/// Terms that find what they need in a part with ghosts. One that is added later is refused until somebody
+/// has made sure of it.
 template <class Term>
-constexpr bool goes_over_ranks = is_one_of<Term, DensityDiffusion, ArtificialViscosity, LaminarViscosity,
-                                           BackgroundPressure, CentralForce>;
+constexpr bool goes_over_ranks =
+    is_one_of<Term, BackgroundPressure, CentralForce, DensityDiffusion, ParticleShifting, TensileControl,
+              ConsistentGradients, ArtificialViscosity, LaminarViscosity, PowerLaw, HerschelBulkley, Carreau,
+              SlipLaw, WallRepulsion, SurfaceTension>;
 
 }  // namespace
 
@@ -26,10 +28,7 @@ std::vector<StartFault> rank_faults(const Parameters& p, const Scene& scene) {
   });
   refuse(p.model != Model::weakly_compressible, "fluid.model", "the implicit model does");
   refuse(p.has_open_ends(), "fluid", "inlets and outlets do");
-  refuse(p.wall_model.extrapolation == WallExtrapolation::fit, "fluid.wall_model.extrapolation",
-         "fits through the faces of walls do");
   refuse(scene.geometry != Geometry::plane, "case.geometry", "a flow about an axis does");
-  refuse(scene.periodic != Periodic::none, "case.periodic", "periodic space does");
   refuse(scene.gravity_change.has_value(), "case.gravity_change", "gravity that changes does");
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
     const Wall& wall = scene.walls[w];

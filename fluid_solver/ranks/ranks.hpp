@@ -11,23 +11,36 @@ namespace toryu::fluid {
 
 struct Boundary;
 
+/// Whose rates are found anew beside an interface: the whole fluid's clusters near it, as this rank has them.
+struct Renewal {
+  std::vector<std::uint32_t> clusters = {};  ///< of this rank, that have one of its own particles among them
+  std::vector<std::uint32_t> kept = {};      ///< its own particles in these that belong to no such cluster
+};
+
 class Ranks {
  public:
   virtual ~Ranks() = default;
   /// Of the values of all processes.
   virtual double largest(double value) const = 0;
+  /// Of the values of the whole fluid; of ghosts they need not be known.
+  virtual double largest(const Field& values) const = 0;
 
   // where lists of neighbours are built
+  /// Whether the processes have parts of the fluid: before, every one has all of it.
+  virtual bool divided() const = 0;
   /// Gives each process its own particles, with ghosts up to `depth` [m] around them, in the order in which
-  /// the whole fluid was stored. The first time every process has all of it. A field `beside` those of the
-  /// fluid goes with them.
-  virtual void divide(Particles& fluid, double depth, VecField* beside = nullptr) = 0;
+  /// the whole fluid was stored; `shifts` [m], zero first, are those by which space repeats itself. A field
+  /// `beside` those of the fluid goes with them.
+  virtual void divide(Particles& fluid, double depth, const std::vector<Vec>& shifts,
+                      VecField* beside = nullptr) = 0;
   /// Finds the ghosts, and those of whom others have ghosts, where they are after sorting.
   virtual void find(const Particles& fluid) = 0;
   /// Finds the places in the whole fluid after sorting by `strips`.
   virtual void number(const Particles& fluid, const StripOrder& strips) = 0;
-  /// Notes who is near which boundary by the lists as they are now.
-  virtual void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries) = 0;
+  /// Notes who is near which boundary by the lists as they are now; particles at `near_interface` are in
+  /// reach of a solid's.
+  virtual void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                          const std::vector<std::uint32_t>& near_interface) = 0;
   /// Keeps who is where, and brings it back.
   virtual void save() = 0;
   virtual void restore() = 0;
@@ -35,6 +48,7 @@ class Ranks {
   // between two of them
   /// Gives the ghosts what their owners have found.
   virtual void share(const std::vector<Field*>& fields) const = 0;
+  virtual const Renewal& beside_interface() const = 0;
   /// The masses of the whole fluid, on rank 0 [kg/m].
   virtual const Field& masses() const = 0;
   /// On rank 0 `force_on_fluid` of each boundary becomes that on the whole fluid.

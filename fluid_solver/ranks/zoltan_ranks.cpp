@@ -115,6 +115,22 @@ void unpack(const std::vector<std::vector<double>>& messages, Particles& fluid, 
   for (int a = 0; beside && a < dim; ++a) take((*beside)[a]);
 }
 
+void sort_and_thin(std::vector<std::uint32_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// What any rank has, on every rank.
+std::vector<std::uint32_t> sorted_of_all(const std::vector<std::uint32_t>& values, MPI_Comm communicator) {
+  int size = 1;
+  MPI_Comm_size(communicator, &size);
+  std::vector<std::uint32_t> found;
+  for (const auto& of_rank : all_to_all(std::vector(static_cast<std::size_t>(size), values), communicator))
+    found.insert(found.end(), of_rank.begin(), of_rank.end());
+  sort_and_thin(found);
+  return found;
+}
+
 }  // namespace
 
 ZoltanRanks::ZoltanRanks(MPI_Comm communicator) : communicator_(communicator) {
@@ -136,6 +152,12 @@ double ZoltanRanks::largest(double value) const {
   double found = value;
   MPI_Allreduce(&value, &found, 1, MPI_DOUBLE, MPI_MAX, communicator_);
   return found;
+}
+
+double ZoltanRanks::largest(const Field& values) const {
+  double found = -std::numeric_limits<double>::infinity();
+  for (const auto i : own_) found = std::max(found, values[i]);
+  return largest(found);
 }
 
 bool ZoltanRanks::is_balanced() const {
@@ -162,7 +184,34 @@ void ZoltanRanks::balance(const Particles& fluid) {
   ++balancings_;
 }
 
-void ZoltanRanks::divide(Particles& fluid, double depth, VecField* beside) {
+int ZoltanRanks::owner_of(const Vec& x) const {
+  if (size_ == 1) return 0;  // Zoltan keeps no cuts for one
+  double point[3] = {x[0], x[1], 0};
+  int owner = 0, part = 0;
+  check(Zoltan_LB_Point_PP_Assign(zoltan_.get(), point, &owner, &part), "a place without an owner");
+  return owner;
+}
+
+std::vector<std::size_t> ZoltanRanks::ranks_near(const Vec& x, double depth,
+                                                 const std::vector<Vec>& shifts) const {
+  if (size_ == 1) return {0};
+  std::vector<std::size_t> found;
+  std::vector<int> near(static_cast<std::size_t>(size_)), parts(near);
+  for (const Vec& shift : shifts) {
+    const Vec low = x + shift - Vec::Constant(depth), high = x + shift + Vec::Constant(depth);
+    int count = 0, part_count = 0;
+    check(Zoltan_LB_Box_PP_Assign(zoltan_.get(), low[0], low[1], 0, high[0], high[1], 0, near.data(), &count,
+                                  parts.data(), &part_count),
+          "a place without ranks near it");
+    for (int k = 0; k < count; ++k)
+      found.push_back(static_cast<std::size_t>(near[static_cast<std::size_t>(k)]));
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+void ZoltanRanks::divide(Particles& fluid, double depth, const std::vector<Vec>& shifts, VecField* beside) {
   const auto ranks = static_cast<std::size_t>(size_);
   if (!divided_) {  // any share of the whole will do to find cuts
     own_.clear();
@@ -174,19 +223,10 @@ void ZoltanRanks::divide(Particles& fluid, double depth, VecField* beside) {
   if (balancings_ == 0 || !is_balanced()) balance(fluid);
   std::vector<std::vector<std::uint32_t>> there(ranks);
   std::vector<std::vector<int>> owners(ranks);
-  std::vector<int> near(ranks), parts(ranks);
   for (const auto i : own_) {
-    double x[3] = {fluid.x[0][i], fluid.x[1][i], 0};
-    int owner = 0, part = 0, count = 1, part_count = 1;
-    near[0] = 0;
-    if (size_ > 1) {  // Zoltan keeps no cuts for one
-      check(Zoltan_LB_Point_PP_Assign(zoltan_.get(), x, &owner, &part), "a place without an owner");
-      check(Zoltan_LB_Box_PP_Assign(zoltan_.get(), x[0] - depth, x[1] - depth, 0, x[0] + depth, x[1] + depth,
-                                    0, near.data(), &count, parts.data(), &part_count),
-            "a place without ranks near it");
-    }
-    for (int k = 0; k < count; ++k) {
-      const auto r = static_cast<std::size_t>(near[static_cast<std::size_t>(k)]);
+    const Vec x = at(fluid.x, i);
+    const int owner = owner_of(x);
+    for (const std::size_t r : ranks_near(x, depth, shifts)) {
       there[r].push_back(i);
       owners[r].push_back(owner);
     }
@@ -279,22 +319,38 @@ std::vector<std::uint32_t> ZoltanRanks::own_of(const Boundary& boundary) const {
   std::vector<std::uint32_t> own;
   for (const auto c : boundary.list_for_wall.active())
     for (std::size_t w = c * lane_count; w < std::min((c + 1) * lane_count, boundary.count); ++w) {
-      double x[3] = {boundary.x[0][w], boundary.x[1][w], 0};
-      int owner = 0, part = 0;
-      if (size_ > 1)
-        check(Zoltan_LB_Point_PP_Assign(zoltan_.get(), x, &owner, &part), "a place without an owner");
-      if (owner == rank_) own.push_back(static_cast<std::uint32_t>(w));
+      if (owner_of(at(boundary.x, w)) == rank_) own.push_back(static_cast<std::uint32_t>(w));
     }
   return own;
 }
 
-void ZoltanRanks::note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries) {
+/// `near`: who is near the interface, in order.
+Renewal ZoltanRanks::renewal(const std::vector<std::uint32_t>& near) const {
+  std::vector<std::uint32_t> clusters;
+  for (const auto i : own_)  // of a ghost the place is not known
+    if (std::binary_search(near.begin(), near.end(), i)) clusters.push_back(place_in_whole_[i] / lane_count);
+  clusters = sorted_of_all(clusters, communicator_);
+  Renewal found;
+  for (const auto i : own_)
+    if (std::binary_search(clusters.begin(), clusters.end(), place_in_whole_[i] / lane_count))
+      found.clusters.push_back(i / lane_count);
+  sort_and_thin(found.clusters);
+  for (const auto i : own_)
+    if (std::binary_search(found.clusters.begin(), found.clusters.end(), i / lane_count) &&
+        !std::binary_search(clusters.begin(), clusters.end(), place_in_whole_[i] / lane_count))
+      found.kept.push_back(i);
+  return found;
+}
+
+void ZoltanRanks::note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                             const std::vector<std::uint32_t>& near_interface) {
   std::vector<std::uint32_t> places;
   for (const auto i : own_) places.push_back(place_in_whole_[i]);
   whole_ = Gatherer(communicator_, own_, places);
   masses_.assign(padded(whole_.places().size()), 0.0);
   whole_.gather({&fluid.m}, {&masses_});
   beside_walls_ = BesideWalls(communicator_, fluid, boundaries, own_, place_in_whole_);
+  renewal_ = renewal(near_interface);
   at_walls_.clear();
   for (const Boundary& boundary : boundaries) {
     const auto own = own_of(boundary);

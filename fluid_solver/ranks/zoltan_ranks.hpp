@@ -25,6 +25,7 @@ struct Division {
   Gatherer whole_ = {};  ///< of the own particles
   Field masses_ = {};    ///< of the whole fluid, on rank 0 [kg/m]
   BesideWalls beside_walls_ = {};
+  Renewal renewal_ = {};
   std::vector<Gatherer> at_walls_ = {};  ///< by boundary: of its particles
 };
 
@@ -33,10 +34,14 @@ class ZoltanRanks final : public Ranks, private Division {
   explicit ZoltanRanks(MPI_Comm communicator);
 
   double largest(double value) const override;
-  void divide(Particles& fluid, double depth, VecField* beside) override;
+  double largest(const Field& values) const override;
+  bool divided() const override { return divided_; }
+  void divide(Particles& fluid, double depth, const std::vector<Vec>& shifts, VecField* beside) override;
   void find(const Particles& fluid) override;
   void number(const Particles& fluid, const StripOrder& strips) override;
-  void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries) override;
+  void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                  const std::vector<std::uint32_t>& near_interface) override;
+  const Renewal& beside_interface() const override { return renewal_; }
   void save() override { saved_ = *this; }
   void restore() override { static_cast<Division&>(*this) = saved_; }
   void share(const std::vector<Field*>& fields) const override;
@@ -66,8 +71,12 @@ class ZoltanRanks final : public Ranks, private Division {
   struct Destroy {
     void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
   };
+  int owner_of(const Vec& x) const;
+  /// Ranks whose parts are nearer than `depth` [m] to `x`, or to an image of it.
+  std::vector<std::size_t> ranks_near(const Vec& x, double depth, const std::vector<Vec>& shifts) const;
   void balance(const Particles& fluid);
   bool is_balanced() const;
+  Renewal renewal(const std::vector<std::uint32_t>& near) const;
   std::vector<std::uint32_t> own_of(const Boundary& boundary) const;
 
   MPI_Comm communicator_;

@@ -215,10 +215,10 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
 }
 
 void Dynamics::renew_density_rates(Particles& fluid, const ClusterList& neighbours,
-                                   std::vector<Boundary>& boundaries) const {
-  medium_.kernel.visit([&](const auto& W) {
-    sweeps().rates(W, RatesOf::density, fluid, neighbours, boundaries, &boundaries.back());
-  });
+                                   std::vector<Boundary>& boundaries,
+                                   const std::vector<std::uint32_t>& clusters) const {
+  medium_.kernel.visit(
+      [&](const auto& W) { sweeps().rates(W, RatesOf::density, fluid, neighbours, boundaries, &clusters); });
 }
 
 void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const {

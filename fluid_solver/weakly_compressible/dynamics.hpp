@@ -30,10 +30,10 @@ class Dynamics {
   void evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
                 std::vector<Boundary>& boundaries, Timers& timers) const;
 
-  /// Finds drho anew for the clusters of the fluid beside the last of the boundaries, the interface, after
-  /// velocities have changed there. The rest of the last evaluation of drho must stand.
-  void renew_density_rates(Particles& fluid, const ClusterList& neighbours,
-                           std::vector<Boundary>& boundaries) const;
+  /// Finds drho anew for `clusters` of the fluid, after velocities have changed beside the interface. The
+  /// rest of the last evaluation of drho must stand.
+  void renew_density_rates(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries,
+                           const std::vector<std::uint32_t>& clusters) const;
 
   /// Fills `boundary.force`, the exact reaction to what the boundary did to the fluid in the last evaluation,
   /// gathered pair by pair on the boundary's side, and its `friction_force` where there is friction.

@@ -45,11 +45,10 @@ struct PairSweeps {
   bool axisymmetric = false;  ///< terms as they are about an axis (terms/axisymmetry.hpp)
 
   /// Fills the rates a, drho of `fluid`, and what each boundary did to it where the velocity is among them.
-  /// Opens a parallel region. With `beside`, only for the clusters near that boundary. Defined for
-  /// CubicSpline and WendlandC2.
+  /// Opens a parallel region. With `some`, only for these clusters. Defined for CubicSpline and WendlandC2.
   template <class W>
   void rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-             std::vector<Boundary>& boundaries, const Boundary* beside = nullptr) const;
+             std::vector<Boundary>& boundaries, const std::vector<std::uint32_t>* some = nullptr) const;
 
   /// Fills `boundary.force`: the forces on the fluid's side gathered pair by pair on the boundary's.
   template <class W>

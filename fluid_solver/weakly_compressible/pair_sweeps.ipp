@@ -132,24 +132,25 @@ void reaction_on_cluster(const PairSweeps& sweeps, const W& kernel, const Partic
 
 template <RatesOf wanted, class W, class... Terms>
 void rates_of_all(const PairSweeps& sweeps, const W& kernel, Particles& fluid, const ClusterList& neighbours,
-                  std::vector<Boundary>& boundaries, const Boundary* beside, const Terms... term) {
+                  std::vector<Boundary>& boundaries, const std::vector<std::uint32_t>* some,
+                  const Terms... term) {
+  const std::size_t count = some ? some->size() : fluid.clusters();
 #pragma omp parallel for schedule(dynamic, 8)
-  for (std::size_t c = 0; c < fluid.clusters(); ++c)
-    if (!beside || beside->acts_on(c))
-      rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, c, term...);
+  for (std::size_t k = 0; k < count; ++k)
+    rates_of_cluster<wanted>(sweeps, kernel, fluid, neighbours, boundaries, some ? (*some)[k] : k, term...);
 }
 
 }  // namespace
 
 template <class W>
 void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                       std::vector<Boundary>& boundaries, const Boundary* beside) const {
+                       std::vector<Boundary>& boundaries, const std::vector<std::uint32_t>* some) const {
   if (axisymmetric) return rates_about_axis(kernel, wanted, fluid, neighbours, boundaries);
   // Terms that a sweep does not ask for are not told apart: each combination is compiled once.
   if (wanted == RatesOf::both)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, beside,
+          rates_of_all<RatesOf::both>(*this, kernel, fluid, neighbours, boundaries, some,
                                       Continuity{rest_density, wall_suction}, Pressure{wall_suction},
                                       term...);
         },
@@ -157,14 +158,14 @@ void PairSweeps::rates(const W& kernel, RatesOf wanted, Particles& fluid, const 
   else if (wanted == RatesOf::velocity)
     std::visit(
         [&](const auto&... term) {
-          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries, beside,
+          rates_of_all<RatesOf::velocity>(*this, kernel, fluid, neighbours, boundaries, some,
                                           Pressure{wall_suction}, term...);
         },
         terms.artificial, terms.viscous, terms.repulsion);
   else
     std::visit(
         [&](const auto& diffusion) {
-          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, beside,
+          rates_of_all<RatesOf::density>(*this, kernel, fluid, neighbours, boundaries, some,
                                          Continuity{rest_density, wall_suction}, diffusion);
         },
         terms.diffusion);

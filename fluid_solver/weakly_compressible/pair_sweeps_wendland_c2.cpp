@@ -3,7 +3,7 @@
 namespace toryu::fluid {
 
 template void PairSweeps::rates(const WendlandC2&, RatesOf, Particles&, const ClusterList&,
-                                std::vector<Boundary>&, const Boundary*) const;
+                                std::vector<Boundary>&, const std::vector<std::uint32_t>*) const;
 template void PairSweeps::reaction(const WendlandC2&, const Particles&, Boundary&) const;
 
 }  // namespace toryu::fluid

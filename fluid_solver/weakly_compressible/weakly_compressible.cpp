@@ -208,14 +208,27 @@ void WeaklyCompressible::step_midpoint(double dt) {
   move_boundaries(state_.time);
 }
 
+/// Beside the interface, whose velocity has changed.
+void WeaklyCompressible::renew_density_rates() {
+  const auto renew = [&](const std::vector<std::uint32_t>& clusters) {
+    dynamics_.renew_density_rates(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, clusters);
+  };
+  if (!ranks_) return renew(state_.boundaries.back().list_for_fluid.active());
+  const Renewal& of_part = ranks_->beside_interface();
+  Field& drho = state_.fluid.drho;
+  std::vector<double> kept;
+  for (const auto i : of_part.kept) kept.push_back(drho[i]);
+  renew(of_part.clusters);
+  for (std::size_t k = 0; k < kept.size(); ++k) drho[of_part.kept[k]] = kept[k];
+  share_rates();
+}
+
 void WeaklyCompressible::step_symplectic(double dt) {
   const std::size_t clusters = state_.fluid.clusters();
   if (!state_.density_rate_known || (state_.contact_changed && parameters_.consistent_gradients))
     evaluate(RatesOf::density, state_.time);
-  else if (state_.contact_changed) {
-    dynamics_.renew_density_rates(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);
-    share_rates();
-  }
+  else if (state_.contact_changed)
+    renew_density_rates();
   state_.density_rate_known = true;
   state_.contact_changed = false;
   add(state_.fluid.x, 0.5 * dt, state_.fluid.v, clusters);
@@ -263,6 +276,8 @@ void WeaklyCompressible::note_surface(double dt) {
 void WeaklyCompressible::shift(double dt) {
   const auto timer = timers_.measure("shifting");
   shifting_->shift(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, state_.largest.speed, dt);
+  Particles& fluid = state_.fluid;
+  if (ranks_) ranks_->share({&fluid.x[0], &fluid.x[1], &fluid.v[0], &fluid.v[1], &fluid.rho});
 }
 
 void WeaklyCompressible::note_extremes() {
@@ -279,7 +294,9 @@ void WeaklyCompressible::note_extremes() {
     if (boundary.turns())
       largest.speed_of_turning = std::max(largest.speed_of_turning, largest_norm(boundary.v, boundary.count));
   if (dynamics_.viscosity_varies())
-    largest.viscosity = *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
+    largest.viscosity = ranks_ && ranks_->divided()
+                            ? ranks_->largest(fluid.eta)
+                            : *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
   if (const auto& medium = parameters_.viscoelasticity) {
     const PolymerExtremes extremes = polymer_extremes(*medium, fluid);
     largest.elastic_speed = extremes.elastic_speed;

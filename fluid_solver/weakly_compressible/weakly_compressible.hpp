@@ -45,6 +45,7 @@ class WeaklyCompressible : public FluidModel {
   void evaluate(RatesOf wanted, double time);  ///< with the gravity at `time` [s]
   void accumulate_reaction(double dt);
   void shift(double dt);
+  void renew_density_rates();
   void share_rates();  ///< with the other ranks
   void note_surface(double dt);
   void note_extremes();

@@ -24,6 +24,25 @@ DAM = ["dam_break", "--set", "fluid.spacing=0.0028575", "--set", "case.series_in
 GATE = ["elastic_gate", "--set", "fluid.spacing=0.0025", "--set", "solid.spacing=0.0025", "--end-time", "0.02"]
 
 
+SHORT = ["--set", "case.series_interval=0.004", "--end-time", "0.012"]
+COARSE_DAM = ["dam_break", "--set", "fluid.spacing=0.0028575", *SHORT]
+# Of each term and kind of space a case that has it.
+TERMS = {
+    "wall repulsion": [*COARSE_DAM, "--set", "fluid.wall_repulsion={}"],
+    "shifting": [*COARSE_DAM, "--set", "fluid.particle_shifting={}"],
+    "tensile control": [*COARSE_DAM, "--set", "fluid.tensile_control={}"],
+    "consistent gradients": [*COARSE_DAM, "--set", "fluid.consistent_gradients={}", "--set",
+                             "fluid.particle_shifting={}"],
+    "surface tension": [*COARSE_DAM, "--set", "fluid.surface_tension={coefficient=0.5}"],
+    "a power law beside walls": ["poiseuille/power_law.toml", *SHORT],
+    "periods of both axes": ["taylor_green", *SHORT],
+    "gravity along a period": ["poiseuille", *SHORT[:-1], "0.1"],
+    "fits through faces": ["poiseuille", *SHORT, "--set", "fluid.wall_model.extrapolation=fit"],
+    "slip along walls": ["poiseuille", *SHORT, "--set", "fluid.wall_slip={coefficient=0.001}"],
+    "a moving wall": ["retreating_piston", *SHORT[:-1], "0.1"],
+}
+
+
 def launch(out, case, *options):
     name, *more = case
     command = [sys.executable, "-I", "-X", "utf8", PACKAGE, "launch", CASES / name, "--out", out, "--bin", BIN, "--no-report",
@@ -50,8 +69,8 @@ def datasets(path):
 
 
 def results(out):
-    """The content of all series and frames."""
-    return {path.name: path.read_bytes() for path in out.glob("*.csv")} | {
+    """The content of the solvers' series and of all frames; the coupler's has times of the clock."""
+    return {path.name: path.read_bytes() for path in out.glob("*.csv") if path.name != "coupler.csv"} | {
         path.name: datasets(path) for path in (out / "frames").iterdir()}
 
 
@@ -87,14 +106,15 @@ class OverRanks(unittest.TestCase):
         for name, content in expected.items():
             self.assertEqual(found[name], content, name)
 
-    def begin(self, *options):
-        """A run of some seconds that has begun."""
-        out = self.folder / "run"
-        run = launch(out, [*DAM[:-1], "4"], *options)
+    def begin(self, count, *options):
+        """A run of some seconds over `count` ranks that has begun."""
+        out = pathlib.Path(tempfile.mkdtemp(dir=self.folder)) / "run"
+        run = launch(out, [*DAM[:-1], "4"], "--ranks", str(count), *options)
+        self.addCleanup(run.communicate)
         self.addCleanup(run.kill)
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline and run.poll() is None:
-            if (out / "fluid.csv").exists() or list(out.glob("fluid.csv*")):
+            if list(out.glob("fluid.csv*")) and len(ranks_of(out)) == count:
                 return run, out
             time.sleep(0.05)
         self.fail(f"it has not begun: {end_of(run, 1)}")
@@ -133,9 +153,9 @@ class Alone(OverRanks):
         self.assertEqual(told[1:], told[:1] * 2)
 
     def test_refuses_what_does_not_go(self):
-        code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.particle_shifting={}", "--check"))
+        code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.held_volume={}", "--check"))
         self.assertEqual(code, BAD_INPUT, text)
-        self.assertIn("[fluid.particle_shifting] does not go over ranks: start the case in one process", text)
+        self.assertIn("[fluid.held_volume] does not go over ranks: start the case in one process", text)
 
     def test_refuses_no_number_and_no_fluid(self):
         for case, count, words in ((DAM, "0", "must be a number of processes, 1 or more"), (DAM, "two", "must be a number"),
@@ -145,10 +165,18 @@ class Alone(OverRanks):
             self.assertIn(words, text)
 
 
+class Terms(OverRanks):
+    def test_leave_what_one_process_leaves(self):
+        for number, (name, case) in enumerate(TERMS.items()):
+            with self.subTest(name):
+                expected = self.done(f"{number}_one", case)
+                self.expect_the_same(self.done(f"{number}_over", case, "--ranks", "3"), expected)
+
+
 class Ends(OverRanks):
     def test_a_killed_rank_ends_all_and_is_named(self):
         for victim in (1, 0):
-            run, out = self.begin("--ranks", "3", "--overwrite")
+            run, out = self.begin(3)
             process = next(process for process, rank in ranks_of(out).items() if rank == victim)
             os.kill(process, signal.SIGKILL)
             killed = time.monotonic()
@@ -159,7 +187,7 @@ class Ends(OverRanks):
             self.expect_none_left(out)
 
     def test_an_interruption_ends_all_in_order(self):
-        run, out = self.begin("--ranks", "2", "--set", "case.checkpoint_interval=0.01")
+        run, out = self.begin(2, "--set", "case.checkpoint_interval=0.01")
         os.kill(run.pid, signal.SIGINT)
         code, text = end_of(run, 60)
         self.assertEqual(code, INTERRUPTED, text)

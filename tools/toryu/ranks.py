@@ -12,14 +12,14 @@ import subprocess
 import sys
 
 from toryu import PROGRAMS, program
-from toryu.processes import BUG, MEANING, PEER_LOST, requests_to_end, start
+from toryu.processes import BUG, FAULTS, MEANING, PEER_LOST, requests_to_end, start
 
 BIN = PROGRAMS.parents[1] / "ranks/bin"  # of the build with MPI
 # More ranks than cores may be asked for. A rank that waits gives its core to those that compute.
 OPTIONS = ["--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"]
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}  # in a container there is nobody else
 # What mpirun says of a rank that died.
-LOST = re.compile(r"mpirun noticed that process rank (\d+) with PID \d+ on node \S+ exited on (signal \d+ \([^)]*\))")
+LOST = re.compile(r"mpirun noticed that process rank (\d+) with PID \d+ on node \S+ exited on signal (\d+) \(([^)]*)\)")
 RULE = re.compile(r"-{20,}")  # before and behind what mpirun says of itself
 
 
@@ -69,9 +69,14 @@ class Listener:
             else:
                 print(line, file=sys.stderr)
 
-    def lost(self):
-        """Number and fate of the rank that died, if one did."""
-        return LOST.search(" ".join(self.box))
+    def death(self, count):
+        """Of a rank, if one died: the exit code, and a line. As of a process by itself, a crash is a bug."""
+        lost = LOST.search(" ".join(self.box))
+        if not lost:
+            return None
+        code, kind = (BUG, "unexpected") if int(lost[2]) in FAULTS else (PEER_LOST, "peer lost")
+        return code, (f"fluid_solver: error: {kind}: rank {lost[1]} of {count} was ended by signal {lost[2]} ({lost[3]}); mpirun "
+                      "has ended the others")
 
 
 def follow(ranks, listener):
@@ -99,10 +104,9 @@ def main(arguments):
     ranks = start(["mpirun", *OPTIONS, "-n", count, path, *rest], None, errors=subprocess.PIPE)
     listener = Listener()
     code = follow(ranks, listener)
-    if lost := listener.lost():
-        print(f"fluid_solver: error: peer lost: rank {lost[1]} of {count} was ended by {lost[2]}; mpirun has ended the others",
-              file=sys.stderr)
-        return PEER_LOST
+    if death := listener.death(count):
+        print(death[1], file=sys.stderr)
+        return death[0]
     if code not in MEANING:
         print(*listener.box, sep="\n", file=sys.stderr)
     return code if code in MEANING else BUG
