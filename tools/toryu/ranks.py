@@ -75,8 +75,8 @@ class Listener:
         if not lost:
             return None
         code, kind = (BUG, "unexpected") if int(lost[2]) in FAULTS else (PEER_LOST, "peer lost")
-        return code, (f"fluid_solver: error: {kind}: rank {lost[1]} of {count} was ended by signal {lost[2]} ({lost[3]}); mpirun "
-                      "has ended the others")
+        return code, (f"fluid_solver: error: {kind}: rank {lost[1]} of {count} was ended by signal {lost[2]} ({lost[3]}); "
+                      "mpirun has ended the others")
 
 
 def follow(ranks, listener):

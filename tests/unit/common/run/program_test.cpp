@@ -19,8 +19,8 @@
 namespace toryu {
 namespace {
 
-TEST(Interruption, IsRequestedByEitherSignalAndKillsNothing) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+TEST(Interruption, IsRequestedByAnyOfItsSignalsAndKillsNothing) {
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) {
     catch_interruptions();
     EXPECT_FALSE(interruption_requested());
     EXPECT_NO_THROW(throw_if_interrupted());
@@ -29,17 +29,16 @@ TEST(Interruption, IsRequestedByEitherSignalAndKillsNothing) {
     EXPECT_TRUE(interruption_requested());
     EXPECT_THROW(throw_if_interrupted(), Interrupted);
   }
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int each : {SIGINT, SIGTERM, SIGUSR1}) std::signal(each, SIG_DFL);
 }
 
 TEST(Interruption, LeavesASignalThatIsIgnored) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     std::signal(signal, SIG_IGN);
     catch_interruptions();
     std::raise(signal);
     EXPECT_FALSE(interruption_requested()) << signal;
-    for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_DFL);
+    for (const int each : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) std::signal(each, SIG_DFL);
   }
 }
 
