@@ -222,7 +222,9 @@ std::vector<Observation> FluidModel::observe() const {
       row.push_back({"way_of_" + boundary.name, "m", pressed->way_at(state_.time)});
       row.push_back({"speed_of_" + boundary.name, "m/s", pressed->speed_at(state_.time)});
     }
-    if (!parameters_.friction || parameters_.wall_slip || !boundary.is_work_piece()) continue;
+    // the solid is one, also while nobody has told its particles
+    if (!parameters_.friction || parameters_.wall_slip) continue;
+    if (!boundary.is_work_piece() && !boundary.is_interface()) continue;
     push("friction_from_" + boundary.name, unit_of("N"),
          boundary.counted ? given.friction() : Vec(Vec::Zero()));
     push("friction_impulse_from_" + boundary.name, unit_of("N.s"), boundary.impulse.friction);
