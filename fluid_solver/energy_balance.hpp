@@ -9,7 +9,8 @@
 /// i, takes - sum_i m_i p_i/rho_i^2 D_i. The pressure takes something where rho_i and rho_j differ, for
 /// only else its force is the gradient of e. The work of the boundaries is summed at each step, with the
 /// forces by which the velocity advances. The powers of the terms are found where a row is written, at most
-/// every tenth step, for they cost about half a step, and integrated by the trapezoidal rule.
+/// every tenth step, for they cost an evaluation of all rates and more, and integrated by the trapezoidal
+/// rule.
 ///
 /// What remains is of the time step, by its square; of particle shifting, tensile control and consistent
 /// gradients; of the rule above, where rows are too few for what happens between them.
