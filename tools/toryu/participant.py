@@ -23,7 +23,6 @@ interface in C++.
 
 import dataclasses
 import functools
-import hashlib
 import io
 import json
 import os
@@ -31,12 +30,12 @@ import pathlib
 import re
 import sys
 import threading
-import traceback
 from dataclasses import dataclass
 
 import numpy as np
 
 from toryu import PROGRAMS
+from toryu.own_code import mistake_of, sources
 from toryu.processes import BAD_INPUT, BUG, PATIENCE, PHYSICS_FAILED
 
 COLUMN = re.compile(r'([^,"\[\]]+)\[([^,"\[\]]*)\]')  # as CSV has it without quotes
@@ -189,21 +188,6 @@ def compiled():
     return toryu_participant
 
 
-def is_own(path):
-    """Whether code is the participant's or this project's, not that of a package."""
-    return not path.startswith(sys.prefix + "/lib/") and "-packages/" not in path
-
-
-def sources():
-    """A sum over all own code that is loaded, which tells a program from one whose text was changed."""
-    found = hashlib.sha256()
-    for name, module in sorted(sys.modules.items()):
-        path = getattr(module, "__file__", None)
-        if path and is_own(path) and os.path.isfile(path):
-            found.update(name.encode() + pathlib.Path(path).read_bytes())
-    return found.hexdigest()[:16]
-
-
 class Checked:
     """A participant as the compiled part calls it: plain values in, checked ones out."""
 
@@ -230,7 +214,6 @@ class Checked:
         self.participant.count_step = count_step
 
     # What it answers
-
     def ask(self, method, *arguments):
         if not hasattr(self.participant, method):
             raise WrongAnswer(f"{self.name} has no method '{method}'")
@@ -291,15 +274,14 @@ class Checked:
             found.velocity = np.zeros((n, 2))
         told = self.fields(found, {"id": (n,), "position": (n, 2), "volume": (n,), "area_vector": (n, 2), "mass": (n,),
                                    "spacing": (), "velocity": (n, 2)})
-        for name in ("volume", "mass", "spacing"):
-            self.check_above_zero(name, told[name])
+        self.check_above_zero(told, "volume", "mass", "spacing")
         self.look_at_state()
         return told | {"id": self.numbers_of_particles(told["id"])}
 
-    def check_above_zero(self, name, found):
-        for k in np.flatnonzero(found <= 0)[:1]:
+    def check_above_zero(self, told, *names):
+        for name, k in ((name, k) for name in names for k in np.flatnonzero(told[name] <= 0)):
             of = "" if name == "spacing" else f" of interface particle {k}"
-            raise WrongAnswer(f"{self.name}: {name}{of} is {found[k]:g}, not above 0")
+            raise WrongAnswer(f"{self.name}: {name}{of} is {told[name][k]:g}, not above 0")
 
     def numbers_of_particles(self, found):
         wrong = np.flatnonzero((found < 0) | (found > LARGEST_ID) | (found != np.floor(found)))
@@ -407,15 +389,11 @@ def total(dt, load, impulse):
 
 
 def ending_of(error):
-    """Exit code and reason of the end that an exception brings. Of a mistake in the code, the place is the last one that
-    is neither here nor in a package."""
+    """Exit code and reason of the end that an exception brings."""
     if isinstance(error, PhysicsFailure):
         return PHYSICS_FAILED, str(error)
     if isinstance(error, BadInput):
         return BAD_INPUT, str(error)
     if isinstance(error, WrongAnswer):
         return BUG, str(error)
-    frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if frame.line and frame.filename != __file__ and is_own(frame.filename)]
-    place = "".join(f"{frame.filename}:{frame.lineno}: in {frame.name}: " for frame in (own or frames)[-1:])
-    return BUG, place + traceback.format_exception_only(error)[-1].strip()
+    return BUG, mistake_of(error, __file__)
