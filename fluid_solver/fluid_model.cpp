@@ -182,10 +182,10 @@ void FluidModel::attach(const Interface& interface, bool rigid) {
 }
 
 std::vector<Observation> FluidModel::observe_beside_solid() {
-  save();
-  attach({});
+  FluidModel::save();  // of this process alone: other ranks need not know
+  FluidModel::attach({});
   std::vector<Observation> row = observe();
-  restore();
+  FluidModel::restore();
   saved_.reset();
   return row;
 }
