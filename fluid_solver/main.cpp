@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "common/error/counted.hpp"
 #include "common/link/identity.hpp"
@@ -225,11 +226,12 @@ struct Prepared {
   Scene scene = {};
   fluid::Parameters parameters = {};
   std::optional<fluid::Parameters> twin = {};
-  Scene real_scene = {};  ///< where a flow of similarity is computed
+  Scene real_scene = {};        ///< where a flow of similarity is computed
+  std::string similarity = {};  ///< what is told of that
 };
 
-/// Of what was read from `file`; tells of what is made of it.
-Prepared prepare(const Options& options, CaseFile& file, Scene scene, fluid::Parameters parameters) {
+/// Of what was read from `file`; the log tells of what is made of it.
+Prepared prepare(CaseFile& file, Scene scene, fluid::Parameters parameters) {
   const auto add = [&](const std::vector<fluid::StartFault>& faults) {
     for (const auto& [key, message] : faults) file.fault(key, message);
   };
@@ -247,9 +249,8 @@ Prepared prepare(const Options& options, CaseFile& file, Scene scene, fluid::Par
   file.throw_if_faulty();
   Prepared prepared{.scene = scene, .twin = fluid::implicit_twin(parameters, scene), .real_scene = scene};
   if (parameters.similarity) {
-    const std::string made = fluid::make_similar(parameters, prepared.scene);
-    log::info("{}", made);
-    if (options.outlook) print("[fluid]: " + made + '\n');
+    prepared.similarity = fluid::make_similar(parameters, prepared.scene);
+    log::info("{}", prepared.similarity);
   }
   prepared.parameters = std::move(parameters);
   return prepared;
@@ -261,7 +262,7 @@ Prepared read_again(const Options& options) {
   fluid::Parameters parameters;
   file.read("fluid", parameters, "");
   file.ignore_sections({"solid", "coupling"});
-  return prepare(options, file, std::move(scene), std::move(parameters));
+  return prepare(file, std::move(scene), std::move(parameters));
 }
 
 ExitCode solve(const Options& options) {
@@ -276,7 +277,8 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   check_folder(file, options.out);
-  const Prepared prepared = prepare(options, file, std::move(read), std::move(given));
+  const Prepared prepared = prepare(file, std::move(read), std::move(given));
+  if (options.outlook && !prepared.similarity.empty()) print("[fluid]: " + prepared.similarity + '\n');
   const Scene& scene = prepared.scene;
   const fluid::Parameters& parameters = prepared.parameters;
   if (options.outlook && !file.has("solid")) tell_flow(parameters, scene);
@@ -294,8 +296,9 @@ ExitCode solve(const Options& options) {
   check_references(file, scene, series);
   file.throw_if_faulty();
   warn_of_start(file, scene, parameters, model);
-  check_identity(options.network, "fluid");
-  if (options.check) {  // in a run the solid tells its spacing, whoever plays it
+  if (options.check || !file.has("solid"))
+    check_identity(options.network, "fluid");  // else who joins the run
+  if (options.check) {                         // in a run the solid tells its spacing, whoever plays it
     write_start(options.start_frames, "fluid", model);
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
     for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');
@@ -310,11 +313,14 @@ ExitCode solve(const Options& options) {
   return ExitCode::done;
 }
 
+constexpr std::size_t most_particles = std::numeric_limits<int>::max();  // nobody knows how many yet
+
 /// The case of the program's arguments, for a process that computes a part of it and says nothing.
 std::pair<fluid::Parameters, Scene> find_part(int argc, char** argv) {
   open_log("fluid_solver", "", "error");
   const Options options = parse_options("fluid_solver", {argv + 1, argv + argc});
   Prepared prepared = read_again(options);
+  omp_set_num_threads(thread_count(options, most_particles, particles_per_thread));
   return {std::move(prepared.parameters), std::move(prepared.scene)};
 }
 

@@ -87,7 +87,8 @@ void Introductions::hear() {
     if (why.empty()) continue;
     const std::string reason = fmt::format("{}, {}: {}", other->program, other->process, why);
     if (++told_ <= most_told) log::warn("refused {}", reason);
-    if (!refusals_.contains(other->part)) refusals_[other->part] = {reason, Clock::now()};
+    const bool has_part = other->part == "coupler" || other->part == "fluid" || other->part == "solid";
+    if (has_part && !refusals_.contains(other->part)) refusals_[other->part] = {reason, Clock::now()};
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <sstream>
 #include <string>
 
@@ -35,6 +36,8 @@ struct Order {
 void give(MPI_Comm communicator, const Order& order);
 /// Waits for one.
 Order take(MPI_Comm communicator);
+/// Does this rank's share of what all do together. If it fails the others wait in vain: it ends them too.
+void end_all_if_it_fails(MPI_Comm communicator, const std::function<void()>& share);
 
 /// Values as the text that goes with an order, and back.
 template <class... Value>

@@ -5,8 +5,6 @@
 
 #include <csignal>
 
-#include "common/error/ending.hpp"
-#include "common/run/log.hpp"
 #include "fluid_solver/ranks/orders.hpp"
 #include "fluid_solver/ranks/rank_faults.hpp"
 #include "fluid_solver/ranks/spread_fluid.hpp"
@@ -21,22 +19,12 @@ bool is_alone() {
   return size == 1;
 }
 
-/// A rank that fails leaves the others waiting: it ends them too.
-void follow_or_end_all(int rank, const std::function<std::pair<Parameters, Scene>()>& read) {
-  try {
-    follow(MPI_COMM_WORLD, read);
-  } catch (...) {
-    const Ending ending = ending_of_exception();
-    log::error("rank {}: {}", rank, ending.reason);
-    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ending.code));
-  }
-}
-
 }  // namespace
 
 int over_processes(int argc, char** argv, const std::function<int()>& lead,
                    const std::function<std::pair<Parameters, Scene>()>& read) {
-  MPI_Init(&argc, &argv);
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   int rank = 0, code = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) {
@@ -44,7 +32,7 @@ int over_processes(int argc, char** argv, const std::function<int()>& lead,
     give(MPI_COMM_WORLD, {.action = Action::end});
   } else {
     std::signal(SIGUSR1, SIG_IGN);  // by which mpirun passes on to all what is for the lead
-    follow_or_end_all(rank, read);
+    end_all_if_it_fails(MPI_COMM_WORLD, [&] { follow(MPI_COMM_WORLD, read); });
   }
   MPI_Finalize();
   return code;
@@ -56,7 +44,6 @@ std::vector<StartFault> process_faults(const Parameters& parameters, const Scene
 
 std::unique_ptr<FluidModel> make_spread_model(const Parameters& parameters, const Scene& scene) {
   if (is_alone()) return make_model(parameters, scene);
-  give(MPI_COMM_WORLD, {.action = Action::fill});
   return std::make_unique<SpreadFluid>(parameters, scene, MPI_COMM_WORLD);
 }
 

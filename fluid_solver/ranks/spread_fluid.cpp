@@ -1,7 +1,6 @@
 #include "fluid_solver/ranks/spread_fluid.hpp"
 
 #include "common/error/failure.hpp"
-#include "fluid_solver/ranks/orders.hpp"
 
 namespace toryu::fluid {
 
@@ -38,33 +37,43 @@ bool any_fails(const Ranks& ranks, const FluidModel& part, double time) {
   return ranks.largest(fails(part, time) ? 1 : 0) > 0;
 }
 
+/// The whole is filled: the others may fill it too, for the case is right.
+MPI_Comm have_it_filled(MPI_Comm communicator) {
+  give(communicator, {.action = Action::fill});
+  return communicator;
+}
+
 }  // namespace
 
 SpreadFluid::SpreadFluid(const Parameters& parameters, const Scene& scene, MPI_Comm communicator)
     : WeaklyCompressible(parameters, scene),
-      communicator_(communicator),
+      communicator_(have_it_filled(communicator)),
       ranks_of_parts_(communicator),
       part_(static_cast<const WeaklyCompressible&>(*this)) {
   part_.spread_over(ranks_of_parts_);
 }
 
+void SpreadFluid::together(const Order& order, const std::function<void()>& share) const {
+  give(communicator_, order);
+  end_all_if_it_fails(communicator_, share);
+}
+
 void SpreadFluid::collect() const {
   if (!behind_) return;
-  give(communicator_, {.action = Action::collect});
-  part_.collect(&whole_);
+  together({.action = Action::collect}, [&] { part_.collect(&whole_); });
   behind_ = listed_ = false;
 }
 
 void SpreadFluid::advance(double dt) {
-  give(communicator_, {.action = Action::advance, .value = dt});
-  part_.advance(dt);
+  together({.action = Action::advance, .value = dt}, [&] { part_.advance(dt); });
   ++state_.steps_since_look;
   behind_ = true;
 }
 
 void SpreadFluid::check(double time) const {
-  give(communicator_, {.action = Action::check, .value = time});
-  if (!any_fails(ranks_of_parts_, part_, time)) return;
+  bool any = false;
+  together({.action = Action::check, .value = time}, [&] { any = any_fails(ranks_of_parts_, part_, time); });
+  if (!any) return;
   collect();
   WeaklyCompressible::check(time);  // which finds the same particle as in one process
 }
@@ -92,14 +101,12 @@ void SpreadFluid::record(double time) {
 }
 
 void SpreadFluid::save() {
-  give(communicator_, {.action = Action::save});
-  part_.save();
+  together({.action = Action::save}, [&] { part_.save(); });
   WeaklyCompressible::save();
 }
 
 void SpreadFluid::restore() {
-  give(communicator_, {.action = Action::restore});
-  part_.restore();
+  together({.action = Action::restore}, [&] { part_.restore(); });
   WeaklyCompressible::restore();
   behind_ = true;
 }
@@ -109,33 +116,33 @@ void SpreadFluid::write_state(std::ostream& stream) const {
   WeaklyCompressible::write_state(stream);
 }
 
+/// The whole comes first: what is wrong with the state is told by it alone.
 void SpreadFluid::read_state(std::istream& stream) {
   const std::string state(std::istreambuf_iterator<char>(stream), {});
-  give(communicator_, {.action = Action::read_state, .with = state});
   std::istringstream of_part(state, std::ios::binary), of_whole(state, std::ios::binary);
-  part_.read_state(of_part);
   WeaklyCompressible::read_state(of_whole);
+  together({.action = Action::read_state, .with = state}, [&] { part_.read_state(of_part); });
   listed_ = true;
 }
 
+/// As `read_state`.
 void SpreadFluid::attach(const Interface& interface, bool rigid) {
-  give(communicator_, {.action = Action::attach, .with = packed_interface(interface, rigid)});
-  part_.attach(interface, rigid);
   WeaklyCompressible::attach(interface, rigid);
+  together({.action = Action::attach, .with = packed_interface(interface, rigid)},
+           [&] { part_.attach(interface, rigid); });
 }
 
 void SpreadFluid::begin_window(const InterfaceMotion& motion, double dt) {
-  give(communicator_,
-       {.action = Action::begin_window,
-        .value = dt,
-        .with = packed(motion.position, motion.velocity, motion.impulse, motion.work_of_impulse)});
-  part_.begin_window(motion, dt);
+  together({.action = Action::begin_window,
+            .value = dt,
+            .with = packed(motion.position, motion.velocity, motion.impulse, motion.work_of_impulse)},
+           [&] { part_.begin_window(motion, dt); });
   behind_ = true;
 }
 
 InterfaceLoad SpreadFluid::take_load() {
-  give(communicator_, {.action = Action::take_load});
-  InterfaceLoad load = part_.take_load();
+  InterfaceLoad load;
+  together({.action = Action::take_load}, [&] { load = part_.take_load(); });
   collect();  // for the energies that go with it
   return load;
 }

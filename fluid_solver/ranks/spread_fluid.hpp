@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "fluid_solver/ranks/orders.hpp"
 #include "fluid_solver/ranks/zoltan_ranks.hpp"
 #include "fluid_solver/weakly_compressible/weakly_compressible.hpp"
 
@@ -34,6 +35,8 @@ class SpreadFluid final : public WeaklyCompressible {
   const Timers& timers() const override { return part_.timers(); }
 
  private:
+  /// Gives the order, and does this rank's share of it.
+  void together(const Order& order, const std::function<void()>& share) const;
   /// Brings the state of the whole up to date.
   void collect() const;
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -314,13 +313,12 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return one.param.name; });
 
 TEST(FluidCheck, DoesNotLookAtTheSpaceBetweenRegionsThatAreFarApart) {
-  const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(run("--check --set 'case.domain={min=[-5000,-5000],max=[5000,5000]}' --set "
-                "'fluid.region=[{name=\"near\",box={min=[0,0],max=[1,1]}},{name=\"far\",box={min=[3000,0],"
-                "max=[3001,1]}}]'")
+  // Hours, where it does: 31 s at a thousandth of the distance.
+  EXPECT_EQ(run("--check --set 'case.domain={min=[-5e6,-5e6],max=[5e6,5e6]}' --set "
+                "'fluid.region=[{name=\"near\",box={min=[0,0],max=[1,1]}},{name=\"far\",box={min=[3e6,0],"
+                "max=[3000001,1]}}]'")
                 .code,
             0);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10)) << "31 s where it does";
 }
 
 TEST(FluidRotation, IsRefusedWhereItsPressureIsNotKnown) {

@@ -311,7 +311,7 @@ class PushedColumn(unittest.TestCase):
             error, figures, said = self.way_error(density, "pushed_column/rigid.toml")
             self.assertLess(abs(error), 0.02)
             self.assertLess(figures["largest_impulse_error"], 1e-12)
-            self.assertEqual("beyond the edge of stability" in said, density == 1)
+            self.assertNotIn("beyond the edge of stability", said)  # serial_robin bears a rigid layer of any weight
 
     def test_a_light_layer_is_borne_by_the_robin_scheme_alone_without_iterations(self):
         for density in (50, 20):

@@ -9,7 +9,7 @@ import traceback
 
 def is_own(path):
     """Whether code is not that of a package."""
-    return not path.startswith(sys.prefix + "/lib/") and "-packages/" not in path
+    return not path.startswith((sys.prefix + "/lib/", sys.base_prefix + "/lib/")) and "-packages/" not in path
 
 
 def sources():

@@ -296,6 +296,8 @@ class Run:
         """Where all that failed lost a peer, the peer is one that ended as if all were done."""
         if any(weight(process) < weight_of(PEER_LOST) for process in self.failed):
             return
+        if any(process.status == DONE for process in self.processes if process.name == self.lead):
+            return  # the run was over
         for process in self.processes:
             if process.status == DONE and process.name != self.lead and not process.asked_to_end:
                 process.left_early = "the run was over"

@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 from toryu import PROGRAMS, program
-from toryu.processes import BUG, FAULTS, MEANING, PEER_LOST, requests_to_end, start
+from toryu.processes import BUG, FAULTS, INTERRUPTED, MEANING, PEER_LOST, requests_to_end, start
 
 BIN = PROGRAMS.parents[1] / "ranks/bin"  # of the build with MPI
 # More ranks than cores may be asked for. A rank that waits gives its core to those that compute.
@@ -57,7 +57,7 @@ class Listener:
     """Passes on what the ranks say, and keeps what mpirun says of itself."""
 
     def __init__(self):
-        self.unread, self.in_box, self.box = b"", False, []
+        self.unread, self.in_box, self.box, self.asked_to_end = b"", False, [], False
 
     def hear(self, piece):
         *lines, self.unread = (self.unread + piece).split(b"\n")
@@ -74,6 +74,8 @@ class Listener:
         lost = LOST.search(" ".join(self.box))
         if not lost:
             return None
+        if self.asked_to_end and int(lost[2]) == signal.SIGUSR1:  # before it could take that for a request
+            return INTERRUPTED, "fluid_solver: interrupted before the run began"
         code, kind = (BUG, "unexpected") if int(lost[2]) in FAULTS else (PEER_LOST, "peer lost")
         return code, (f"fluid_solver: error: {kind}: rank {lost[1]} of {count} was ended by signal {lost[2]} ({lost[3]}); "
                       "mpirun has ended the others")
@@ -91,6 +93,7 @@ def follow(ranks, listener):
         ready, _, _ = select.select([stream, reader], [], [])
         if reader in ready:
             os.read(reader, 64)
+            listener.asked_to_end = True
             ranks.send_signal(signal.SIGUSR1)
         if stream in ready:
             if not (piece := os.read(stream, 1 << 16)):

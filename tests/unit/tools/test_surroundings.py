@@ -174,7 +174,8 @@ class Faults(Surroundings):
     def test_a_program_that_goes_on_when_the_run_is_over_is_ended(self):
         ended = (4, "fluid_solver was ended: it went on for 0 s after the run was over")
         for fluid, end in (("", ended), ("trap 'exit 0' TERM; ", (0, "")), ("trap '' TERM; ", ended)):
-            commands = {"coupler": ["true"], "fluid_solver": ["bash", "-c", f"{fluid}while :; do sleep 0.01; done"]}
+            commands = {"coupler": ["true"], "solid_solver": ["true"],
+                        "fluid_solver": ["bash", "-c", f"{fluid}while :; do sleep 0.01; done"]}
             with mock.patch.multiple(processes, PATIENCE=0.5, QUIET=0.1, LAST_PATIENCE=0.5), \
                     contextlib.redirect_stderr(io.StringIO()) as told:
                 start = time.monotonic()

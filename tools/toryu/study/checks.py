@@ -87,7 +87,8 @@ def check(study, runs, chosen, extra):
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         answers = list(pool.map(ask, chosen))
-    faults = dict.fromkeys(line for words, _ in answers for line in words.splitlines() if line.strip())
+    faults = dict.fromkeys(line for words, _ in answers for line in words.splitlines()
+                           if line.strip() and not COLUMN.fullmatch(line))
     if faults:
         raise BadStudy("\n".join(placed(study, line, extra) for line in faults))
     return {line for _, words in answers for line in words.splitlines() if COLUMN.fullmatch(line)}
