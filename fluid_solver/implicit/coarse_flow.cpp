@@ -11,14 +11,27 @@ namespace {
 /// A node that hardly any particle sees is left where it is.
 constexpr double smallest_pivot = 1e-10;
 
+std::pair<double, double> bounds(const Field& x, std::size_t count) {
+  const auto [least, most] = std::minmax_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(count));
+  return {*least, *most};
+}
+
 }  // namespace
 
+bool CoarseFlow::pays(const VecField& x, std::size_t count, double width) {
+  double cells = 1;
+  for (const Field& component : x) {
+    const auto [least, most] = bounds(component, count);
+    cells *= (most - least) / width;
+  }
+  return cells <= static_cast<double>(count);
+}
+
 CoarseFlow::CoarseFlow(const VecField& x, std::size_t count, double width) : width_(width) {
-  const auto n = static_cast<std::ptrdiff_t>(count);
   for (int a = 0; a < dim; ++a) {
-    const auto [least, most] = std::minmax_element(x[a].begin(), x[a].begin() + n);
-    origin_[a] = *least - width;  // a cell for the walls
-    cells_[a] = static_cast<Eigen::Index>((*most - *least) / width) + 3;
+    const auto [least, most] = bounds(x[a], count);
+    origin_[a] = least - width;  // a cell for the walls
+    cells_[a] = static_cast<Eigen::Index>((most - least) / width) + 3;
   }
   const int across = cells_[1] <= cells_[0] ? 1 : 0;  // the shorter way first: a narrow band
   step_[across] = 1;

@@ -25,6 +25,9 @@ class CoarseFlow {
  public:
   using Vector = Eigen::VectorXd;
 
+  /// Whether it has no more cells than there are particles: a band over empty space costs more than it wins.
+  static bool pays(const VecField& x, std::size_t count, double width);
+
   /// Over the first `count` particles at `x`; cells `width` [m] wide.
   CoarseFlow(const VecField& x, std::size_t count, double width);
 

@@ -116,7 +116,7 @@ void Implicit::correct(StepSystem& system, const StepSystem::Vector& r, Viscosit
   };
   const BlockJacobi blocks(system.diagonal());
   std::optional<CoarseFlow> coarse;
-  if (scene_.periodic == Periodic::none) coarse.emplace(system.coarse_flow());
+  if (scene_.periodic == Periodic::none) coarse = system.coarse_flow();
   const Product preconditioner = [&](const StepSystem::Vector& x) -> StepSystem::Vector {
     if (!coarse) return blocks(x);
     return blocks(x) + coarse->correction(state_.fluid.x, state_.fluid.m, x);

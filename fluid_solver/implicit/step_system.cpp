@@ -235,11 +235,12 @@ std::vector<StepSystem::Block> StepSystem::diagonal() const {
   return blocks;
 }
 
-CoarseFlow StepSystem::coarse_flow() const {
+std::optional<CoarseFlow> StepSystem::coarse_flow() const {
   const Parameters& p = terms_.parameters;
   const bool varies = terms_.viscosity_varies();
   const double mu = p.laminar_viscosity ? p.laminar_viscosity->dynamic_viscosity : 0;
   const double hold = hold_of_walls / (p.spacing * p.spacing);
+  if (!CoarseFlow::pays(fluid_.x, fluid_.count, cell_over_h * p.h())) return std::nullopt;
   CoarseFlow coarse(fluid_.x, fluid_.count, cell_over_h * p.h());
   for (std::size_t i = 0; i < fluid_.count; ++i) {
     const double dt_V = dt_ * fluid_.V[i];

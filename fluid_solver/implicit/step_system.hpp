@@ -22,6 +22,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <vector>
 
 #include "common/sph/renormalisation.hpp"
@@ -72,7 +73,8 @@ class StepSystem {
   /// The blocks of the matrix 1 - dt da/dv on its diagonal, those of the walls' extrapolation left out.
   std::vector<Block> diagonal() const;
   /// What the system is to smooth velocities, for its preconditioner.
-  CoarseFlow coarse_flow() const;
+  /// Nothing where the medium is so scattered that the grid over all of it has more cells than particles.
+  std::optional<CoarseFlow> coarse_flow() const;
 
  private:
   Vector velocities() const;

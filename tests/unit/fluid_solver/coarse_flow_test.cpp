@@ -38,6 +38,13 @@ struct Lattice {
   Field m;
 };
 
+TEST(CoarseFlow, PaysWhereTheMediumIsNotScattered) {
+  const VecField square{Field{0, 1, 0, 1}, Field{0, 0, 1, 1}},
+      scattered{Field{0, 1, 9, 10}, Field{0, 1, 9, 10}};
+  EXPECT_TRUE(CoarseFlow::pays(square, 4, 1));
+  EXPECT_FALSE(CoarseFlow::pays(scattered, 4, 1));
+}
+
 TEST(CoarseFlow, GivesBackLinearVelocitiesOfMassAlone) {
   const Lattice lattice;
   CoarseFlow flow = lattice.flow(0, 0);
