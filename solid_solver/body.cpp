@@ -322,7 +322,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault, const
       if (overlap(parameters, body, a, b))
         tell_fault("solid.region", fmt::format("region '{}' overlaps region '{}'; regions may touch only",
                                                regions[a].name, regions[b].name));
-    if (body.size() == before && !parameters.holes.empty())
+    if (body.size() == before && !parameters.holes.empty() && !has_outline)
       tell_fault("solid.hole", fmt::format("holes leave no particle of region '{}'", regions[a].name));
     body.counts.emplace_back("region " + regions[a].name, body.size() - before);
   }

@@ -104,6 +104,14 @@ TEST(FittedBody, TellsWhatIsWrong) {
                                    "solid.load: load 'wind' acts on no surface of the solid"));
 }
 
+TEST(FilledBody, TellsOfHolesThatLeaveNothing) {
+  std::vector<std::string> faults;
+  Parameters p = free_plate(4);
+  p.holes = {{"all", {Vec(-9, -9), Vec(9, 9)}}};
+  build_body(p, [&](const std::string& key, const std::string&) { faults.push_back(key); });
+  EXPECT_THAT(faults, testing::ElementsAre("solid.hole"));
+}
+
 TEST(ClampFaces, CellsOfNearestParticlesAreThoseOfALattice) {
   const Body body = body_of(free_plate(4));
   VecField X, cells;
