@@ -231,7 +231,7 @@ struct Prepared {
 };
 
 /// Of what was read from `file`; the log tells of what is made of it.
-Prepared prepare(CaseFile& file, Scene scene, fluid::Parameters parameters) {
+Prepared prepare(CaseFile& file, const Scene& scene, fluid::Parameters parameters) {
   const auto add = [&](const std::vector<fluid::StartFault>& faults) {
     for (const auto& [key, message] : faults) file.fault(key, message);
   };
@@ -258,16 +258,16 @@ Prepared prepare(CaseFile& file, Scene scene, fluid::Parameters parameters) {
 
 Prepared read_again(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
-  Scene scene = read_scene(file);
+  const Scene scene = read_scene(file);
   fluid::Parameters parameters;
   file.read("fluid", parameters, "");
   file.ignore_sections({"solid", "coupling"});
-  return prepare(file, std::move(scene), std::move(parameters));
+  return prepare(file, scene, std::move(parameters));
 }
 
 ExitCode solve(const Options& options) {
   CaseFile file(options.case_path, options.overrides);
-  Scene read = read_scene(file);
+  const Scene read = read_scene(file);
   fluid::Parameters given;
   file.read("fluid", given, "a weakly compressible fluid by delta-SPH");
   file.ignore_sections({"solid", "coupling"});
@@ -277,7 +277,7 @@ ExitCode solve(const Options& options) {
     return ExitCode::done;
   }
   check_folder(file, options.out);
-  const Prepared prepared = prepare(file, std::move(read), std::move(given));
+  const Prepared prepared = prepare(file, read, std::move(given));
   if (options.outlook && !prepared.similarity.empty()) print("[fluid]: " + prepared.similarity + '\n');
   const Scene& scene = prepared.scene;
   const fluid::Parameters& parameters = prepared.parameters;

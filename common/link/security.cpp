@@ -19,7 +19,7 @@ std::filesystem::path plugin(const std::string& name) {
   if (dladdr(reinterpret_cast<void*>(&dds_create_participant), &library) == 0) library.dli_fname = "";
   const auto folder = std::filesystem::canonical(library.dli_fname, error).parent_path();
   for (const char* place : {"libddsc0debian", "."})
-    if (const auto path = folder / place / name; std::filesystem::exists(path, error)) return path;
+    if (auto path = folder / place / name; std::filesystem::exists(path, error)) return path;
   throw MachineFailure(
       fmt::format("--secure: Cyclone DDS has no plugins for security here: {} is not beside "
                   "its library in {}; they are in Debian's package libddsc0debian",

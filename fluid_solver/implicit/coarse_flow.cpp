@@ -37,7 +37,7 @@ CoarseFlow::CoarseFlow(const VecField& x, std::size_t count, double width) : wid
   step_[across] = 1;
   step_[1 - across] = cells_[across] + near - 1;
   const Eigen::Index nodes = step_[1 - across] * (cells_[1 - across] + near - 1);
-  half_ = dim * (near - 1) * (step_[0] + step_[1]) + dim - 1;
+  half_ = Eigen::Index{dim} * (near - 1) * (step_[0] + step_[1]) + dim - 1;
   band_ = Eigen::MatrixXd::Zero(half_ + 1, dim * nodes);
 }
 

@@ -44,9 +44,9 @@ class CoarseFlow {
   static constexpr int near = 3;  ///< nodes along an axis
   /// The splines of the nodes near a place.
   struct Splines {
-    std::array<Eigen::Index, near * near> node{};
-    std::array<double, near * near> value{};
-    std::array<Vec, near * near> slope{};
+    std::array<Eigen::Index, std::size_t{near} * near> node{};
+    std::array<double, std::size_t{near} * near> value{};
+    std::array<Vec, std::size_t{near} * near> slope{};
   };
   bool covers(const Vec& x) const;
   Splines splines(const Vec& x) const;
