@@ -80,18 +80,19 @@ void Implicit::solve(double dt) {
   StepSystem::Vector v = system.foreseen_velocities();
   StepSystem::Vector r = system.unbalance(v, Viscosity::renewed);
   const double driving = system.unbalance(StepSystem::Vector::Zero(v.size()), Viscosity::kept).norm();
+  const double tolerated = std::max(solver_.tolerance * driving, system.rounding());
   Effort effort{.steps = 1};
   bool overshot = false;
-  for (double before = r.norm(); before > solver_.tolerance * driving;) {
+  for (double before = r.norm(); before > tolerated;) {
     const bool near = before <= newton_from * driving && !overshot;
-    const double wanted = last_tolerance * solver_.tolerance * driving / before;
+    const double wanted = last_tolerance * tolerated / before;
     const bool linear = !terms_.viscosity_varies() && !terms_.slides();
     correct(system, r, near && !linear ? Viscosity::renewed : Viscosity::kept,
             linear ? wanted : std::max(wanted, inner_tolerance), v, effort);
     r = system.unbalance(v, Viscosity::renewed);
     ++effort.viscosity_updates;
     const double after = r.norm();
-    if (after > solver_.tolerance * driving) fail_unless_solvable(after / driving, effort);
+    if (after > tolerated) fail_unless_solvable(after / driving, effort);
     overshot = overshot || (near && after > before);
     before = after;
   }

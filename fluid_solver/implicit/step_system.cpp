@@ -1,5 +1,8 @@
 #include "fluid_solver/implicit/step_system.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/wall_extrapolation.hpp"
 #include "fluid_solver/weakly_compressible/pair_loop.hpp"
@@ -11,6 +14,9 @@ namespace {
 /// Of the grid of the preconditioner. A throat of n = 0.4, 20 across, takes 6 products a step with cells of h
 /// to 3 h, and as walls hold by 0.2, 1, 4 and 16 it takes 9, 6, 4 and 3 (17 without the grid).
 constexpr double cell_over_h = 2, hold_of_walls = 16;
+
+/// Of a sum over neighbours, relative to one of its parts.
+constexpr double rounding_of_sums = 16 * std::numeric_limits<double>::epsilon();
 
 /// The first component of all particles, then the second.
 StepSystem::Vector vector_of_all(const VecField& field, std::size_t count) {
@@ -233,6 +239,15 @@ std::vector<StepSystem::Block> StepSystem::diagonal() const {
     for (std::size_t c = 0; c < fluid_.clusters(); ++c) of_cluster(W, c);
   });
   return blocks;
+}
+
+double StepSystem::rounding() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < fluid_.count; ++i) {
+    const double of_pressure = (std::abs(p_n_[i]) + fluid_.rho[i] * c2_[i]) / fluid_.rho[i];
+    sum += of_pressure * of_pressure;
+  }
+  return rounding_of_sums * dt_ * std::sqrt(dim * sum) / terms_.parameters.spacing;
 }
 
 std::optional<CoarseFlow> StepSystem::coarse_flow() const {

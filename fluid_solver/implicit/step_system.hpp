@@ -73,6 +73,8 @@ class StepSystem {
   /// The blocks of the matrix 1 - dt da/dv on its diagonal, those of the walls' extrapolation left out.
   std::vector<Block> diagonal() const;
   /// What the system is to smooth velocities, for its preconditioner.
+  /// Norm of the unbalance that rounding leaves: pressures are found from densities, to parts of rho c^2.
+  double rounding() const;
   /// Nothing where the medium is so scattered that the grid over all of it has more cells than particles.
   std::optional<CoarseFlow> coarse_flow() const;
 

@@ -218,6 +218,18 @@ TEST(Implicit, StartsToSlideFromRest) {
   EXPECT_TRUE(std::isfinite(largest_slip(falling)));
 }
 
+TEST(Implicit, IsSolvedWhereRoundingAloneDrivesTheMedium) {
+  Setting s = stirred_slit();
+  s.parameters.start_disorder = 0;
+  s.parameters.regions[0].velocity = Vec::Zero();
+  s.parameters.background_pressure = BackgroundPressure{1e5};
+  s.scene.gravity = Vec::Zero();
+  for (auto& wall : s.scene.walls) wall.motion.reset();
+  Implicit model(s.parameters, s.scene);
+  for (int n = 0; n < 3; ++n) model.advance(2e-3);
+  EXPECT_LT(largest_norm(model.particles().v, model.particles().count), 1e-9);
+}
+
 TEST(Implicit, KeepsMomentumInEmptySpace) {
   Setting s = colliding_drops();
   s.parameters.model = Model::implicit;
