@@ -296,9 +296,8 @@ ExitCode solve(const Options& options) {
   check_references(file, scene, series);
   file.throw_if_faulty();
   warn_of_start(file, scene, parameters, model);
-  if (options.check || !file.has("solid"))
-    check_identity(options.network, "fluid");  // else who joins the run
-  if (options.check) {                         // in a run the solid tells its spacing, whoever plays it
+  check_secured(options, file.has("solid"), "fluid");
+  if (options.check) {  // in a run the solid tells its spacing, whoever plays it
     write_start(options.start_frames, "fluid", model);
     warn_of_coarse_work_piece(file.value<double>("solid.spacing").value_or(0), parameters);
     for (const auto& line : motion_lines(file, scene)) print("[case]: " + line + '\n');

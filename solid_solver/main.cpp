@@ -194,8 +194,7 @@ ExitCode solve(const Options& options) {
   for (const auto& passage : passage_warnings(file, scene)) log::warn("{}", passage);
   if (!file.has("fluid"))  // whose program tells of them
     for (const auto& unknown : unknown_meetings(file, scene)) log::warn("{}", unknown);
-  if (options.check || !file.has("fluid"))
-    check_identity(options.network, "solid");  // else who joins the run
+  check_secured(options, file.has("fluid"), "solid");
   const Setting run{options, file, scene, parameters, std::move(counts), *solid};
   if (options.check) {
     tell_start(run, series);

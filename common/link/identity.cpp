@@ -11,6 +11,7 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -31,7 +32,22 @@ using File = std::unique_ptr<BIO, Deleter<BIO_free_all>>;
 using Certificate = std::unique_ptr<X509, Deleter<X509_free>>;
 using Key = std::unique_ptr<EVP_PKEY, Deleter<EVP_PKEY_free>>;
 using Document = std::unique_ptr<PKCS7, Deleter<PKCS7_free>>;
+using Time = std::unique_ptr<ASN1_TIME, Deleter<ASN1_TIME_free>>;
 using Store = std::unique_ptr<X509_STORE, Deleter<X509_STORE_free>>;
+
+/// The text of the first element of that name.
+std::string element(const std::string& xml, const std::string& name) {
+  const auto begin = xml.find('<' + name + '>'), end = xml.find("</" + name + '>');
+  if (begin == std::string::npos || end == std::string::npos || end < begin) return "";
+  return xml.substr(begin + name.size() + 2, end - begin - name.size() - 2);
+}
+
+/// Of "2027-01-31T12:00:00Z" (xs:dateTime); nothing if it is none.
+Time time_of(std::string text) {
+  std::erase_if(text, [](char c) { return c == '-' || c == ':' || c == 'T'; });
+  Time time(ASN1_TIME_new());
+  return ASN1_TIME_set_string_X509(time.get(), text.c_str()) == 1 ? std::move(time) : Time();
+}
 
 std::string time_text(const ASN1_TIME* time) {
   std::tm parts{};
@@ -67,8 +83,9 @@ class Files {
     const Key own_key = key();
     if (authority) check_dates("ca.pem", *authority);
     if (own) check(*own, authority.get(), own_key.get());
-    for (const std::string& name : {std::string("governance.p7s"), part_ + ".p7s"})
-      check_signed(name, authority.get());
+    if (!authority) return faults_;
+    signed_text("governance.p7s", *authority);
+    if (const auto permissions = signed_text(part_ + ".p7s", *authority)) check_permissions(*permissions);
     return faults_;
   }
 
@@ -108,7 +125,10 @@ class Files {
   }
 
   void check_dates(const std::string& name, const X509& given) {
-    const ASN1_TIME *begin = X509_get0_notBefore(&given), *end = X509_get0_notAfter(&given);
+    check_dates(name, X509_get0_notBefore(&given), X509_get0_notAfter(&given));
+  }
+
+  void check_dates(const std::string& name, const ASN1_TIME* begin, const ASN1_TIME* end) {
     if (X509_cmp_current_time(begin) > 0)
       add(name,
           fmt::format("is valid from {} on only; is the clock of this machine right?", time_text(begin)));
@@ -129,17 +149,39 @@ class Files {
       add(part_ + ".key", fmt::format("is not the key of {}", name));
   }
 
-  void check_signed(const std::string& name, X509* authority) {
+  /// What was signed; nothing if it was not, which is told.
+  std::optional<std::string> signed_text(const std::string& name, X509& authority) {
     const File file = open(name);
-    if (!file || authority == nullptr) return;
-    BIO* text = nullptr;
-    const Document document(SMIME_read_PKCS7(file.get(), &text));
-    const File content(text);
-    if (!document) return add(name, "is no document signed as S/MIME");
+    if (!file) return std::nullopt;
+    BIO* detached = nullptr;
+    const Document document(SMIME_read_PKCS7(file.get(), &detached));
+    const File content(detached), text(BIO_new(BIO_s_mem()));
+    if (!document) {
+      add(name, "is no document signed as S/MIME");
+      return std::nullopt;
+    }
     const Store store(X509_STORE_new());
-    X509_STORE_add_cert(store.get(), authority);
-    const bool is_signed = PKCS7_verify(document.get(), nullptr, store.get(), content.get(), nullptr, 0) == 1;
-    if (!is_signed) add(name, "is not signed by the CA of ca.pem, or was changed since");
+    X509_STORE_add_cert(store.get(), &authority);
+    if (PKCS7_verify(document.get(), nullptr, store.get(), content.get(), text.get(), 0) != 1) {
+      add(name, "is not signed by the CA of ca.pem, or was changed since");
+      return std::nullopt;
+    }
+    char* data = nullptr;
+    const long size = BIO_get_mem_data(text.get(), &data);
+    return std::string(data, static_cast<std::size_t>(size));
+  }
+
+  /// Of whom they are, and when: to Cyclone DDS both are a fault of setting up.
+  void check_permissions(const std::string& xml) {
+    const std::string name = part_ + ".p7s", subject = element(xml, "subject_name");
+    if (subject != "CN=" + part_)
+      add(name, fmt::format("holds the permissions of '{}', and must hold those of 'CN={}'",
+                            printable(subject), part_));
+    const Time begin = time_of(element(xml, "not_before")), end = time_of(element(xml, "not_after"));
+    if (begin && end)
+      check_dates(name, begin.get(), end.get());
+    else
+      add(name, "does not say from when to when it is valid");
   }
 
   std::filesystem::path folder_;
@@ -153,6 +195,14 @@ void check_identity(const Network& network, const std::string& part) {
   if (network.secure.empty()) return;
   const auto faults = Files(network.secure, part).faults();
   if (!faults.empty()) throw BadInput(faults);
+}
+
+void check_secured(const Options& options, bool coupled, const std::string& part) {
+  if (options.network.secure.empty()) return;
+  if (!coupled)
+    throw BadInput({{.place = "--secure " + options.network.secure,
+                     .message = "the case is not coupled: one program computes it, and sends nothing"}});
+  if (options.check) check_identity(options.network, part);
 }
 
 Credential credential_of(const Network& network, const std::string& part) {

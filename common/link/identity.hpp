@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/run/network.hpp"
+#include "common/run/options.hpp"
 
 namespace toryu {
 
@@ -14,6 +15,10 @@ namespace toryu {
 /// folder of --secure: files that are missing or no such files, a key that others can read or that is not the
 /// certificate's, a certificate of another part or CA, or that is not valid today. Nothing without --secure.
 void check_identity(const Network& network, const std::string& part);
+
+/// The same of a solver under --check: in a run it looks at its identity as it joins. Where it computes alone
+/// --secure is refused.
+void check_secured(const Options& options, bool coupled, const std::string& part);
 
 /// What a program shows of its identity, for the words by which it is refused: whose certificate it has, and
 /// of which CA. Nothing without --secure, or where they cannot be read.

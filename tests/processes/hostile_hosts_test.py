@@ -15,9 +15,9 @@ import hostile_test
 from toryu import identities
 from toryu_testing import three_hosts
 from toryu_testing.process_case import LIMIT, SOLVERS
-from toryu_testing.three_hosts import ADDRESSES, INSIDE, RunOverHosts
+from toryu_testing.three_hosts import ADDRESSES, RunOverHosts
 from toryu_testing.trio import ROLES, results_of
-from hosts_test import NO_CHECKPOINTS, SKIPPED, HostsCase
+from hosts_test import NO_CHECKPOINTS, HostsCase
 
 STRANGER = "10.77.0.66"
 PORTS = 20  # of a domain over hosts
@@ -95,12 +95,7 @@ class Hostile(HostsCase):
 
 
 if __name__ == "__main__":
-    if INSIDE not in sys.argv:
-        if reason := three_hosts.why_not():
-            print(f"skipped: no hosts can be made of namespaces here: {reason}", file=sys.stderr)
-            sys.exit(SKIPPED)
-        sys.exit(three_hosts.go_inside())
-    sys.argv.remove(INSIDE)
+    three_hosts.enter()
     Hostile.bin = pathlib.Path(sys.argv.pop(1)).resolve()
     if len(sys.argv) > 1 and sys.argv[1].isdigit():
         Hostile.datagrams = int(sys.argv.pop(1))

@@ -11,10 +11,9 @@ from toryu import identities
 from toryu.processes import BAD_INPUT, DONE, PEER_LOST
 from toryu_testing import three_hosts
 from toryu_testing.process_case import LIMIT, NAMES, SOLVERS, ProcessCase
-from toryu_testing.three_hosts import INSIDE, RunOverHosts, set_cable
+from toryu_testing.three_hosts import RunOverHosts, set_cable
 from toryu_testing.trio import ROLES
 
-SKIPPED = 77  # exit code by which CTest knows that a test cannot run here
 NO_CHECKPOINTS = ["case.checkpoint_interval=0", "case.checkpoint_every=0"]  # they need a folder that all hosts share
 ELSEWHERE = "is gone, or its host or network is: no sign of life"
 SURVIVED, LOST = 2, 20  # [s] for which a cable is cut
@@ -116,12 +115,7 @@ class Settings(HostsCase):
 
 
 if __name__ == "__main__":
-    if INSIDE not in sys.argv:
-        if reason := three_hosts.why_not():
-            print(f"skipped: no hosts can be made of namespaces here: {reason}", file=sys.stderr)
-            sys.exit(SKIPPED)
-        sys.exit(three_hosts.go_inside())
-    sys.argv.remove(INSIDE)
+    three_hosts.enter()
     HostsCase.bin = pathlib.Path(sys.argv.pop(1)).resolve()
     three_hosts.lay_cables()
     unittest.main()

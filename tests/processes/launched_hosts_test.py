@@ -15,10 +15,8 @@ from toryu import identities
 from toryu.processes import BAD_INPUT, DONE, INTERRUPTED, MACHINE, PEER_LOST
 from toryu_testing import three_hosts
 from toryu_testing.launched_hosts import Launched
-from toryu_testing.three_hosts import INSIDE
 from toryu_testing.trio import ROLES, results_of
 
-SKIPPED = 77  # exit code by which CTest knows that a test cannot run here
 ON_ONE, ON_THREE = (), ("fluid", "solid")  # the launcher is on the coupler's host
 SHORT, LONG = "--end-time=0.004", "--end-time=1000"
 
@@ -225,12 +223,7 @@ class Failure(HostsCase):
 
 
 if __name__ == "__main__":
-    if INSIDE not in sys.argv:
-        if reason := three_hosts.why_not():
-            print(f"skipped: no hosts can be made of namespaces here: {reason}", file=sys.stderr)
-            sys.exit(SKIPPED)
-        sys.exit(three_hosts.go_inside())
-    sys.argv.remove(INSIDE)
+    three_hosts.enter()
     HostsCase.bin = pathlib.Path(sys.argv.pop(1)).resolve()
     three_hosts.lay_cables()
     unittest.main()

@@ -1,14 +1,16 @@
 """A secured run: the same bits as without, and who is refused, by name on both sides.
 
     secure_test.py BIN [GROUP]"""
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 from toryu import identities
-from toryu.processes import BAD_INPUT, DONE
+from toryu.processes import BAD_INPUT, DONE, MACHINE
 from toryu_testing.process_case import LIMIT, SOLVERS, ProcessCase
 from toryu_testing.trio import ROLES
 
@@ -131,6 +133,11 @@ class Launcher(SecureCase):
                                 (["--make-identities", "/proc/no"], "--make-identities /proc/no: error: cannot be written: No "
                                  "such file or directory\n")):
             self.assertEqual(self.launch(*words), (BAD_INPUT, expected))
+        before = sorted(path.name for path in self.folder.iterdir())
+        with mock.patch.dict(os.environ, PATH="/nowhere"):
+            code, said = self.launch("--make-identities", self.folder / "half")
+        self.assertEqual(code, MACHINE, said)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
 
     def test_checks_and_passes_on_the_folder(self):
         case = self.run_of_three().case
@@ -138,6 +145,10 @@ class Launcher(SecureCase):
             code, said = self.launch(case, "--bin", self.bin, "--out", self.folder / "out", "--secure", "/nowhere", *words)
             self.assertEqual((code, said.partition("\n")[0]), (BAD_INPUT, "--secure /nowhere: error: is no folder; './run.sh "
                                                                "--make-identities FOLDER' makes one"))
+        alone = pathlib.Path(identities.__file__).parents[2] / "cases/dam_break"
+        self.assertEqual(self.launch(alone, "--bin", self.bin, "--check", "--secure", self.folder / "own"), (
+            BAD_INPUT, f"--secure {self.folder}/own: error: the case is not coupled: one program computes it, and sends "
+                       "nothing\n"))
         code, said = self.launch(case, "--bin", self.bin, "--out", self.folder / "out", "--end-time", END_TIME, "--no-report",
                                  *self.secure("encrypted"))
         self.assertEqual(code, DONE, said)

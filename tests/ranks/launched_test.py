@@ -43,12 +43,12 @@ TERMS = {
 }
 
 
-def launch(out, case, *options):
+def launch(out, case, *options, threads={"OMP_NUM_THREADS": "1"}):
     name, *more = case
     command = [sys.executable, "-I", "-X", "utf8", PACKAGE, "launch", CASES / name, "--out", out, "--bin", BIN, "--no-report",
                *more, *options]
     return subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                            process_group=0, env=os.environ | {"OMP_NUM_THREADS": "1"})
+                            process_group=0, env=os.environ | threads)
 
 
 def end_of(run, limit=LIMIT):
@@ -106,10 +106,10 @@ class OverRanks(unittest.TestCase):
         for name, content in expected.items():
             self.assertEqual(found[name], content, name)
 
-    def begin(self, count, *options):
+    def begin(self, count, *options, **environment):
         """A run of some seconds over `count` ranks that has begun."""
         out = pathlib.Path(tempfile.mkdtemp(dir=self.folder)) / "run"
-        run = launch(out, [*DAM[:-1], "4"], "--ranks", str(count), *options)
+        run = launch(out, [*DAM[:-1], "4"], "--ranks", str(count), *options, **environment)
         self.addCleanup(run.communicate)
         self.addCleanup(run.kill)
         deadline = time.monotonic() + 60
@@ -151,6 +151,17 @@ class Alone(OverRanks):
             self.assertEqual(code, PHYSICS_FAILED, text)
             told.append(re.search(r"fluid particle \d+ at t = .*", text)[0])
         self.assertEqual(told[1:], told[:1] * 2)
+
+    def test_refuses_what_rank_0_alone_finds(self):
+        for count in "13":
+            code, text = end_of(launch(self.folder / "run", DAM[:1], "--ranks", count, "--set", "fluid.spacing=0.5", "--check"), 60)
+            self.assertEqual(code, BAD_INPUT, text)
+            self.assertIn("holds no particle at this spacing", text)
+
+    def test_takes_the_threads_that_were_asked_for_on_each_rank(self):
+        _, out = self.begin(2, "--threads", "1", threads={"OMP_NUM_THREADS": str(os.cpu_count() + 2)})
+        tasks = {rank: len(os.listdir(f"/proc/{process}/task")) for process, rank in ranks_of(out).items()}
+        self.assertLessEqual(tasks[1], tasks[0])
 
     def test_refuses_what_does_not_go(self):
         code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.held_volume={}", "--check"))

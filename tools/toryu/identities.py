@@ -6,10 +6,12 @@ Formats: OMG DDS Security 1.1, 9.4 (governance and permissions, signed by the CA
 plugins. The names of the topics are those of common/link/wire.hpp."""
 
 import argparse
+import contextlib
 import datetime
 import os
 import pathlib
 import secrets
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -83,35 +85,55 @@ def refuse(text, code=BAD_INPUT):
     raise SystemExit(code)
 
 
-def openssl(*words, text=None):
+def openssl(*words, text=None, key=None):
+    """Runs openssl, which finds the open file `key` under the name that `named` gives it."""
     try:
         done = subprocess.run(["openssl", *map(str, words)], input=text, capture_output=True, encoding="utf-8",
-                              env=os.environ | {"OPENSSL_CONF": "/dev/null"})
+                              env=os.environ | {"OPENSSL_CONF": "/dev/null"}, pass_fds=() if key is None else (key,))
     except FileNotFoundError:
         refuse(f"error: the machine: there is no program openssl; '{INSTALLER} run' installs it", MACHINE)
     if done.returncode:
         refuse(f"error: the machine: 'openssl {words[0]}' failed: {done.stderr.strip()}", MACHINE)
 
 
+def named(key):
+    return f"/proc/self/fd/{key}"
+
+
+@contextlib.contextmanager
+def filled_at_once(folder):
+    """A new folder beside `folder`, which becomes that when it is filled, and is gone if it cannot be."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    made = pathlib.Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
+    try:
+        yield made
+        made.rename(folder)
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+
+
 def make(folder, encrypt=False, days=DAYS):
-    """Fills the new folder. The key of the CA ends with this function: nobody can make another identity of the run."""
+    """Makes the new folder. The key of the CA is in memory alone and ends with this program: nobody can make another
+    identity of the run."""
     os.umask(0o077)
-    folder.mkdir(parents=True)
-    with tempfile.TemporaryDirectory() as kept:
-        key, request = pathlib.Path(kept) / "ca.key", pathlib.Path(kept) / "request"
-        authority = ("-CA", folder / "ca.pem", "-CAkey", key)
+    key = os.memfd_create("ca.key")
+    with filled_at_once(folder) as made:
+        authority = made / "ca.pem"
 
         def sign(text, name):
-            openssl("smime", "-sign", "-text", "-signer", folder / "ca.pem", "-inkey", key, "-out", folder / name, text=text)
+            openssl("smime", "-sign", "-text", "-signer", authority, "-inkey", named(key), "-out", made / name, text=text, key=key)
 
-        openssl("req", "-x509", *NEW_KEY, "-keyout", key, "-out", folder / "ca.pem", "-days", days,
-                "-subj", f"/CN=toryu {secrets.token_hex(4)}")
+        openssl("req", "-x509", *NEW_KEY, "-keyout", named(key), "-out", authority, "-days", days,
+                "-subj", f"/CN=toryu {secrets.token_hex(4)}", key=key)
         sign(GOVERNANCE.format(data="ENCRYPT" if encrypt else "NONE"), "governance.p7s")
         for part in ("coupler", "fluid", "solid"):
-            openssl("req", *NEW_KEY, "-keyout", folder / f"{part}.key", "-out", request, "-subj", f"/CN={part}")
-            openssl("x509", "-req", "-in", request, *authority, "-sha256", "-days", days, "-set_serial",
-                    int.from_bytes(secrets.token_bytes(8), "big"), "-out", folder / f"{part}.pem")
+            request = made / "request"
+            openssl("req", *NEW_KEY, "-keyout", made / f"{part}.key", "-out", request, "-subj", f"/CN={part}")
+            openssl("x509", "-req", "-in", request, "-CA", authority, "-CAkey", named(key), "-sha256", "-days", days, "-set_serial",
+                    int.from_bytes(secrets.token_bytes(8), "big"), "-out", made / f"{part}.pem", key=key)
             sign(permissions(part, days), f"{part}.p7s")
+            request.unlink()
+    os.close(key)
 
 
 def parse(arguments):

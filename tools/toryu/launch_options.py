@@ -66,7 +66,7 @@ def parse(arguments):
             setattr(options, name, "")
     if options.case is None and not options.watch:
         parser.error("the following arguments are required: CASE")
-    if options.secure:
+    if options.secure is not None:
         options.secure = os.path.abspath(options.secure)  # the programs may be in other folders, on other hosts
     options.passed_on = [f"--set={pair}" for pair in options.set] + unknown
     for name in ("end_time", "threads", "log_level", "lost_after", "secure"):

@@ -39,6 +39,13 @@ def read_columns(path):
     return {name.strip(): [number(row[i]) for row in body] for i, name in enumerate(header)}
 
 
+def columns_of(path):
+    """The names of the columns of a CSV file, of which no more is read."""
+    with open(path, newline="", encoding="utf-8", errors="replace") as file:
+        rows = csv.reader(line for line in file if not line.startswith("#"))
+        return [name.strip() for name in next(filter(None, rows), [])]
+
+
 def newest(path):
     """`path` or, if that is newer, what a run that was killed has left of it; None if there is neither. A run that went
     on and was killed leaves both."""

@@ -54,6 +54,12 @@ class Programs(Study):
         self.assertGreaterEqual((self.folder / "reached.txt").read_text().count("127.0.0.1"), 2)
         self.assertEqual({row["exit_code"] for row in self.table()}, {"0"})
 
+    def test_identities_are_handed_to_every_run(self):
+        self.mine.write_text(self.mine.read_text().replace("import sys\n", "import sys\nprint(*sys.argv)\n", 1))
+        self.done("--fluid", "mine.py", "--secure", "nowhere")
+        told = [path.read_text() for path in self.out.glob("runs/*/output.txt")]
+        self.assertEqual([f"--secure={self.folder}/nowhere" in text for text in told], [True] * 2)
+
     def test_times_are_those_of_one_machine(self):
         self.write(AXIS + "[timing]\nrepeat = 1\n")
         ended = self.study("--host", "fluid=127.0.0.1")

@@ -42,6 +42,7 @@ def parse(arguments):
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time; default: as many as fit the cores, one if "
                         "the study has [timing]")
     parser.add_argument("--threads", metavar="N", type=int, default=1, help="threads of each run; default 1")
+    parser.add_argument("--secure", metavar="FOLDER", help="the identities of the programs of every run")
     for side in ("fluid", "solid"):
         parser.add_argument(f"--{side}", metavar="EXE", help=f"another program in the place of {side}_solver in every run")
     parser.add_argument("--on", metavar="WHERE", help="run elsewhere, where this folder is too: 'slurm', or hosts that ssh "
@@ -94,6 +95,7 @@ def passed_on(options):
     """What every run is told of its programs."""
     given = [f"--{side}={path}" for side, path in checks.others(options).items()]
     given += [f"--host={place}" for place in options.host]
+    given += [] if options.secure is None else [f"--secure={os.path.abspath(options.secure)}"]
     return given + [f"--{name.replace('_', '-')}={value}" for name in ("launcher", "remote_bin", "remote_folder", "peers")
                     if (value := getattr(options, name)) not in (None, placement.SSH)]
 

@@ -66,10 +66,9 @@ def settings(study, runs, waiting, done, extra):
             chosen.append(setting)
             seen |= values
     told = check(study, runs, chosen, extra)
-    for record in done:
-        told |= {f"{path.name}:{column}" for path in record.folder.glob("*.csv")
-                 for column in results.read_series(record.folder, path.stem)}
-    if missing_columns(study, told, runs):  # which may come with several values together
+    if not told or missing_columns(study, told, runs):  # which may come with several values together
+        told |= {f"{path.name}:{column}" for record in done for path in record.folder.glob("*.csv")
+                 for column in results.columns_of(path)}
         told |= check(study, runs, [setting for setting in of_each_kind(waiting) if setting not in chosen], extra)
     if faults := missing_columns(study, told, runs):
         raise BadStudy("\n".join(faults))

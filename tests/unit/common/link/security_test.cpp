@@ -125,6 +125,25 @@ TEST_F(Identities, ThatWereChangedAreRefused) {
               ElementsAre("governance.p7s: is not signed by the CA of ca.pem, or was changed since"));
 }
 
+TEST_F(Identities, HavePermissionsOfTheirPartAndTime) {
+  replace("fluid.p7s", "solid.p7s");
+  EXPECT_THAT(faults_of("fluid"),
+              ElementsAre("fluid.p7s: holds the permissions of 'CN=solid', and must hold those of "
+                          "'CN=fluid'"));
+  const fs::path late = mine_ / "late";
+  ASSERT_EQ(std::system(fmt::format("PYTHONPATH={}/tools /usr/bin/python3 -c 'import pathlib\n"
+                                    "from toryu import identities\n"
+                                    "made = identities.permissions\n"
+                                    "identities.permissions = lambda part, days: made(part, -0.5)\n"
+                                    "identities.make(pathlib.Path(\"{}\"))'",
+                                    SOURCE_FOLDER, late.string())
+                            .c_str()),
+            0);
+  for (const auto& file : fs::directory_iterator(late))
+    fs::copy(file, mine_, fs::copy_options::overwrite_existing);
+  EXPECT_THAT(faults_of("fluid"), ElementsAre(HasSubstr("fluid.p7s: expired on 20")));
+}
+
 TEST_F(Identities, AreValidForATimeAlone) {
   date(-7200, -3600);
   EXPECT_THAT(faults_of("fluid"),
