@@ -147,7 +147,7 @@ void Connection::check_coupler() {
   if (now - checked_ < longest_sleep) return;
   if (now - checked_ > 1s) coupler_moved_ = now;  // silence counts only while this side listened
   checked_ = now;
-  node_.check_quality();  // a coupler of another protocol never comes
+  node_.explain_silence();  // a coupler of another protocol never comes
   node_.introductions().hear();
   if (!coupler_came_) {
     if (const auto* refusal = node_.introductions().refusal_of("coupler"))

@@ -89,7 +89,7 @@ void CouplerLink::Connection::poll() {
   checked = now;
   node.introductions().hear();
   roster.check_leases(turns.load_from_fluid.live_writers(), turns.motion_from_solid.live_writers());
-  if (!session.over()) node.check_quality();
+  if (!session.over()) node.explain_silence();
 }
 
 void CouplerLink::Connection::wait(const Participant& awaited, const std::string& what,

@@ -180,7 +180,7 @@ Node::Node(const Rendezvous& place, const Occupant& occupant) : key_(place.key),
     require_set_up(participant_, place);
   };
   try {
-    check_identity(place.network, occupant.part);
+    expiry_ = check_identity(place.network, occupant.part);
   } catch (const BadInput&) {
     join();  // so that the others can name it too, which cannot take it for one of them
     std::this_thread::sleep_for(until_heard);
@@ -260,7 +260,8 @@ void Node::note_news() const {
   }
 }
 
-void Node::check_quality() const {
+void Node::explain_silence() const {
+  check_expiry(expiry_);
   for (const Endpoint& endpoint : endpoints_) {
     std::uint32_t count = 0, policy = 0;
     if (endpoint.reads) {

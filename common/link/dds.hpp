@@ -74,9 +74,9 @@ class Node {
   void note_refused(const std::string& topic);
   /// What the others of the run say of themselves in the open.
   Introductions& introductions() { return *introductions_; }
-  /// Throws PeerLost if another process offers or asks for a topic on terms that can never match, BadInput if
-  /// with messages of another shape.
-  void check_quality() const;
+  /// Throws what explains a silence: PeerLost if another process offers or asks for a topic on terms that can
+  /// never match, BadInput if with messages of another shape, or if the identity of --secure has expired.
+  void explain_silence() const;
 
  private:
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& topic) const;
@@ -91,6 +91,7 @@ class Node {
   std::uint64_t refused_ = 0;
   std::shared_ptr<const dds_entity_t> domain_;
   dds_entity_t participant_ = 0;
+  Expiry expiry_;
   std::optional<Introductions> introductions_;
   dds_entity_t waitset_ = 0;
   std::vector<Endpoint> endpoints_;

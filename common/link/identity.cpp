@@ -49,12 +49,15 @@ Time time_of(std::string text) {
   return ASN1_TIME_set_string_X509(time.get(), text.c_str()) == 1 ? std::move(time) : Time();
 }
 
-std::string time_text(const ASN1_TIME* time) {
-  std::tm parts{};
-  if (ASN1_TIME_to_tm(time, &parts) != 1) return "an unknown time";
+std::string time_text(const std::tm& parts) {
   char text[32];
   std::strftime(text, sizeof text, "%F %T UTC", &parts);
   return text;
+}
+
+std::string time_text(const ASN1_TIME* time) {
+  std::tm parts{};
+  return ASN1_TIME_to_tm(time, &parts) == 1 ? time_text(parts) : "an unknown time";
 }
 
 std::string common_name(const X509_NAME* name) {
@@ -88,6 +91,8 @@ class Files {
     if (const auto permissions = signed_text(part_ + ".p7s", *authority)) check_permissions(*permissions);
     return faults_;
   }
+  /// Of those that were read.
+  const Expiry& expiry() const { return expiry_; }
 
  private:
   void add(const std::string& name, const std::string& message) {
@@ -134,6 +139,10 @@ class Files {
           fmt::format("is valid from {} on only; is the clock of this machine right?", time_text(begin)));
     if (X509_cmp_current_time(end) < 0)
       add(name, fmt::format("expired on {}; './run.sh --make-identities' makes new ones", time_text(end)));
+    std::tm parts{};
+    if (ASN1_TIME_to_tm(end, &parts) != 1) return;
+    const std::time_t time = timegm(&parts);
+    if (time < expiry_.time) expiry_ = {(folder_ / name).string(), time};
   }
 
   void check(X509& own, X509* authority, EVP_PKEY* own_key) {
@@ -187,14 +196,29 @@ class Files {
   std::filesystem::path folder_;
   std::string part_;
   std::vector<InputError> faults_;
+  Expiry expiry_;
 };
 
 }  // namespace
 
-void check_identity(const Network& network, const std::string& part) {
-  if (network.secure.empty()) return;
-  const auto faults = Files(network.secure, part).faults();
+Expiry check_identity(const Network& network, const std::string& part) {
+  if (network.secure.empty()) return {};
+  Files files(network.secure, part);
+  const auto faults = files.faults();
   if (!faults.empty()) throw BadInput(faults);
+  return files.expiry();
+}
+
+void check_expiry(const Expiry& expiry) {
+  if (std::time(nullptr) <= expiry.time) return;
+  std::tm parts{};
+  gmtime_r(&expiry.time, &parts);
+  throw BadInput(
+      {{.place = "--secure " + expiry.file,
+        .message = fmt::format("expired on {}, in mid-run: no message passes any more; './run.sh "
+                               "--make-identities' makes new ones, and --restart goes on from the newest "
+                               "checkpoint",
+                               time_text(parts))}});
 }
 
 void check_secured(const Options& options, bool coupled, const std::string& part) {

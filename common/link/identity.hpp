@@ -4,6 +4,8 @@
 /// those of its own parts alone. Formats: OMG DDS Security 1.1, 8.4 and 9.4.
 #pragma once
 
+#include <ctime>
+#include <limits>
 #include <string>
 
 #include "common/run/network.hpp"
@@ -11,10 +13,18 @@
 
 namespace toryu {
 
+/// The file of an identity that expires first, and when: no message passes from then on.
+struct Expiry {
+  std::string file = {};
+  std::time_t time = std::numeric_limits<std::time_t>::max();
+};
+/// Throws BadInput if that is past.
+void check_expiry(const Expiry& expiry);
+
 /// Throws BadInput with all that is wrong with the identity of `part` ("coupler", "fluid" or "solid") in the
 /// folder of --secure: files that are missing or no such files, a key that others can read or that is not the
 /// certificate's, a certificate of another part or CA, or that is not valid today. Nothing without --secure.
-void check_identity(const Network& network, const std::string& part);
+Expiry check_identity(const Network& network, const std::string& part);
 
 /// The same of a solver under --check: in a run it looks at its identity as it joins. Where it computes alone
 /// --secure is refused.

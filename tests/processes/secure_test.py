@@ -16,6 +16,7 @@ from toryu_testing.trio import ROLES
 
 LAUNCH = [sys.executable, "-I", "-X", "utf8", str(pathlib.Path(identities.__file__).parent), "launch"]
 END_TIME = "0.01"  # [s] of the strip
+LIFE = 20  # [s] of an identity that expires in mid-run
 PATIENCE = ["--set", "coupling.time_limit=5"]  # of who waits for one that is refused [s]
 NONE, OTHER = "it has no certificate, which --secure asks for", "its certificate is of another CA than that of --secure"
 ASKED = "it takes certificates alone, and this program has none: give it --secure FOLDER too"
@@ -115,6 +116,16 @@ class Refusal(SecureCase):
         before = run.windows()
         run.wait_until_running(beyond=before + 10)
         self.assert_refused(run, "stranger", ASKED)
+
+
+    def test_of_identities_that_expire_in_mid_run_is_told_by_all(self):
+        made = identities.permissions
+        with mock.patch.object(identities, "permissions", lambda part, _: made(part, LIFE / 86400)):
+            identities.make(self.folder / "short")
+        run = self.run_of_three().start_all(self.secure("short")).wait_until_running()
+        for role in ROLES:
+            self.assert_refused(run, role, f"--secure {self.folder}/short/{role}.p7s: error: expired on .* UTC, in mid-run: no "
+                                "message passes any more")
 
 
 class Launcher(SecureCase):

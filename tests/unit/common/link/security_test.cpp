@@ -153,6 +153,17 @@ TEST_F(Identities, AreValidForATimeAlone) {
   EXPECT_THAT(faults_of("fluid"), testing::Contains(HasSubstr("fluid.pem: is valid from 20")));
 }
 
+TEST_F(Identities, EndWithTheFirstOfTheirFiles) {
+  Network network;
+  network.secure = mine_.string();
+  const Expiry expiry = check_identity(network, "fluid");
+  const std::time_t now = std::time(nullptr), year = 365 * 86400;
+  EXPECT_THAT(expiry.time, testing::AllOf(testing::Gt(now + year - 3600), testing::Lt(now + year + 60)));
+  EXPECT_NO_THROW(check_expiry(expiry));
+  EXPECT_NO_THROW(check_expiry(check_identity({}, "fluid")));
+  EXPECT_THROW(check_expiry({expiry.file, now - 1}), BadInput);
+}
+
 /// Each topic has one part that writes it; all else is refused, to those who have an identity too.
 TEST_F(Identities, LetEachPartWriteAndReadItsTopicsAlone) {
   struct Right {
