@@ -115,8 +115,8 @@ void FluidModel::fill_regions() {
   }
   for (std::size_t r = 0; r < boxes.size(); ++r)
     if (!filled[r])
-      throw BadInput({{fmt::format("[[fluid.region]] '{}'", parameters_.regions[r].name), 0, 0,
-                       "holds no particle at this spacing"}});
+      throw BadKey("fluid.region." + parameters_.regions[r].name,
+                   fmt::format("region '{}' holds no particle at this spacing", parameters_.regions[r].name));
 }
 
 void FluidModel::start_flow(std::size_t i) {
@@ -134,11 +134,10 @@ PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& poin
   const double area = pressing_area(wall, scene_.geometry),
                fluid = parameters_.density * area * parameters_.h();
   if (wall.press->mass > 0 && wall.press->mass < fluid)
-    throw BadInput(
-        {{fmt::format("[[wall]] '{}'", wall.name), 0, 0,
-          fmt::format("a press of {:g} kg/m is too light beside the fluid for steps like its: give it "
-                      "{:.3g} kg/m or more, or leave 'mass' out",
-                      wall.press->mass, fluid)}});
+    throw BadKey(fmt::format("wall.{}.press.mass", wall.name),
+                 fmt::format("a press of {:g} kg/m is too light beside the fluid for steps like its: give it "
+                             "{:.3g} kg/m or more, or leave 'mass' out",
+                             wall.press->mass, fluid));
   return {.press = *wall.press,
           .start = points,
           .area = area,
@@ -168,14 +167,16 @@ void FluidModel::fill_walls() {
   for (const auto& wall : scene_.walls) {
     WallParticles made(wall, fill_wall(wall, parameters_, scene_.gravity));
     for (Vec& x : made.places) x = period_.inside(x);
-    const std::string place = fmt::format("[[wall]] '{}'", wall.name);
     const bool on_its_own = wall.motion || wall.press || wall.work_piece;
     const bool in_group = !wall.moves_with.empty() && !wall.work_piece;
-    if (made.places.empty()) throw BadInput({{place, 0, 0, "holds no particle at this spacing"}});
+    const std::string key = "wall." + wall.name;
+    if (made.places.empty())
+      throw BadKey(key, fmt::format("wall '{}' holds no particle at this spacing", wall.name));
     if (on_its_own && (wall.name == "walls" || wall.name == "interface"))
-      throw BadInput({{place, 0, 0,
-                       "results call the walls at rest 'walls', the solid 'interface'; this "
-                       "one, a body of its own, needs another name"}});
+      throw BadKey(key,
+                   fmt::format("results call the walls at rest 'walls', the solid 'interface'; '{}', a body "
+                               "of its own, needs another name",
+                               wall.name));
     if (in_group)
       groups[wall.moves_with].join(made);
     else if (on_its_own)
@@ -226,12 +227,12 @@ void FluidModel::check_overlaps() const {
     touching.build(boundary.x, boundary.count, x, strips, nearest, period_.shifts());
     if (touching.active().empty()) continue;
     const Vec place = at(x, touching.near(touching.active().front()).back().sources.front());
-    throw BadInput(
-        {{"[fluid.region]", 0, 0,
-          fmt::format("overlaps {} near ({:.6g}, {:.6g}) m: their particles must be at least {:g} spacings "
-                      "apart",
-                      boundary.is_interface() ? "the solid" : "the wall '" + boundary.name + "'", place[0],
-                      place[1], nearest_bodies)}});
+    throw BadKey(
+        "fluid.region",
+        fmt::format("the fluid overlaps {} near ({:.6g}, {:.6g}) m: their particles must be at least {:g} "
+                    "spacings apart",
+                    boundary.is_interface() ? "the solid" : "the wall '" + boundary.name + "'", place[0],
+                    place[1], nearest_bodies));
   }
 }
 

@@ -211,14 +211,12 @@ void check_enclosed(FluidModel& model, const fluid::Parameters& parameters) {
   const bool implicit = parameters.model == fluid::Model::implicit;
   if (!(parameters.enclosed_medium || parameters.held_volume || implicit) || model.is_enclosed()) return;
   if (parameters.enclosed_medium)
-    throw BadInput({{"[fluid.enclosed_medium]", 0, 0,
-                     "the fluid has a free surface at the start, where its pressure is 0: give no "
-                     "mean pressure"}});
+    throw BadKey("fluid.enclosed_medium",
+                 "the fluid has a free surface at the start, where its pressure is 0: give no mean pressure");
   if (parameters.held_volume)
-    throw BadInput({{"[fluid.held_volume]", 0, 0,
-                     "the fluid has a free surface at the start: nothing holds its volume"}});
+    throw BadKey("fluid.held_volume", "the fluid has a free surface at the start: nothing holds its volume");
   const auto [key, message] = fluid::implicit_surface_fault();
-  throw BadInput({{key, 0, 0, message}});
+  throw BadKey(key, message);
 }
 
 /// What the case says, complete and checked but for what only its particles show.
@@ -284,11 +282,11 @@ ExitCode solve(const Options& options) {
   if (options.outlook && !file.has("solid")) tell_flow(parameters, scene);
   for (const auto& [key, message] : fluid::start_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
-  const auto made = fluid::make_spread_model(parameters, scene);
+  const auto made = file.placed([&] { return fluid::make_spread_model(parameters, scene); });
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
   check_start(model, "[fluid]");
-  check_enclosed(model, parameters);
+  file.placed([&] { check_enclosed(model, parameters); });
   model.record_surface(options.out);  // which has columns
   check_columns(model.observe(), "[fluid]");
   const SeriesColumns series =

@@ -65,6 +65,10 @@ struct Body {
 
 /// Takes a fault of the input: the key of the case file it belongs to, and what is wrong.
 using TellFault = std::function<void(const std::string& key, const std::string& message)>;
+/// The key of that item of [solid]: "solid.region.gate".
+inline std::string item(const std::string& list, const std::string& name) {
+  return "solid." + list + "." + name;
+}
 
 /// Tells as faults: a region that cannot be filled (a side shorter than a spacing, or not near a whole number
 /// of them), regions that overlap, a clamp or a load that holds no particle. Where space repeats itself by

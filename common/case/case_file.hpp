@@ -61,6 +61,17 @@ class CaseFile {
   /// Adds a fault that the owner of a section found by itself, at the place of `key`: a path with items by
   /// number or name ("fluid.region.0.box").
   void fault(const std::string& key, const std::string& message);
+  /// What `make` gives; a BadKey that it throws is told at its place.
+  template <class Make>
+  auto placed(const Make& make) {
+    try {
+      return make();
+    } catch (const BadKey& bad) {
+      fault(bad.key(), bad.message());
+      throw_if_faulty();
+      throw;
+    }
+  }
   /// Adds a fault of another file that the case names.
   void fault(const InputError& fault);
   /// Throws BadInput with all faults, unknown top-level sections among them, sorted by line.

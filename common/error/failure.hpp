@@ -53,6 +53,19 @@ class BadInput : public std::runtime_error {
   std::vector<InputError> errors_;
 };
 
+/// A fault of the case that code without its file finds: of the item or value at `key`, a path as
+/// CaseFile::fault takes it ("fluid.region.water"). CaseFile::placed tells it at its place.
+class BadKey : public BadInput {
+ public:
+  BadKey(std::string key, std::string message)
+      : BadInput({{.place = key, .message = message}}), key_(std::move(key)), message_(std::move(message)) {}
+  const std::string& key() const { return key_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  std::string key_, message_;
+};
+
 /// A value left physics: the run stops.
 class PhysicsFailure : public std::runtime_error {
  public:

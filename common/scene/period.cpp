@@ -21,9 +21,8 @@ void check(int axis, double length, double spacing, double reach) {
   else if (length < 2 * reach)
     fault = fmt::format("is shorter than {:.6g} m, twice the reach of the neighbour lists", 2 * reach);
   if (!fault.empty())
-    throw BadInput({{"case.periodic", 0, 0,
-                     fmt::format("the domain repeats itself in {} after {:.6g} m, which {}", "xy"[axis],
-                                 length, fault)}});
+    throw BadKey("case.periodic", fmt::format("the domain repeats itself in {} after {:.6g} m, which {}",
+                                              "xy"[axis], length, fault));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene,
 }
 
 StartFault implicit_surface_fault() {
-  return {"[fluid]",
+  return {"fluid.model",
           "the fluid has a free surface at the start, and model = \"implicit\" is for media that walls or "
           "periods enclose"};
 }

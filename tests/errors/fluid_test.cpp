@@ -117,12 +117,13 @@ INSTANTIATE_TEST_SUITE_P(
               "preston_coefficient, a "
               "shear_coefficient or [fluid.removal.archard]"},
         Fault{"MeanPressureUnderAFreeSurface", "fluid.enclosed_medium.mean_pressure=1",
-              "[fluid.enclosed_medium]: error: the fluid has a free surface at the start, where its pressure "
-              "is "
-              "0: give no mean pressure"},
-        Fault{"VolumeUnderAFreeSurface", "fluid.held_volume={}",
-              "[fluid.held_volume]: error: the fluid has a free surface at the start: nothing holds its "
-              "volume"},
+              "--set fluid.enclosed_medium.mean_pressure=1: error: the fluid has a free surface at the "
+              "start, where "
+              "its pressure is 0: give no mean pressure"},
+        Fault{
+            "VolumeUnderAFreeSurface", "fluid.held_volume={}",
+            "--set fluid.held_volume={}: error: the fluid has a free surface at the start: nothing holds its "
+            "volume"},
         Fault{"VolumeBesidePresses",
               "fluid.held_volume={}' --set 'wall.0.press={force=[[0,1]], direction=\"+y\", travel=[0,1e-9]}",
               "--set fluid.held_volume={}: error: pressed walls, a solid and open ends leave the "
@@ -285,9 +286,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"RegionWithoutParticles",
               "fluid.region=[{name=\"film\",box={min=[0,0],max=[1,0.02]}}]' --set "
               "'fluid.hydrostatic_start=false",
-              "[[fluid.region]] 'film': error: holds no particle at this spacing"},
+              "--set fluid.region=[{name=\"film\",box={min=[0,0],max=[1,0.02]}}]: error: region 'film' holds "
+              "no "
+              "particle at this spacing"},
         Fault{"WallWithoutParticles", "wall.left.box.max=[-0.19,1.2]",
-              "[[wall]] 'left': error: holds no particle at this spacing"},
+              HYDROSTATIC_TANK "/case.toml:18:1: error: wall 'left' holds no particle at this spacing"},
         Fault{"StartTooFast", "fluid.region.water.velocity=[40,0]",
               "[fluid]: error: cannot start: fluid particle 0 at t = 0 s: speed [m/s] = 40, limit 31.3"},
         Fault{"StartTooDense", "fluid.limits.largest_density_change=0.001",

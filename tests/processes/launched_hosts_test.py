@@ -19,6 +19,18 @@ from toryu_testing.trio import ROLES, results_of
 
 ON_ONE, ON_THREE = (), ("fluid", "solid")  # the launcher is on the coupler's host
 SHORT, LONG = "--end-time=0.004", "--end-time=1000"
+# As a browser on the launcher's host: reads the series of a watched run, then presses its stop button.
+WATCHER = """
+import json, sys, urllib.request
+page, parts = sys.argv[1], set(sys.argv[2:])
+with urllib.request.urlopen(page + "events", timeout=60) as events:
+    for line in events:
+        if line.startswith(b"data:") and b'"rows"' in line:
+            parts.discard(json.loads(line[5:])["name"])
+        if not parts:
+            break
+urllib.request.urlopen(urllib.request.Request(page + "stop", method="POST", headers={"X-Toryu": "stop"}), timeout=60)
+"""
 
 
 class HostsCase(unittest.TestCase):
@@ -82,6 +94,16 @@ class Results(HostsCase):
         code, said = run.start(ON_THREE, SHORT, secure, "--overwrite").end()
         self.assertEqual(code, DONE, said)
         self.assert_same(run.out, one)
+
+    def test_are_watched_while_the_run_lasts_and_end_by_the_stop_button(self):
+        run = self.hosts()
+        run.start(ON_THREE, LONG, "--watch")
+        page = run.wait_for_word(r"watch +(\S+)")
+        done = subprocess.run(["nsenter", "--net=/run/netns/coupler", sys.executable, "-I", "-c", WATCHER, page, *ROLES],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_end(run, INTERRUPTED)
+        self.assertTrue(list(run.out.glob("checkpoint/*/manifest.toml")))
 
     def test_of_a_fluid_alone_come_from_its_host(self):
         run = self.hosts()

@@ -3,6 +3,7 @@ its own in the place of /tmp, and an environment as bare as that of a login. Cas
 those of another."""
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -86,6 +87,15 @@ class Launched:
                 raise AssertionError(f"no {what}: {(self.base / 'said').read_text()}")
             time.sleep(0.02)
         return found[0]
+
+    def wait_for_word(self, pattern, limit=30):
+        """What the run said that fits the group of the pattern."""
+        end = time.monotonic() + limit
+        while not (found := re.search(pattern, (self.base / "said").read_text())):
+            if self.run.poll() is not None or time.monotonic() > end:
+                raise AssertionError(f"no {pattern}: {(self.base / 'said').read_text()}")
+            time.sleep(0.02)
+        return found[1]
 
     def left_behind(self, limit=5):
         """Processes that are there still after `limit` [s], and files on the hosts."""

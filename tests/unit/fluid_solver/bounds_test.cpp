@@ -89,26 +89,25 @@ TEST(Bodies, MustNotOverlap) {
   EXPECT_EQ(refusal(setting), "none");
   setting.scene.walls.front().box.max[1] = 0.05;
   EXPECT_THAT(refusal(setting),
-              testing::HasSubstr("[fluid.region]: error: overlaps the wall 'walls' near ("));
+              testing::HasSubstr("fluid.region: error: the fluid overlaps the wall 'walls' near ("));
 }
 
 TEST(Bodies, AreWallsOfSomeParticles) {
   Setting setting = one_block();
   setting.scene.walls = {{"thin", {Vec(0.3, 0), Vec(0.31, 1)}, {}}};
-  EXPECT_EQ(refusal(setting), "[[wall]] 'thin': error: holds no particle at this spacing");
+  EXPECT_EQ(refusal(setting), "wall.thin: error: wall 'thin' holds no particle at this spacing");
 }
 
 TEST(Bodies, AreToldApartByName) {
   Setting setting = one_block();
   setting.scene.walls = {{"walls", {Vec(-0.1, -0.15), Vec(0.3, 0.0)}, {}}};
   EXPECT_EQ(refusal(setting), "none");
-  const std::string text =
-      ": error: results call the walls at rest 'walls', the solid 'interface'; this one, a body of its own, "
-      "needs another name";
+  const std::string text = ": error: results call the walls at rest 'walls', the solid 'interface'; '",
+                    needed = "', a body of its own, needs another name";
   setting.scene.walls[0].work_piece = true;
-  EXPECT_EQ(refusal(setting), "[[wall]] 'walls'" + text);
+  EXPECT_EQ(refusal(setting), "wall.walls" + text + "walls" + needed);
   setting.scene.walls[0] = {"interface", setting.scene.walls[0].box, Motion{{{0.0, 1.0, 0.0}}}};
-  EXPECT_EQ(refusal(setting), "[[wall]] 'interface'" + text);
+  EXPECT_EQ(refusal(setting), "wall.interface" + text + "interface" + needed);
   setting.scene.walls[0].name = "piston";
   EXPECT_EQ(refusal(setting), "none");
 }
@@ -117,10 +116,10 @@ TEST(Bodies, MustHoldFluid) {
   Setting setting = one_block();
   const auto block = setting.parameters.regions.front();
   setting.parameters.regions.push_back({"film", {Vec(1, 1), Vec(1.02, 2)}});
-  EXPECT_EQ(refusal(setting), "[[fluid.region]] 'film': error: holds no particle at this spacing");
+  EXPECT_EQ(refusal(setting), "fluid.region.film: error: region 'film' holds no particle at this spacing");
   setting.parameters.regions = {block};
   setting.parameters.holes = {{{Vec(-1, -1), Vec(1, 1)}, "all"}};
-  EXPECT_THAT(refusal(setting), testing::EndsWith(": error: holds no particle at this spacing"));
+  EXPECT_THAT(refusal(setting), testing::EndsWith("holds no particle at this spacing"));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(Body, LosesTheAreaThatIsOff) {
 
 TEST(Body, CannotBeWornToLessThanRowsFill) {
   EXPECT_THAT(faults_of(worn_plate({{Side::upper, {{0, 0}, {0.08, 0.018}}}})),
-              ElementsAre(testing::HasSubstr("solid.region: region 'plate' is")));
+              ElementsAre(testing::HasSubstr("solid.region.plate: region 'plate' is")));
 }
 
 TEST(Body, CountsTheParticlesOfRegionsAndClamps) {
@@ -121,8 +121,9 @@ TEST(Body, ARingIsADiscWithADiscCutOut) {
   EXPECT_NEAR(area[1] / (M_PI * 0.02 * 0.02), 1.0, 0.01);
   p.regions.push_back({"inside", {Vec(0.0, -0.005), Vec(0.01, 0.005)}});
   p.regions.push_back({"in the corner", {Vec(0.027, 0.017), Vec(0.03, 0.02)}});
-  EXPECT_THAT(faults_of(p),
-              ElementsAre("solid.region: region 'inside' overlaps region 'right'; regions may touch only"));
+  EXPECT_THAT(
+      faults_of(p),
+      ElementsAre("solid.region.inside: region 'inside' overlaps region 'right'; regions may touch only"));
 }
 
 TEST(Body, InterfaceIsWhatAFluidCanReachFromOutside) {
@@ -141,12 +142,12 @@ TEST(Body, TellsWhatIsWrongWithTheGeometry) {
   EXPECT_THAT(
       faults_of(p),
       ElementsAre(
-          "solid.region: region 'lid' is 1.5 spacings long along y; rows of particles fill it only if "
+          "solid.region.lid: region 'lid' is 1.5 spacings long along y; rows of particles fill it only if "
           "that is within 10 % of a whole number",
-          "solid.region: region 'lid' overlaps region 'plate'; regions may touch only",
-          "solid.clamp: clamp 'nowhere' holds no particle of the solid",
-          "solid.load: load 'push' acts on no particle of the solid",
-          "solid.observer: observer 'far': the point (2, 2) is not in the solid: 0 particles within "
+          "solid.region.lid: region 'lid' overlaps region 'plate'; regions may touch only",
+          "solid.clamp.nowhere: clamp 'nowhere' holds no particle of the solid",
+          "solid.load.push: load 'push' acts on no particle of the solid",
+          "solid.observer.far: observer 'far': the point (2, 2) is not in the solid: 0 particles within "
           "0.013 m"));
 }
 
