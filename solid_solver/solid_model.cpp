@@ -58,6 +58,8 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
                    parameters_.h(), period_);
     state_.walls = walls_->start();
     resize(state_.push, size);
+  } else if (!scene.walls.empty()) {
+    passed_.emplace(scene.walls, body_.X);
   }
   first_energy_ = kinetic_energy();
   for (std::uint32_t i = 0; i < count; ++i)
@@ -355,7 +357,9 @@ void SolidModel::watch_bonds() {
 
 void SolidModel::end_step() {
   find_detached();
-  if (++state_.steps % steps_between_checks != 0 || !bonds_) return;
+  if (++state_.steps % steps_between_checks != 0) return;
+  if (passed_) passed_->check(positions(), state_.time);
+  if (!bonds_) return;
   const auto scope = timers_.measure("bonds");
   bonds_->check(state_.bonds, positions(), state_.time);
   if (!walls_)  // the work of moving ones is not known

@@ -16,6 +16,7 @@
 #include "solid_solver/drive.hpp"
 #include "solid_solver/energy_watch.hpp"
 #include "solid_solver/parameters.hpp"
+#include "solid_solver/passed_walls.hpp"
 #include "solid_solver/solid.hpp"
 
 namespace toryu::solid {
@@ -202,6 +203,7 @@ class SolidModel : public Solid {
   Field inverse_rho_;                ///< of the unloaded particle [m3/kg]
   Timers timers_;
   std::optional<ContactWalls> walls_;     ///< if walls act on the solid
+  std::optional<PassedWalls> passed_;     ///< if there are walls that do not
   std::optional<TouchingBodies> bodies_;  ///< if bodies that are not joined push each other
   Drive drive_;
   double first_energy_ = 0;  ///< of the start: kinetic, and of springs [J/m]

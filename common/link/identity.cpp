@@ -82,6 +82,7 @@ class Files {
       add("", "is no folder; './run.sh --make-identities FOLDER' makes one");
       return faults_;
     }
+    check_mode("", 022, "can be changed by others", "go-w", "keeps it yours");
     const Certificate authority = certificate("ca.pem"), own = certificate(part_ + ".pem");
     const Key own_key = key();
     if (authority) check_dates("ca.pem", *authority);
@@ -106,6 +107,14 @@ class Files {
     return file;
   }
 
+  /// A folder that others may change can hold another CA tomorrow, and identities that it has signed.
+  void check_mode(const std::string& name, mode_t forbidden, const char* what, const char* mode,
+                  const char* use) {
+    struct stat status {};
+    if (stat((folder_ / name).c_str(), &status) == 0 && (status.st_mode & forbidden) != 0)
+      add(name, fmt::format("{} (mode {:04o}); 'chmod {}' {}", what, status.st_mode & 07777, mode, use));
+  }
+
   Certificate certificate(const std::string& name) {
     const File file = open(name);
     if (!file) return {};
@@ -118,11 +127,7 @@ class Files {
     const std::string name = part_ + ".key";
     const File file = open(name);
     if (!file) return {};
-    struct stat status {};
-    if (stat((folder_ / name).c_str(), &status) == 0 && (status.st_mode & 077) != 0)
-      add(name,
-          fmt::format("is a private key that others can read (mode {:04o}); 'chmod 600' keeps it secret",
-                      status.st_mode & 07777));
+    check_mode(name, 077, "is a private key that others can read", "600", "keeps it secret");
     const auto no_password = [](char*, int, int, void*) { return -1; };
     Key found(PEM_read_bio_PrivateKey(file.get(), nullptr, no_password, nullptr));
     if (!found) add(name, "holds no private key without a password (PEM)");

@@ -140,8 +140,10 @@ std::vector<Vec> parallel_rows(const Outline& outline, double spacing) {
     any = false;
     for (const Ring& ring : outline.rings()) {
       auto curve = offset_curve(ring, depth, sample * spacing);
-      std::erase_if(
-          curve, [&](const Sample& at) { return outline.nearest(at.place).distance > -depth * (1 - 1e-3); });
+      // Where the ring turns back on itself a corner's place is no number, and within nothing.
+      std::erase_if(curve, [&](const Sample& at) {
+        return !(outline.nearest(at.place).distance <= -depth * (1 - 1e-3));
+      });
       if (curve.empty()) continue;
       any = true;
       place_on_curve(curve, spacing, gathering);

@@ -6,6 +6,7 @@ NUMBERS = ["0", "-1", "1", "1e308", "-1e308", "5e-324", "nan", "inf", "-inf", "9
 VALUES = [*NUMBERS, '""', '"$x_{$"', '"\\u0000"', '"\\u001b[31m"', '"<!--<script>"', "true", "false", "[]", "{}", "[[]]",
           "[1, 'a']", "{ a = 1 }", "1979-05-27", "'''\n'''", "[" * 300 + "]" * 300, "[" * 80 + "]" * 80, '"' + "x" * 5000 + '"',
           "next", '"_"', '"a\\nb"', "[nan, inf]", "{ min = [0, 0], max = [0, 0] }"]
+FACTORS = [0, -1, 0.1, 0.5, 2, 10, 1e3, 1e-3, 1e6, 1e-6, 1e20, 1e-20]
 BYTES = [b"", b"\x00", b"\xff\xfe", b"\xef\xbb\xbf", b"#", b'"', b"'", b"[", b"]", b"{", b"}", b"=", b",", b".", b"\r", b"\n",
          b";", b"\x1b[2J", "砥粒".encode(), b"e", b"-"]
 
@@ -30,11 +31,20 @@ def value(text, random):
 
 def number(text, random):
     """Another number for one of the text."""
-    found = list(re.finditer(rb"\d+(\.\d+)?(e-?\d+)?", text))
+    return with_number(text, random, lambda _: random.choice(NUMBERS))
+
+
+def scaled(text, random):
+    """A number of the text, as in another unit or by a slip of its exponent."""
+    return with_number(text, random, lambda found: repr(float(found) * random.choice(FACTORS)))
+
+
+def with_number(text, random, other):
+    found = list(re.finditer(rb"(?<![\w.])\d+(\.\d+)?(e-?\d+)?(?![\w.])", text))
     if not found:
         return text
     place = random.choice(found)
-    return text[:place.start()] + random.choice(NUMBERS).encode() + text[place.end():]
+    return text[:place.start()] + other(place[0]).encode() + text[place.end():]
 
 
 def line(text, random):
@@ -63,5 +73,5 @@ def zeros(text, random):
     return text[:at] + bytes(len(text) - at)
 
 
-CHANGES = [value, value, value, number, number, line, line, letter, letter, end]
+CHANGES = [value, value, value, number, number, scaled, scaled, line, line, letter, letter, end]
 CHANGES_OF_BYTES = [letter, letter, end, zeros]

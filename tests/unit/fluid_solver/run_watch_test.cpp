@@ -3,13 +3,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-
-#include <sstream>
 
 #include "common/error/failure.hpp"
 #include "tests/one_thread.hpp"
+#include "tests/said.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
@@ -17,26 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-/// What the log says meanwhile.
-class Said {
- public:
-  Said() : logger_(spdlog::default_logger()) {
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_st>(text_)));
-  }
-  ~Said() { spdlog::set_default_logger(logger_); }
-  std::string text() const { return text_.str(); }
-  int times(const std::string& words) const {
-    int found = 0;
-    for (auto at = text().find(words); at != std::string::npos; at = text().find(words, at + 1)) ++found;
-    return found;
-  }
-
- private:
-  std::ostringstream text_;
-  std::shared_ptr<spdlog::logger> logger_;
-};
 
 /// A fluid that does well, c_0 = 20 m/s.
 RunFigures well() {

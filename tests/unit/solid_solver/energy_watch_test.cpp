@@ -1,57 +1,39 @@
 #include "solid_solver/energy_watch.hpp"
 
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-
-#include <sstream>
 
 #include "samples.hpp"
+#include "tests/said.hpp"
 
 namespace toryu::solid {
 namespace {
 
-/// What the log is told as long as this lives.
-class Heard {
- public:
-  Heard() {
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_st>(said_)));
-  }
-  ~Heard() { spdlog::set_default_logger(before_); }
-  std::string said() const { return said_.str(); }
-
- private:
-  std::ostringstream said_;
-  std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
-};
-
 TEST(EnergyWatch, TellsOfTwoPercentOfTheMostAndOfEachDoubling) {
-  Heard heard;
+  const Said heard;
   EnergyWatch watch;
   watch.warn_of_gain(0, 0, 0, 0);
   watch.warn_of_gain(20, 25, 0, 1);  // 5 J held by deformation, or dissipated
   watch.warn_of_gain(10, 9.7, 0, 2);
-  EXPECT_EQ(heard.said(), "");
+  EXPECT_EQ(heard.text(), "");
   EXPECT_NEAR(watch.largest_gain, 0.015, 1e-12);
   std::size_t length = 0;
   for (const auto& [gained, told] : {std::pair{0.5, true}, {0.9, false}, {1.1, true}, {0.2, false}}) {
     watch.warn_of_gain(10, 10 - gained, 0, 3);
-    EXPECT_EQ(heard.said().size() > length, told) << gained;
-    length = heard.said().size();
+    EXPECT_EQ(heard.text().size() > length, told) << gained;
+    length = heard.text().size();
   }
-  EXPECT_NE(heard.said().find("0.025 of it"), std::string::npos) << heard.said();
+  EXPECT_NE(heard.text().find("0.025 of it"), std::string::npos) << heard.text();
   EXPECT_NEAR(watch.largest_gain, 0.055, 1e-12);
 }
 
 TEST(EnergyWatch, TakesNoRoundingForMotion) {
-  Heard heard;
+  const Said heard;
   EnergyWatch watch;
   watch.warn_of_gain(3e-36, 1e-36, 1e-20, 1);
-  EXPECT_EQ(heard.said(), "");
+  EXPECT_EQ(heard.text(), "");
   EXPECT_EQ(watch.largest_gain, 0);
   watch.warn_of_gain(3e-19, 1e-19, 1e-20, 2);
-  EXPECT_NE(heard.said(), "");
+  EXPECT_NE(heard.text(), "");
 }
 
 /// Largest gain of a free bar that swings along its length, in updated form, by steps of `courant_number`.
@@ -70,11 +52,11 @@ double gain(double courant_number) {
 }
 
 TEST(EnergyWatch, SeesWhatMidpointStepsThatAreTooLongFeedASolid) {
-  Heard heard;
+  const Said heard;
   EXPECT_NEAR(gain(0.1), 0, 1e-3);
-  EXPECT_EQ(heard.said(), "");
+  EXPECT_EQ(heard.text(), "");
   EXPECT_GT(gain(1.0), 0.02);
-  EXPECT_NE(heard.said().find("from nowhere"), std::string::npos);
+  EXPECT_NE(heard.text().find("from nowhere"), std::string::npos);
 }
 
 }  // namespace

@@ -85,6 +85,14 @@ TEST_F(Identities, HaveKeysThatTheirOwnerAloneReads) {
                                               "'chmod 600' keeps it secret"));
 }
 
+TEST_F(Identities, AreInAFolderThatTheirOwnerAloneChanges) {
+  fs::permissions(mine_, fs::perms(0777));
+  EXPECT_THAT(faults_of("fluid"),
+              ElementsAre("mine: can be changed by others (mode 0777); 'chmod go-w' keeps it yours"));
+  fs::permissions(mine_, fs::perms(0755));
+  EXPECT_THAT(faults_of("fluid"), ElementsAre());
+}
+
 TEST_F(Identities, MayBeThoseOfTheOwnPartAlone) {
   for (const char* name : {"coupler.pem", "coupler.key", "coupler.p7s"}) fs::remove(mine_ / name);
   EXPECT_THAT(faults_of("fluid"), ElementsAre());

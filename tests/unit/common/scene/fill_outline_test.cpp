@@ -85,6 +85,13 @@ TEST(FillOutline, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.points, three.points);
 }
 
+/// The offset of a corner at which the outline turns back on itself is no number.
+TEST(FillOutline, EndsWhereTheOutlineTurnsBackOnItself) {
+  const Ring spike{{0, 0}, {6e-21, 3}, {10, 8}, {0, 8}};
+  const auto filling = fill_outline(Outline({spike}), 1.0);
+  EXPECT_NEAR(static_cast<double>(filling.points.size()) * filling.volume, 25, 1e-9);
+}
+
 TEST(FillOutline, IsEmptyWhereNoRowFits) {
   EXPECT_TRUE(fill_outline(Outline({{{0, 0}, {9, 0}, {9.1, 0.4}}}), 1.0).points.empty());
 }

@@ -1,0 +1,23 @@
+/// Walls that nothing makes the solid touch: it passes through them without a force.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/scene/scene.hpp"
+
+namespace toryu::solid {
+
+class PassedWalls {
+ public:
+  /// `X` [m] is where the particles are at the start; those that a wall holds then belong there.
+  PassedWalls(const std::vector<Wall>& walls, const std::vector<Vec>& X);
+  /// Warns of the first of the particles at `x` [m] that is in a wall at `time` [s]; but once in a run.
+  void check(const std::vector<Vec>& x, double time);
+
+ private:
+  std::vector<Wall> walls_;
+  std::vector<std::uint32_t> free_;  ///< numbers of the particles that no wall holds at the start
+};
+
+}  // namespace toryu::solid
