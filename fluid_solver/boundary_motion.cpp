@@ -24,4 +24,17 @@ void PressedMotion::push(double t, double dt, const Vec& reaction, double held) 
   mean_speed = 0.5 * (before + speed);
 }
 
+void PressedMotion::begin_step(double middle, double end) {
+  const double way_there = way_at(middle);
+  speed = speed_at(middle);
+  way = way_there;
+  time = end;
+}
+
+void PressedMotion::end_step(double dt, double found) {
+  acceleration = (found - speed) / dt;
+  speed = mean_speed = found;
+  way = std::clamp(way + 0.5 * dt * found, press.travel[0], press.travel[1]);
+}
+
 }  // namespace toryu::fluid

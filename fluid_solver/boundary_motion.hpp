@@ -53,7 +53,7 @@ struct PressedMotion {
   // since the last push
   double time = 0, way = 0, speed = 0;  ///< [s], along the press's axis [m], [m/s]
   double acceleration = 0;              ///< in that push [m/s2]
-  double mean_speed = 0;                ///< in that push [m/s]
+  double mean_speed = 0;                ///< by which the work in that push counts [m/s]
   bool at_stop = false;                 ///< whether it has been told of that a stop holds it
 
   double way_at(double t) const;
@@ -68,6 +68,10 @@ struct PressedMotion {
   /// The press and the fluid's `reaction` [N per metre depth] act for `dt` [s] at `t`, the middle of a step.
   /// `held` is what of the pressure the fluid does not know of [Pa].
   void push(double t, double dt, const Vec& reaction, double held);
+  /// An implicit step (implicit/pistons.hpp) comes to its middle [s] at the speed of before, and to its end
+  /// at the one that it finds, after `dt` in all [s].
+  void begin_step(double middle, double end);
+  void end_step(double dt, double found);
 };
 template <class Archive>
 void serialize(Archive& archive, PressedMotion& pressed) {

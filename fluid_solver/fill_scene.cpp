@@ -133,7 +133,8 @@ void FluidModel::start_flow(std::size_t i) {
 PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& points) const {
   const double area = pressing_area(wall, scene_.geometry),
                fluid = parameters_.density * area * parameters_.h();
-  if (wall.press->mass > 0 && wall.press->mass < fluid)
+  const bool explicit_steps = parameters_.model == Model::weakly_compressible;
+  if (explicit_steps && wall.press->mass > 0 && wall.press->mass < fluid)
     throw BadKey(fmt::format("wall.{}.press.mass", wall.name),
                  fmt::format("a press of {:g} kg/m is too light beside the fluid for steps like its: give it "
                              "{:.3g} kg/m or more, or leave 'mass' out",

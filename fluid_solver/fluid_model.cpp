@@ -343,12 +343,15 @@ void FluidModel::watch_suction(double time) {
   state_.suction_watch.reset();
 }
 
-void FluidModel::count_forces(double dt) {
-  ++state_.steps_since_look;
+void FluidModel::push_pressed_walls(double dt) {
   const double held = kept_pressure(parameters_.enclosed_medium, state_.boundaries, equation_of_state_);
   for (Boundary& boundary : state_.boundaries)
     if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion))
       pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
+}
+
+void FluidModel::count_forces(double dt) {
+  ++state_.steps_since_look;
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
   if (state_.open_ends) state_.open_ends->count(dt);
   const Field& m = ranks_ ? ranks_->masses() : state_.fluid.m;

@@ -157,6 +157,8 @@ class FluidModel : public Solver {
   /// Sorts and lists anew if a step of `dt` [s] may exhaust the skin.
   void update_neighbours(double dt);
   void move_boundaries(double time);
+  /// Walls that are pressed take the reaction of the last evaluation, in a step of `dt` [s] by explicit sums.
+  void push_pressed_walls(double dt);
   /// Counts what the last evaluation is about to do in `dt` [s], so that the sum is the change of momentum to
   /// rounding.
   void count_forces(double dt);

@@ -27,7 +27,8 @@ bool CoarseFlow::pays(const VecField& x, std::size_t count, double width) {
   return cells <= static_cast<double>(count);
 }
 
-CoarseFlow::CoarseFlow(const VecField& x, std::size_t count, double width) : width_(width) {
+CoarseFlow::CoarseFlow(const VecField& x, std::size_t count, double width, const std::vector<Piston>& pistons)
+    : width_(width) {
   for (int a = 0; a < dim; ++a) {
     const auto [least, most] = bounds(x[a], count);
     origin_[a] = least - width;  // a cell for the walls
@@ -39,6 +40,15 @@ CoarseFlow::CoarseFlow(const VecField& x, std::size_t count, double width) : wid
   const Eigen::Index nodes = step_[1 - across] * (cells_[1 - across] + near - 1);
   half_ = Eigen::Index{dim} * (near - 1) * (step_[0] + step_[1]) + dim - 1;
   band_ = Eigen::MatrixXd::Zero(half_ + 1, dim * nodes);
+  const auto piston_count = static_cast<Eigen::Index>(pistons.size());
+  border_ = Eigen::MatrixXd::Zero(half_ + dim * nodes, piston_count);
+  own_ = Eigen::MatrixXd::Zero(piston_count, piston_count);
+  row_mass_.resize(piston_count);
+  for (Eigen::Index k = 0; k < piston_count; ++k) {
+    const auto& [mass, row_mass] = pistons[static_cast<std::size_t>(k)];
+    own_(k, k) = mass;
+    row_mass_[k] = row_mass;
+  }
 }
 
 bool CoarseFlow::covers(const Vec& x) const {
@@ -86,6 +96,16 @@ void CoarseFlow::hold(const Vec& x, double weight) {
   if (covers(x)) add(x, weight, 0, 0);
 }
 
+void CoarseFlow::hold(const Vec& x, double weight, Eigen::Index piston, const Vec& axis) {
+  if (!covers(x)) return;
+  own_(piston, piston) += weight;
+  hold(x, weight);
+  const Splines s = splines(x);
+  for (std::size_t p = 0; p < s.node.size(); ++p)
+    for (int a = 0; a < dim; ++a)
+      border_(half_ + dim * s.node[p] + a, piston) -= weight * s.value[p] * axis[a];
+}
+
 void CoarseFlow::factorise() {
   for (Eigen::Index i = 0; i < band_.cols(); ++i) {
     const double before = band_(half_, i);
@@ -98,10 +118,27 @@ void CoarseFlow::factorise() {
     band_(half_, i) =
         pivot > smallest_pivot * before ? std::sqrt(pivot) : std::numeric_limits<double>::infinity();
   }
+  solved_ = border_;
+  for (Eigen::Index k = 0; k < solved_.cols(); ++k) {
+    Vector column = solved_.col(k);
+    solve(column);
+    solved_.col(k) = column;
+  }
+  own_ = (own_ - border_.transpose() * solved_).inverse().eval();
+}
+
+void CoarseFlow::solve(Vector& w) const {
+  const Eigen::Index n = band_.cols();
+  for (Eigen::Index i = 0; i < n; ++i)
+    w[half_ + i] = (w[half_ + i] - band_.col(i).head(half_).dot(w.segment(i, half_))) / band_(half_, i);
+  for (Eigen::Index i = n - 1; i >= 0; --i) {
+    w[half_ + i] /= band_(half_, i);
+    w.segment(i, half_) -= w[half_ + i] * band_.col(i).head(half_);
+  }
 }
 
 CoarseFlow::Vector CoarseFlow::correction(const VecField& x, const Field& m, const Vector& r) const {
-  const Eigen::Index count = r.size() / dim, n = band_.cols();
+  const Eigen::Index pistons = own_.cols(), count = (r.size() - pistons) / dim, n = band_.cols();
   Vector w = Vector::Zero(n + half_);  // behind zeros, as the rows of the band
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -109,13 +146,13 @@ CoarseFlow::Vector CoarseFlow::correction(const VecField& x, const Field& m, con
     for (std::size_t p = 0; p < s.node.size(); ++p)
       for (int a = 0; a < dim; ++a) w[half_ + dim * s.node[p] + a] += s.value[p] * m[k] * r[a * count + i];
   }
-  for (Eigen::Index i = 0; i < n; ++i)
-    w[half_ + i] = (w[half_ + i] - band_.col(i).head(half_).dot(w.segment(i, half_))) / band_(half_, i);
-  for (Eigen::Index i = n - 1; i >= 0; --i) {
-    w[half_ + i] /= band_(half_, i);
-    w.segment(i, half_) -= w[half_ + i] * band_.col(i).head(half_);
-  }
+  solve(w);
   Vector found(r.size());
+  if (pistons > 0) {
+    const Vector u = own_ * (row_mass_.cwiseProduct(r.tail(pistons)) - border_.transpose() * w);
+    w -= solved_ * u;
+    found.tail(pistons) = u;
+  }
   for (Eigen::Index i = 0; i < count; ++i) {
     const Splines s = splines(at(x, static_cast<std::size_t>(i)));
     Vec sum = Vec::Zero();

@@ -37,6 +37,8 @@ Implicit::Implicit(const Parameters& parameters, const Scene& scene)
       terms_(parameters, scene.gravity, kernel_, equation_of_state_),
       solver_(parameters.implicit.value_or(ImplicitSolver{})),
       largest_wall_speed_(largest_wall_speed(scene)) {
+  if (std::any_of(scene.walls.begin(), scene.walls.end(), [](const Wall& wall) { return wall.press; }))
+    largest_wall_speed_ = std::max(largest_wall_speed_, solver_.expected_speed);
   dynamics_.allocate(state_.fluid);
   resize(state_.fluid.a_before, state_.fluid.rho.size());
   if (parameters.particle_shifting)
@@ -60,6 +62,9 @@ void Implicit::advance(double dt) {
   }
   move(state_.fluid, 0.5 * dt);
   move_boundaries(state_.time + 0.5 * dt);
+  for (Boundary& boundary : state_.boundaries)
+    if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion))
+      pressed->begin_step(state_.time + 0.5 * dt, state_.time + dt);
   solve(dt);
   note_surface(dt);
   count_forces(dt);
@@ -78,7 +83,7 @@ void Implicit::solve(double dt) {
   const auto timer = timers_.measure("implicit system");
   StepSystem system(terms_, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, dt);
   StepSystem::Vector v = system.foreseen_velocities();
-  StepSystem::Vector r = system.unbalance(v, Viscosity::renewed);
+  StepSystem::Vector r = system.unbalance_between_stops(v);
   const double driving = system.unbalance(StepSystem::Vector::Zero(v.size()), Viscosity::kept).norm();
   const double tolerated = std::max(solver_.tolerance * driving, system.rounding());
   Effort effort{.steps = 1};
@@ -89,7 +94,7 @@ void Implicit::solve(double dt) {
     const bool linear = !terms_.viscosity_varies() && !terms_.slides();
     correct(system, r, near && !linear ? Viscosity::renewed : Viscosity::kept,
             linear ? wanted : std::max(wanted, inner_tolerance), v, effort);
-    r = system.unbalance(v, Viscosity::renewed);
+    r = system.unbalance_between_stops(v);
     ++effort.viscosity_updates;
     const double after = r.norm();
     if (after > tolerated) fail_unless_solvable(after / driving, effort);

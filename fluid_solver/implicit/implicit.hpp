@@ -63,7 +63,7 @@ class Implicit final : public FluidModel {
   Dynamics dynamics_;
   ImplicitTerms terms_;
   ImplicitSolver solver_;
-  double largest_wall_speed_;  ///< over all of the run [m/s]
+  double largest_wall_speed_;  ///< over all of the run, of walls that are pressed as expected [m/s]
   std::optional<Shifting> shifting_;
   Effort effort_;  ///< of this process
 };

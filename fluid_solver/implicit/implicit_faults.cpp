@@ -27,10 +27,12 @@ std::vector<StartFault> implicit_faults(const Parameters& p, const Scene& scene,
       refuse(std::string("fluid.") + Term::section,
              std::string("[fluid.") + Term::section + "] is not part of");
   });
-  for (std::size_t i = 0; i < scene.walls.size(); ++i)
-    if (scene.walls[i].press)  // its velocity would be one more unknown of the system
-      refuse(fmt::format("wall.{}.press", i),
-             fmt::format("the wall '{}' is pressed, which is not part of", scene.walls[i].name));
+  for (const Wall& wall : scene.walls)
+    if (wall.press && !(p.implicit && p.implicit->expected_speed > 0))
+      refuse("fluid.implicit.expected_speed",
+             fmt::format("the wall '{}' is pressed, and the first steps must know how fast the medium will "
+                         "be: give the 'expected_speed' that is needed by",
+                         wall.name));
   for (std::size_t i = 0; i < scene.walls.size(); ++i)
     if (scene.walls[i].motion && scene.walls[i].motion->turns())
       refuse(fmt::format("wall.{}.box", i),

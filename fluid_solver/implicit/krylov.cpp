@@ -62,7 +62,7 @@ BlockJacobi::BlockJacobi(const DiagonalBlocks& blocks) {
 
 Eigen::VectorXd BlockJacobi::operator()(const Eigen::VectorXd& b) const {
   const auto n = static_cast<Eigen::Index>(inverse_.size());
-  Eigen::VectorXd x(2 * n);
+  Eigen::VectorXd x = b;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Vector2d of_i = inverse_[static_cast<std::size_t>(i)] * Eigen::Vector2d(b[i], b[n + i]);
     x[i] = of_i[0];

@@ -21,7 +21,7 @@ struct KrylovResult {
 /// Blocks of the components of one particle, component after component in x.
 using DiagonalBlocks = std::vector<Eigen::Matrix2d>;
 
-/// Divides by the diagonal blocks.
+/// Divides by the diagonal blocks; what has none, behind, stays.
 class BlockJacobi {
  public:
   explicit BlockJacobi(const DiagonalBlocks& blocks);

@@ -18,16 +18,9 @@ constexpr double cell_over_h = 2, hold_of_walls = 16;
 /// Of a sum over neighbours, relative to one of its parts.
 constexpr double rounding_of_sums = 16 * std::numeric_limits<double>::epsilon();
 
-/// The first component of all particles, then the second.
-StepSystem::Vector vector_of_all(const VecField& field, std::size_t count) {
+/// The first component of `count` particles, then the second; what is behind is not theirs.
+void set_all(VecField& field, const StepSystem::Vector& all, std::size_t count) {
   const auto n = static_cast<Eigen::Index>(count);
-  StepSystem::Vector all(dim * n);
-  for (int a = 0; a < dim; ++a)
-    all.segment(a * n, n) = Eigen::Map<const StepSystem::Vector>(field[a].data(), n);
-  return all;
-}
-void set_all(VecField& field, const StepSystem::Vector& all) {
-  const Eigen::Index n = all.size() / dim;
   for (int a = 0; a < dim; ++a) Eigen::Map<StepSystem::Vector>(field[a].data(), n) = all.segment(a * n, n);
 }
 
@@ -70,10 +63,11 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
       neighbours_(neighbours),
       boundaries_(boundaries),
       dt_(dt),
+      pistons_(boundaries, terms.parameters, terms.state, dt),
       p_offset_(terms.slides()
                     ? pressure_offset(terms.parameters.enclosed_medium, fluid, boundaries, terms.state)
                     : 0.0),
-      v_n_(velocities()),
+      v_n_(joined(fluid.v, pistons_.speeds())),
       p_n_(padded(fluid.count)),
       c2_(padded(fluid.count)) {
   const EquationOfState& s = terms.state;
@@ -93,6 +87,7 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
     boundary.eta.resize(boundary.V.size());
     resize(boundary.eta_grad_v, boundary.V.size());
   }
+  if (pistons_.count() > 0) find_areas();
   if (!terms.viscosity_varies()) return;
   moments_.resize(fluid.clusters());
   terms.kernel.visit([&](const auto& W) {
@@ -101,19 +96,42 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
   });
 }
 
-StepSystem::Vector StepSystem::velocities() const {
-  return vector_of_all(fluid_.v, fluid_.count);
+void StepSystem::find_areas() {
+  const auto set = [](Field& p_rho2, const Field& rho) {
+    for (std::size_t i = 0; i < rho.size(); ++i) p_rho2[i] = 1 / (rho[i] * rho[i]);
+  };
+  set(fluid_.p_rho2, fluid_.rho);
+  for (Boundary& boundary : boundaries_) set(boundary.p_rho2, boundary.rho);
+  const ChosenTerms pressure_alone;
+  const PairSweeps sweeps = terms_.sweeps(pressure_alone);
+  terms_.kernel.visit(
+      [&](const auto& W) { sweeps.rates(W, RatesOf::velocity, fluid_, neighbours_, boundaries_); });
+  pistons_.take_areas();
+}
+
+StepSystem::Vector StepSystem::joined(const VecField& field, const Vector& speeds) const {
+  const auto n = static_cast<Eigen::Index>(fluid_.count);
+  Vector all(components() + speeds.size());
+  for (int a = 0; a < dim; ++a) all.segment(a * n, n) = Eigen::Map<const Vector>(field[a].data(), n);
+  all.tail(speeds.size()) = speeds;
+  return all;
+}
+
+void StepSystem::move_at(const Vector& v) {
+  set_all(fluid_.v, v, fluid_.count);
+  pistons_.move_at(v.tail(pistons_.count()));
 }
 
 StepSystem::Vector StepSystem::foreseen_velocities() const {
-  return v_n_ + dt_ * vector_of_all(fluid_.a_before, fluid_.count);
+  return v_n_ + dt_ * joined(fluid_.a_before, pistons_.accelerations());
 }
 
 void StepSystem::finish(const Vector& v) {
-  set_all(fluid_.v, v);
+  move_at(v);
   const Vector a = (v - v_n_) / dt_;
-  set_all(fluid_.a, a);
-  set_all(fluid_.a_before, a);
+  set_all(fluid_.a, a, fluid_.count);
+  set_all(fluid_.a_before, a, fluid_.count);
+  pistons_.finish(v.tail(pistons_.count()));
 }
 
 template <class W>
@@ -173,7 +191,7 @@ void StepSystem::stresses(const W& kernel, std::size_t cluster, Viscosity viscos
 }
 
 void StepSystem::evaluate(Viscosity viscosity) {
-  const PairSweeps sweeps = terms_.sweeps();
+  const PairSweeps sweeps = terms_.sweeps(terms_.chosen);
   terms_.kernel.visit([&](const auto& W) {
 #pragma omp parallel
     {
@@ -195,9 +213,21 @@ void StepSystem::evaluate(Viscosity viscosity) {
 }
 
 StepSystem::Vector StepSystem::unbalance(const Vector& v, Viscosity viscosity) {
-  set_all(fluid_.v, v);
+  move_at(v);
   evaluate(viscosity);
-  return v_n_ + dt_ * vector_of_all(fluid_.a, fluid_.count) - v;
+  Vector r = v_n_ + dt_ * joined(fluid_.a, Vector::Zero(pistons_.count())) - v;
+  r.tail(pistons_.count()) = pistons_.unbalance(v.tail(pistons_.count()));
+  return r;
+}
+
+StepSystem::Vector StepSystem::unbalance_between_stops(Vector& v) {
+  Vector u = v.tail(pistons_.count());
+  pistons_.release(u);
+  v.tail(u.size()) = u;
+  Vector r = unbalance(v, Viscosity::renewed);
+  pistons_.hold_at_stops(u);
+  r.tail(u.size()) = pistons_.unbalance(u);
+  return r;
 }
 
 std::vector<StepSystem::Block> StepSystem::diagonal() const {
@@ -256,17 +286,24 @@ std::optional<CoarseFlow> StepSystem::coarse_flow() const {
   const double mu = p.laminar_viscosity ? p.laminar_viscosity->dynamic_viscosity : 0;
   const double hold = hold_of_walls / (p.spacing * p.spacing);
   if (!CoarseFlow::pays(fluid_.x, fluid_.count, cell_over_h * p.h())) return std::nullopt;
-  CoarseFlow coarse(fluid_.x, fluid_.count, cell_over_h * p.h());
+  CoarseFlow coarse(fluid_.x, fluid_.count, cell_over_h * p.h(), pistons_.of_coarse_flow());
   for (std::size_t i = 0; i < fluid_.count; ++i) {
     const double dt_V = dt_ * fluid_.V[i];
     coarse.add(at(fluid_.x, i), fluid_.m[i], dt_V * (varies ? fluid_.eta[i] : mu),
                dt_ * dt_V * fluid_.rho[i] * c2_[i]);
   }
   if (terms_.viscous_walls)
-    for (const Boundary& wall : boundaries_)
+    for (const Boundary& wall : boundaries_) {
+      const auto piston = pistons_.free_number_of(wall);
       for (const std::uint32_t cluster : wall.list_for_wall.active())
-        for (std::size_t w = cluster * lane_count; w < (cluster + 1) * lane_count && w < wall.count; ++w)
-          coarse.hold(at(wall.x, w), hold * dt_ * wall.V[w] * (varies ? wall.eta[w] : mu));
+        for (std::size_t w = cluster * lane_count; w < (cluster + 1) * lane_count && w < wall.count; ++w) {
+          const double weight = hold * dt_ * wall.V[w] * (varies ? wall.eta[w] : mu);
+          if (piston)
+            coarse.hold(at(wall.x, w), weight, *piston, pistons_.axis(*piston));
+          else
+            coarse.hold(at(wall.x, w), weight);
+        }
+    }
   coarse.factorise();
   return coarse;
 }

@@ -5,6 +5,8 @@
 ///     p_i(v) = p_i^n + c_i^2 dt drho_i(v),   c_i^2 = dp/drho at rho_i^n
 ///     drho_i(v) = rho_i sum_j V_j v_ij . gradW_ij
 ///
+/// and, where walls are pressed, of the speeds of these pistons (pistons.hpp), last in v,
+///
 /// with the walls' pressure and velocity extrapolated from p(v) and v; where the medium slides, with the slip
 /// of v, found wall particle by wall particle as by the explicit model. For a given viscosity, and without
 /// slip, it is linear in v: with V the viscous sweep, D and G those of continuity and pressure and K = rho
@@ -28,6 +30,7 @@
 #include "common/sph/renormalisation.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/implicit/coarse_flow.hpp"
+#include "fluid_solver/implicit/pistons.hpp"
 #include "fluid_solver/parameters.hpp"
 #include "fluid_solver/weakly_compressible/pair_sweeps.hpp"
 
@@ -39,7 +42,9 @@ struct ImplicitTerms {
                 const EquationOfState& of_medium);
   bool viscosity_varies() const { return std::holds_alternative<VariableViscosityTerm>(chosen.viscous); }
   bool slides() const { return parameters.wall_slip.has_value(); }
-  PairSweeps sweeps() const { return {chosen, body_force, viscous_walls, true, parameters.density, false}; }
+  PairSweeps sweeps(const ChosenTerms& terms) const {
+    return {terms, body_force, viscous_walls, true, parameters.density, false};
+  }
 
   Parameters parameters;
   Kernel kernel;
@@ -58,11 +63,12 @@ class StepSystem {
   using Block = Eigen::Matrix2d;
 
   /// For a step of `dt` [s] from the velocities, densities and, if it varies, viscosity of `fluid`, whose
-  /// places and whose boundaries are at the middle of the step.
+  /// places and whose boundaries are at the middle of the step, which those that are pressed have begun.
   StepSystem(const ImplicitTerms& terms, Particles& fluid, const ClusterList& neighbours,
              std::vector<Boundary>& boundaries, double dt);
 
-  /// All velocities, x before y, if the acceleration stays that of the last step [m/s].
+  /// All velocities, x before y, and then speeds of pistons, if the acceleration stays that of the last step
+  /// [m/s].
   Vector foreseen_velocities() const;
   /// Leaves `v` in `fluid`, and the acceleration that leads to it.
   void finish(const Vector& v);
@@ -70,6 +76,9 @@ class StepSystem {
   /// v^n + dt a(v) - v [m/s]: the unbalanced force, over m/dt. Leaves p, drho and a of `fluid` and what the
   /// boundaries do to it.
   Vector unbalance(const Vector& v, Viscosity viscosity);
+  /// The same with a renewed viscosity, of pistons no faster than their stops allow: takes `v` back to that,
+  /// and finds out whom a stop holds.
+  Vector unbalance_between_stops(Vector& v);
   /// The blocks of the matrix 1 - dt da/dv on its diagonal, those of the walls' extrapolation left out.
   std::vector<Block> diagonal() const;
   /// What the system is to smooth velocities, for its preconditioner.
@@ -79,7 +88,11 @@ class StepSystem {
   std::optional<CoarseFlow> coarse_flow() const;
 
  private:
-  Vector velocities() const;
+  Eigen::Index components() const { return dim * static_cast<Eigen::Index>(fluid_.count); }
+  /// Of all particles, with `speeds` behind.
+  Vector joined(const VecField& field, const Vector& speeds) const;
+  void move_at(const Vector& v);
+  void find_areas();
   void evaluate(Viscosity viscosity);
   template <class W>
   void find_moment(const W& kernel, std::size_t cluster);
@@ -96,6 +109,7 @@ class StepSystem {
   const ClusterList& neighbours_;
   std::vector<Boundary>& boundaries_;
   double dt_;
+  Pistons pistons_;
   double p_offset_;  ///< what contact adds to the pressure, for friction [Pa]
   Vector v_n_;
   Field p_n_, c2_;               ///< [Pa], [m2/s2]

@@ -258,6 +258,7 @@ void WeaklyCompressible::accumulate_reaction(double dt) {
     if (interface) interface->add_load(boundary, boundary.force_on_fluid.force(), dt);
   }
   note_surface(dt);
+  push_pressed_walls(dt);
   count_forces(dt);
   for (Boundary& boundary : state_.boundaries)
     if (boundary.turns()) boundary.count_moment(dynamics_.moment_beside_pairs(state_.fluid, boundary), dt);

@@ -81,5 +81,28 @@ TEST(CoarseFlow, KeepsWhatDoesNotCompressAndNothingElse) {
   EXPECT_LT((flow.correction(lattice.x, lattice.m, left) - left).norm(), 1e-3 * left.norm());
 }
 
+// One mass in all: of the medium, which hardly gives way, of a piston of 0.5 kg on it, and of the row of the
+// system that says as much as 0.2 kg.
+TEST(CoarseFlow, MovesAPistonWithTheMediumThatItHolds) {
+  const Lattice lattice;
+  CoarseFlow flow(lattice.x, count, 0.25, {{0.5, 0.2}});
+  double mass = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    flow.add(at(lattice.x, i), lattice.m[i], 1e6, 0);
+    mass += lattice.m[i];
+  }
+  flow.hold(Vec(3.42, -0.66), 1e5, 0, -Vec::UnitX());
+  flow.hold(Vec(2.0, -0.95), 30, 0, -Vec::UnitX());  // out of reach
+  flow.factorise();
+  CoarseFlow::Vector r = CoarseFlow::Vector::Zero(2 * count + 1);
+  r[2 * count] = 3;
+  const auto v = flow.correction(lattice.x, lattice.m, r);
+  EXPECT_NEAR(v[2 * count], 0.2 * 3 / (mass + 0.5), 1e-4);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    EXPECT_NEAR(v[i], -v[2 * count], 1e-4);
+    EXPECT_NEAR(v[count + i], 0, 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace toryu::fluid

@@ -40,8 +40,13 @@ TEST(ImplicitFaults, NameTheTerm) {
   pressed.walls.resize(2);
   pressed.walls[1].name = "ram";
   pressed.walls[1].press.emplace();
-  EXPECT_EQ(faults_of(creeping(), false, pressed),
-            "wall.1.press: the wall 'ram' is pressed, which is not part of model = \"implicit\"\n");
+  EXPECT_EQ(
+      faults_of(creeping(), false, pressed),
+      "fluid.implicit.expected_speed: the wall 'ram' is pressed, and the first steps must know how fast "
+      "the medium will be: give the 'expected_speed' that is needed by model = \"implicit\"\n");
+  Parameters foreseen = creeping();
+  foreseen.implicit = ImplicitSolver{.expected_speed = 0.1};
+  EXPECT_EQ(faults_of(foreseen, false, pressed), "");
   Parameters thin = creeping();
   thin.laminar_viscosity.reset();
   thin.wall_model.suction = false;

@@ -29,6 +29,11 @@ TEST(ImplicitTwin, HasTheOwnDensityAndTheSameCompression) {
   EXPECT_THAT(keys_of_twin(twin),
               HasSubstr("model = \"implicit\", similarity = false, sound_speed = 447.2,"));
   EXPECT_TRUE(implicit_faults(twin, {}, false).empty());
+  EXPECT_THAT(keys_of_twin(twin), HasSubstr("implicit = { expected_speed = 0.075, tolerance = 0.0001 }"));
+  Scene pressed;
+  pressed.walls.resize(1);
+  pressed.walls[0].press.emplace();
+  EXPECT_EQ(implicit_twin(p, pressed)->implicit->tolerance, 1e-3);
   p.friction = Friction{};
   EXPECT_FALSE(implicit_twin(p, {}));
 }
