@@ -62,6 +62,8 @@ void Boundary::know_faces(const FaceDepths& depths, bool fit) {
   if (depths.to_outline.empty()) return;
   resize(to_outline, padded(count));
   for (std::size_t k = 0; k < count; ++k) set(to_outline, k, depths.to_outline[id[k]]);
+  curvature.assign(padded(count), 0.0);
+  for (std::size_t k = 0; k < count; ++k) curvature[k] = depths.curvature[id[k]];
 }
 
 bool Boundary::covers(const Vec& point, double spacing, const std::vector<Vec>& shifts) const {

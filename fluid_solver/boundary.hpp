@@ -58,6 +58,8 @@ struct FaceDepths {
   std::vector<Vec> up, down;
   /// From each to the nearest point of the body's outline [m]; zero where it has none. Empty: none has.
   std::vector<Vec> to_outline = {};
+  /// Of the outline there, above 0 where the body is convex [1/m]; as many as `to_outline`.
+  std::vector<double> curvature = {};
 };
 
 struct Boundary {
@@ -80,6 +82,8 @@ struct Boundary {
       depth_down{"depth_down", "m", FieldKind::state, Presence::on_demand};
   /// To the nearest point of its outline, for the particles of a body that is one.
   Declared<VecField> to_outline{"to_outline", "m", FieldKind::state, Presence::on_demand};
+  /// Of the outline there, above 0 where the body is convex.
+  Declared<Field> curvature{"curvature", "1/m", FieldKind::state, Presence::on_demand};
   // extrapolated from the fluid
   Declared<Field> p{"pressure", "Pa", FieldKind::derived},
       p_rho2{"p/rho^2", "m5/(kg.s2)", FieldKind::derived};
@@ -184,15 +188,15 @@ void Boundary::move_to(Of&& kinematics) {
 template <class Archive>
 void serialize(Archive& archive, Boundary& boundary) {
   auto& [name, motion, count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down,
-         to_outline, p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress,
-         force, friction_length, friction_force, fitted, orientation, pivot, angular_velocity, moment,
-         power_given, force_on_fluid, impulse, work, counted, list_for_wall, list_for_fluid, strips] =
+         to_outline, curvature, p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress,
+         polymer_stress, force, friction_length, friction_force, fitted, orientation, pivot, angular_velocity,
+         moment, power_given, force_on_fluid, impulse, work, counted, list_for_wall, list_for_fluid, strips] =
       boundary;
   std::visit([&](auto& of_kind) { archive(of_kind); }, motion);
   archive(count, id, x, v, acceleration, V, m, rho, lower_face, upper_face, depth_up, depth_down, to_outline,
-          p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress, force,
-          friction_length, friction_force, orientation, pivot, angular_velocity, moment, power_given, impulse,
-          work, counted);
+          curvature, p, p_rho2, v_viscous, eta, eta_grad_v, slip_velocity, shear_stress, polymer_stress,
+          force, friction_length, friction_force, orientation, pivot, angular_velocity, moment, power_given,
+          impulse, work, counted);
 }
 
 inline Sources sources(const Boundary& b) {

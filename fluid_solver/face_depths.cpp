@@ -1,11 +1,34 @@
 #include "fluid_solver/face_depths.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/scene/occupancy_index.hpp"
 #include "common/scene/period.hpp"
 
 namespace toryu::fluid {
+
+namespace {
+
+/// Of the circle through the foot of x that is as far from the tangent there as `outline` is, `step` along
+/// it: the harmonic mean of both sides, which a side that is straight makes 0. 0 where they bend to different
+/// sides, and at corners, which bend within the step.
+double curvature_at(const Outline& outline, const Outline::Foot& foot, double step) {
+  const Vec along(-foot.normal[1], foot.normal[0]);
+  const auto bend = [&](double way) {
+    const double off = outline.nearest(foot.place + way * along).distance;
+    return 2 * off / (step * step - off * off);
+  };
+  const double ahead = bend(step), behind = bend(-step);
+  if (!(ahead * behind > 0)) return 0;
+  const double mean = 2 * ahead * behind / (ahead + behind);
+  return std::abs(mean) * step > 1 ? 0 : mean;
+}
+
+/// Over the spacing: far enough for a bend to be seen beside the tolerance of a flattened arc.
+constexpr double curvature_step = 2;
+
+}  // namespace
 
 FaceDepths lattice_face_depths(const std::vector<Vec>& points, double spacing, double far,
                                const std::vector<Vec>& shifts) {
@@ -32,7 +55,10 @@ FaceDepths face_depths(const std::vector<Vec>& points, const std::vector<const O
     if (!outlines[k]) continue;
     depths.up[k] = depths.down[k] = Vec::Constant(far);
     depths.to_outline.resize(points.size(), Vec::Zero());
-    depths.to_outline[k] = outlines[k]->nearest(points[k]).place - points[k];
+    depths.curvature.resize(points.size(), 0.0);
+    const Outline::Foot foot = outlines[k]->nearest(points[k]);
+    depths.to_outline[k] = foot.place - points[k];
+    depths.curvature[k] = curvature_at(*outlines[k], foot, curvature_step * spacing);
   }
   return depths;
 }

@@ -70,8 +70,11 @@ struct WallParticles {
     return values;
   }
   FaceDepths kept(const FaceDepths& depths) const {
-    return {kept(depths.up), kept(depths.down),
-            depths.to_outline.empty() ? std::vector<Vec>{} : kept(depths.to_outline)};
+    FaceDepths of_those{kept(depths.up), kept(depths.down)};
+    if (depths.to_outline.empty()) return of_those;
+    of_those.to_outline = kept(depths.to_outline);
+    of_those.curvature = kept(depths.curvature);
+    return of_those;
   }
 };
 

@@ -23,9 +23,20 @@ constexpr double least_bend = 0.01, least_spread = 0.005;
 struct Face {
   VecLanes normal = zero_vector();
   Lanes depth = 0.0, separation = 0.0;
+  Lanes curvature = 0.0;
+  bool bends = false;  ///< whether any has a curvature
   Lanes::Mask found() const { return separation > 0.0; }
-  /// Of a particle of the fluid at x_w - x_i, if it is before the face.
-  TORYU_INLINE Lanes distance(const VecLanes& x_wi) const { return -dot(normal, x_wi) - depth; }
+  /// Of a particle of the fluid at x_w - x_i, if it is before the face: with d from the tangent and t along
+  /// it, kappa of the circle, sqrt((1 + kappa d)^2 + kappa^2 t^2) = 1 + kappa times the distance from the
+  /// circle.
+  TORYU_INLINE Lanes distance(const VecLanes& x_wi) const {
+    const Lanes d = -dot(normal, x_wi) - depth;
+    if (!bends) return d;
+    static_assert(dim == 2, "one way along the tangent");
+    const Lanes t = normal[0] * x_wi[1] - normal[1] * x_wi[0];
+    const Lanes twice = 2.0 * d + curvature * (d * d + t * t);
+    return twice / (1.0 + square_root(positive_part(1.0 + curvature * twice)));
+  }
 };
 
 /// The mean of x_w - x_i.
@@ -67,6 +78,8 @@ Face face_towards(const Boundary& boundary, const Particles& fluid, const W& ker
     for (int b = 0; b < dim; ++b) face.normal[b] = select(better, normal[b], face.normal[b]);
     face.depth = select(better, depth, face.depth);
     face.separation = select(better, separation, face.separation);
+    face.curvature = select(better, load(boundary.curvature, first), 0.0);
+    face.bends = any_of((face.curvature < 0.0) | (face.curvature > 0.0));
   }
   if (boundary.turns()) face.normal = product(boundary.orientation, face.normal);
   return face;

@@ -11,9 +11,11 @@
 ///     v_i - v_w = g d_i + c d_i^2,   v_w-f = v_w - g d_w + c d_w^2;   ln eta and eta grad v as lines in d_i
 ///
 /// (Morris, Fox & Zhu 1997 take v_w-f = v_w - (v_i - v_w) d_w/d_i pair by pair, which is the line alone: in a
-/// slit of 10 particles its error is that of the mean, the parabola's a fourth). Among the faces of a
-/// particle it is the one that most separates it from the mean place of the fluid; where none does, as behind
-/// an inner corner, the means stand.
+/// slit of 10 particles its error is that of the mean, the parabola's a fourth). Where the outline is round,
+/// d_i is the distance from the circle that touches it: from the tangent, fluid to the side would be too near
+/// by up to t^2/(2 R), and the first row behind a wall 12 particles across would mirror a shear a sixth too
+/// large. Among the faces of a particle it is the one that most separates it from the mean place of the
+/// fluid; where none does, as behind an inner corner, the means stand.
 ///
 /// Where the medium slides along the wall (terms/wall_slip.hpp), v_w + u_s stands for v_w in either: a fit of
 /// v_i - v_w - u_s, or 2 (v_w + u_s) - v~_w. The rate of shear at the wall, g of the fit or the mean's over

@@ -15,14 +15,15 @@ Vec impulse_of_cylinder(const FluidModel& solver) {
 
 TEST(CylinderInAChannel, HasTheDragOfTheBenchmark) {
   WeaklyCompressible solver = FluidCase("cylinder_in_channel").solver();
-  run_until(solver, 5);
+  run_until(solver, 3);
   const Vec before = impulse_of_cylinder(solver);
-  run_until(solver, 6);
-  const Vec force = before - impulse_of_cylinder(solver);
+  run_until(solver, 5);
+  const Vec force = (before - impulse_of_cylinder(solver)) / 2;
   const double to_coefficient = 2 / (1.0 * 0.2 * 0.2 * 0.1);  // 2/(rho U^2 D)
   RecordProperty("drag_coefficient", std::to_string(to_coefficient * force[0]));
   RecordProperty("lift_coefficient", std::to_string(to_coefficient * force[1]));
-  EXPECT_NEAR(to_coefficient * force[0], 5.58, 0.035 * 5.58);
+  EXPECT_NEAR(to_coefficient * force[0], 5.58, 0.02 * 5.58)
+      << "+2.7 % by distances from the tangent and 0.3 Pa";
   EXPECT_LT(std::abs(to_coefficient * force[1] - 0.0107), 0.03)
       << "below what the disorder of particles does";
 }

@@ -320,6 +320,57 @@ TEST(WallFit, ContinuesAShearOverASlantedOutlineExactly) {
     }
 }
 
+/// Particles in three rows about the middle, `side` of the circle.
+std::vector<Vec> rows_beside_circle(double radius, double side) {
+  std::vector<Vec> rows;
+  for (const double row : {0.5, 1.5, 2.5}) {
+    const double r = radius + side * row * d_0, count = std::round(2 * M_PI * r / d_0);
+    for (double k = 0; k < count; ++k)
+      rows.emplace_back(r * std::cos(2 * M_PI * k / count), r * std::sin(2 * M_PI * k / count));
+  }
+  return rows;
+}
+
+TEST(WallFit, ContinuesAShearOverARoundOutlineOnEitherSide) {
+  constexpr double radius = 6 * d_0;
+  const Outline::Ring circle = ellipse_ring({0, 0}, {radius, radius});
+  for (const double side : {1, -1}) {  // of the fluid
+    const auto distance = [&](const Vec& x) { return side * (x.norm() - radius); };
+    const auto wall = rows_beside_circle(radius, -side);
+    Fluid fluid;
+    for (const Vec& x : rows_beside_circle(radius, side)) {
+      fluid.x.push_back(x);
+      fluid.v.emplace_back(3 * distance(x), 0);
+      fluid.p.push_back(100);
+      fluid.rho.push_back(1000);
+    }
+    const Outline outline =
+        side > 0 ? Outline({circle}) : Outline({ring_of(Box{Vec(-9, -9), Vec(9, 9)}), circle});
+    const Taken taken = extrapolated(wall, fluid, g, {0, 0}, {0, 0}, true, nullptr, 0, &outline);
+    for (std::size_t k = 0; k < wall.size(); ++k)
+      if (const double d_w = distance(wall[k]); d_w > -2 * d_0) {  // two rows that see fluid
+        EXPECT_LT((taken.v_viscous[k] - Vec(3 * d_w, 0)).norm(), 0.015 * 3 * std::abs(d_w))
+            << wall[k].transpose();
+      }
+  }
+}
+
+TEST(FaceDepths, KnowTheCurvatureOfTheirOutlineButAtCorners) {
+  const Outline disc({ellipse_ring({0, 0}, {5, 5})}),
+      ring({ellipse_ring({0, 0}, {20, 20}), ellipse_ring({0, 0}, {5, 5})}),
+      corners({{{0, 0}, {40, 0}, {40, 40}, {20, 40}, {20, 20}, {0, 20}}});
+  const auto curvature = [](const Outline& outline, const Vec& x) {
+    return face_depths({x}, {&outline}, 1.0, 10).curvature[0];
+  };
+  EXPECT_NEAR(curvature(disc, {3, 2}), 0.2, 0.001);
+  EXPECT_NEAR(curvature(ring, {4, 4}), -0.2, 0.001);
+  EXPECT_EQ(curvature(corners, {10, 1}), 0);
+  EXPECT_EQ(curvature(corners, {1, 2}), 0) << "beside an outer corner";
+  EXPECT_EQ(curvature(corners, {22, 18}), 0) << "behind an inner corner";
+  const Outline tiny({ellipse_ring({0, 0}, {1, 1})});
+  EXPECT_EQ(curvature(tiny, {0.5, 0}), 0) << "as a corner";
+}
+
 TEST(FaceDepths, OfAnOutlineAreItsNearestPoint) {
   const Outline triangle({{{0, 0}, {4, 0}, {0, 4}}});
   const FaceDepths depths = face_depths({{1.5, 1.5}, {9, 9}}, {&triangle, nullptr}, 1.0, 10);
