@@ -19,6 +19,16 @@ Vec ForceOnFluid::friction() const {
   return sum;
 }
 
+void ForceOnFluid::add(std::size_t cluster, const Lanes& m, const VecLanes& by_boundary) {
+  if (!of_part) {
+    by_cluster[cluster] += lane_sums(m, by_boundary);
+    return;
+  }
+  VecLanes sum = load(by_particle, cluster * lane_count);
+  for (int a = 0; a < dim; ++a) sum[a] += by_boundary[a];
+  store(sum, by_particle, cluster * lane_count);
+}
+
 void ForceOnFluid::make_room(std::size_t clusters) {
   if (of_part)
     resize(by_particle, clusters * lane_count);

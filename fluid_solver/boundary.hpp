@@ -16,6 +16,12 @@
 
 namespace toryu::fluid {
 
+inline Vec lane_sums(const Lanes& m, const VecLanes& v) {
+  Vec sum;
+  for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * v[a]);
+  return sum;
+}
+
 /// What a boundary did to the fluid in one evaluation.
 struct ForceOnFluid {
   std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
@@ -28,6 +34,14 @@ struct ForceOnFluid {
   Vec force() const;  ///< the sum of both
   /// For what is done to so many clusters of the fluid.
   void make_room(std::size_t clusters);
+  /// What is done to a cluster of masses `m`, by its accelerations [m/s2].
+  void set(std::size_t cluster, const Lanes& m, const VecLanes& by_boundary) {
+    if (of_part)
+      store(by_boundary, by_particle, cluster * lane_count);
+    else
+      by_cluster[cluster] = lane_sums(m, by_boundary);
+  }
+  void add(std::size_t cluster, const Lanes& m, const VecLanes& by_boundary);
   /// What the last evaluation did to a cluster. What it did to particles out of reach nobody asks for.
   void forget(std::size_t cluster) {
     if (!of_part) by_cluster[cluster].setZero();

@@ -27,14 +27,20 @@ constexpr double nearest_bodies = 0.4;
 /// it is stable by the fluid's steps and slow by no more than some rows.
 constexpr double smoothing_lengths_of_press = 4;
 
-/// Moves points off their lattice at random, each time alike.
-void disorder(std::vector<Vec>& points, double largest) {
-  if (largest == 0) return;
-  std::mt19937 random;
-  const auto draw = [&] { return largest * (2.0 * random() / std::mt19937::max() - 1); };
-  for (Vec& x : points)
-    for (double& component : x) component += draw();
-}
+/// Moves one point after the other off its lattice at random, each time alike.
+class Disorder {
+ public:
+  explicit Disorder(double largest) : largest_(largest) {}
+  Vec moved(Vec x) {
+    if (largest_ > 0)
+      for (double& component : x) component += largest_ * (2.0 * random_() / std::mt19937::max() - 1);
+    return x;
+  }
+
+ private:
+  double largest_;
+  std::mt19937 random_;
+};
 
 /// The lattice of a wall, and what stands where of it.
 struct WallParticles {
@@ -84,14 +90,16 @@ void FluidModel::fill_regions() {
   const Blocks fluid = blocks_of(parameters_);
   const auto& boxes = fluid.boxes;
   Filling filling = fill_to_faces(fluid, parameters_.spacing);
-  auto home = filling.points;  // where each particle is in its region
-  fill_worn_space(filling, home, scene_.walls, parameters_.spacing);
+  std::vector<Vec> home;  // where each particle is in its region, if that is not where it stands
+  if (any_is_worn(scene_.walls)) {
+    home = filling.points;
+    fill_worn_space(filling, home, scene_.walls, parameters_.spacing);
+  }
   misfits_ = filling.misfits;
-  auto points = filling.points;
-  disorder(points, parameters_.start_disorder * parameters_.spacing);
+  Disorder disorder(parameters_.start_disorder * parameters_.spacing);
 
   auto& f = state_.fluid;
-  f.count = points.size();
+  f.count = filling.points.size();
   f.id.resize(f.count);
   std::iota(f.id.begin(), f.id.end(), 0u);
   resize_fields(f, room_of(f.count, scene_.geometry));
@@ -100,21 +108,22 @@ void FluidModel::fill_regions() {
   const double g = gravity.norm();
   std::vector<char> filled(boxes.size(), 0);
   for (std::size_t i = 0; i < f.count; ++i) {
-    set(f.x, i, points[i]);
+    const Vec x = disorder.moved(filling.points[i]);
+    set(f.x, i, x);
     for (std::size_t r = 0; r < boxes.size(); ++r)
-      if (boxes[r].contains(home[i])) {
+      if (boxes[r].contains(home.empty() ? filling.points[i] : home[i])) {
         set(f.v, i, parameters_.regions[r].velocity);
         filled[r] = 1;
       }
     f.rho[i] = parameters_.density;
     if (const auto& start = parameters_.hydrostatic_start; start && g > 0) {
-      const double depth = start->surface_level + gravity.dot(points[i]) / g;
+      const double depth = start->surface_level + gravity.dot(x) / g;
       f.rho[i] = density_at_depth(parameters_, g, depth);
     }
     start_flow(i);
     f.V[i] = filling.cells[i].prod();
     f.m[i] = f.rho[i] * f.V[i];
-    if (scene_.geometry == Geometry::axisymmetric) f.m[i] *= circumference(points[i][1]);
+    if (scene_.geometry == Geometry::axisymmetric) f.m[i] *= circumference(x[1]);
   }
   for (std::size_t r = 0; r < boxes.size(); ++r)
     if (!filled[r])

@@ -23,7 +23,7 @@ Kernel kernel_of(const Parameters& parameters) {
 
 }  // namespace
 
-FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
+FluidModel::FluidModel(const Parameters& parameters, const Scene& scene, Filled filled)
     : parameters_(parameters.has_open_ends() ? with_layers(parameters) : parameters),
       scene_(scene),
       kernel_(kernel_of(parameters)),
@@ -36,7 +36,10 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
       beyond_measured(parameters, scene.geometry).has_value();  // it is told by who reads the case
   state_.run_watch.emplace(parameters.limits, parameters.sound_speed);
   if (!parameters.particle_shifting) state_.suction_watch.emplace(parameters.spacing, equation_of_state_);
-  fill_regions();
+  if (filled == Filled::all)
+    fill_regions();
+  else
+    resize_fields(state_.fluid, lane_count);  // without values a field is absent
   if (parameters.has_open_ends())
     state_.open_ends.emplace(parameters, equation_of_state_).assign_layers(state_.fluid);
   fill_walls();
@@ -44,86 +47,6 @@ FluidModel::FluidModel(const Parameters& parameters, const Scene& scene)
   start_momentum_ = momentum();
   start_energy_ = energy();
   start_potential_ = potential_energy();
-}
-
-/// How many reaches of ghosts an own particle needs. It sees one reach far: to particles and walls whose
-/// gradients and pressures see one more. Shifting sees how its neighbours shift, who keep off a surface one
-/// reach from them. A viscosity that varies comes to walls from particles whose shear rates other walls make.
-int FluidModel::reaches_of_ghosts() const {
-  const Parameters& p = parameters_;
-  if (p.power_law || p.herschel_bulkley || p.carreau) return 4;
-  return p.seeks_free_surface() ? 3 : 2;
-}
-
-void FluidModel::spread_over(Ranks& ranks) {
-  ranks_ = &ranks;
-  state_.neighbours.keep_ghosts(reaches_of_ghosts());
-  for (Boundary& boundary : state_.boundaries) boundary.force_on_fluid.of_part = true;
-  state_.neighbours.divide(state_.fluid, state_.boundaries, ranks);
-}
-
-/// Values of the particles as those of the whole fluid, on rank 0.
-Field FluidModel::of_whole(const Field& values) const {
-  Field whole(ranks_->masses().size(), 0.0);
-  ranks_->collect({&values}, {&whole});
-  return whole;
-}
-
-/// What the fluid does to the particles of a boundary.
-void FluidModel::collect_at(Boundary& boundary) {
-  std::vector<Field*> fields;
-  const auto add = [&](Field& component) {
-    if (!component.empty()) fields.push_back(&component);
-  };
-  for_each_field(boundary, [&](auto& field) {
-    if (field.kind == FieldKind::derived) for_each_component(field, add);
-  });
-  for (Field* field : {&boundary.m, &boundary.rho}) add(*field);  // which may follow from the pressure
-  ranks_->collect_at(static_cast<std::size_t>(&boundary - state_.boundaries.data()), fields);
-}
-
-void FluidModel::collect(FluidModel* whole) {
-  for (Boundary& boundary : state_.boundaries) collect_at(boundary);
-  Neighbours::collect(state_.neighbours, *ranks_, whole ? &whole->state_.neighbours : nullptr);
-  collect_fluid(whole ? &whole->state_.fluid : nullptr);
-  if (!whole) return;
-  State& to = whole->state_;
-  to.time = state_.time;
-  for (std::size_t b = 0; b < to.boundaries.size(); ++b)
-    to.boundaries[b].take_all_but_lists(state_.boundaries[b]);
-  to.gravity_impulse = state_.gravity_impulse;
-  to.work_of_gravity_change = state_.work_of_gravity_change;
-  to.potential_of_moves = state_.potential_of_moves;
-  to.largest = state_.largest;
-  to.density_rate_known = state_.density_rate_known;
-  to.contact_changed = state_.contact_changed;
-  to.impedance_wanted = state_.impedance_wanted;
-}
-
-void FluidModel::collect_fluid(Particles* whole) {
-  const auto components = [](Particles& fluid) {
-    std::vector<Field*> all;
-    for_each_field(fluid, [&](auto& field) {
-      for_each_component(field, [&](Field& component) { all.push_back(&component); });
-    });
-    return all;
-  };
-  Field number(state_.fluid.id.begin(), state_.fluid.id.end()), number_in_whole(ranks_->masses().size());
-  std::vector<const Field*> of_part{&number};
-  std::vector<Field*> of_whole;
-  if (whole) of_whole.push_back(&number_in_whole);
-  const auto here = components(state_.fluid), there = whole ? components(*whole) : std::vector<Field*>{};
-  for (std::size_t n = 0; n < here.size(); ++n) {
-    if (here[n]->empty()) continue;
-    of_part.push_back(here[n]);
-    if (whole) of_whole.push_back(there[n]), there[n]->resize(number_in_whole.size());
-  }
-  ranks_->collect(of_part, of_whole);
-  if (!whole) return;
-  const auto end = static_cast<std::ptrdiff_t>(whole->count);
-  whole->id.assign(number_in_whole.begin(), number_in_whole.begin() + end);
-  for (Field* field : of_whole) std::fill(field->begin() + end, field->end(), (*field)[whole->count - 1]);
-  std::fill(whole->m.begin() + end, whole->m.end(), 0.0);  // idle lanes weigh nothing
 }
 
 void FluidModel::save() {
@@ -228,7 +151,7 @@ void FluidModel::move_back_into_domain() {
     gained[i] = state_.fluid.m[i] * (potential(x) - potential(back));
     set(state_.fluid.x, i, back);
   }
-  if (ranks_ && ranks_->divided()) gained = of_whole(gained);
+  if (ranks_) gained = ranks_->of_whole(gained);
   for (const double value : gained) state_.potential_of_moves += value;
   for (Boundary& boundary : state_.boundaries) {
     auto* prescribed = std::get_if<PrescribedMotion>(&boundary.motion);
@@ -285,11 +208,16 @@ void FluidModel::record_surface(const std::filesystem::path& out) {
   state_.surface_record->open(out);
 }
 
+Look FluidModel::look() {
+  return {powers(), penetration(state_.fluid, state_.boundaries, ranks_)};
+}
+
 void FluidModel::record(double time) {
   if (state_.steps_since_look >= steps_between_looks) {
     const auto timer = timers_.measure("energy balance");
-    state_.balance.add(time, powers());
-    state_.penetration = penetration(state_.fluid, state_.boundaries);
+    const Look seen = look();
+    state_.balance.add(time, seen.powers);
+    state_.penetration = seen.penetration;
     state_.steps_since_look = 0;
   }
   if (state_.surface_record) state_.surface_record->write(time);
@@ -321,7 +249,7 @@ void FluidModel::complete_records() {
 
 bool FluidModel::is_enclosed() {
   update_neighbours(0);
-  free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+  find_off_surface();
   return is_closed(state_.fluid);
 }
 
@@ -333,11 +261,15 @@ void FluidModel::watch_shear(double time) {
   state_.beyond_measured = true;
 }
 
+void FluidModel::find_off_surface() {
+  free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+}
+
 /// Who has a free surface in reach is not known in every run, and asked where it matters alone.
 void FluidModel::watch_suction(double time) {
   const auto suction = state_.suction_watch->look(state_.fluid, time);
   if (!suction) return;
-  free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+  find_off_surface();
   if (!is_closed(state_.fluid)) return state_.suction_watch->forget();
   log::warn("{}", *suction);
   state_.suction_watch.reset();
@@ -354,21 +286,33 @@ void FluidModel::count_forces(double dt) {
   ++state_.steps_since_look;
   for (Boundary& boundary : state_.boundaries) boundary.count_force(dt);
   if (state_.open_ends) state_.open_ends->count(dt);
-  const Field& m = ranks_ ? ranks_->masses() : state_.fluid.m;
-  const std::size_t count = ranks_ ? m.size() : padded(state_.fluid.count);
+  const auto first = state_.fluid.m.begin();
+  const double mass =
+      ranks_ ? ranks_->mass()
+             : std::reduce(first, first + static_cast<std::ptrdiff_t>(padded(state_.fluid.count)));
   const Vec gravity = scene_.gravity_at(state_.time + 0.5 * dt);
-  state_.gravity_impulse +=
-      dt * std::reduce(m.begin(), m.begin() + static_cast<std::ptrdiff_t>(count)) * gravity;
+  state_.gravity_impulse += dt * mass * gravity;
   if (state_.open_ends) state_.gravity_impulse -= dt * state_.open_ends->layer_mass() * gravity;
   if (scene_.gravity_change) state_.work_of_gravity_change += dt * power_of(gravity - scene_.gravity, dt);
 }
 
 double FluidModel::power_of(const Vec& change, double dt) const {
   const bool kicks = parameters_.integrator == Integrator::symplectic;  // by the mean of before and after
-  return sum_inside([&](std::size_t i) {
-    return state_.fluid.m[i] *
-           change.dot(at(state_.fluid.v, i) + (kicks ? 0.5 * dt : 0.0) * at(state_.fluid.a, i));
-  });
+  Particles of_all;
+  if (ranks_) {
+    of_all.count = ranks_->size_of_whole();
+    of_all.m = ranks_->of_whole(state_.fluid.m);
+    for (int a = 0; a < dim; ++a) {
+      of_all.v[a] = ranks_->of_whole(state_.fluid.v[a]);
+      of_all.a[a] = ranks_->of_whole(state_.fluid.a[a]);
+    }
+  }
+  const Particles& fluid = ranks_ ? of_all : state_.fluid;
+  double sum = 0;
+  for (std::size_t i = 0; i < fluid.count; ++i)
+    if (fluid.is_inside(i))
+      sum += fluid.m[i] * change.dot(at(fluid.v, i) + (kicks ? 0.5 * dt : 0.0) * at(fluid.a, i));
+  return sum;
 }
 
 }  // namespace toryu::fluid

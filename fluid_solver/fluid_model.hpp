@@ -39,10 +39,19 @@ void serialize(Archive& archive, Extremes& extremes) {
   archive(speed, acceleration, viscosity, friction_rate, elastic_speed, relaxation_rate, speed_of_turning);
 }
 
+/// What of a scene a model fills: a part of a fluid over ranks is given its particles.
+enum class Filled { all, walls_alone };
+
+/// What a row looks at beyond the state.
+struct Look {
+  std::vector<Power> powers = {};
+  Penetration penetration = {};
+};
+
 class FluidModel : public Solver {
  public:
   /// Fills the regions and the walls of the scene. Throws BadInput if bodies overlap or nothing is filled.
-  FluidModel(const Parameters& parameters, const Scene& scene);
+  FluidModel(const Parameters& parameters, const Scene& scene, Filled filled = Filled::all);
 
   void save() override;
   void restore() override;
@@ -62,12 +71,18 @@ class FluidModel : public Solver {
   /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.
   void record_surface(const std::filesystem::path& out);
 
-  /// From the next step on the fluid is spread over `ranks`: this model holds a part of it. Forces, impulses
-  /// and loads are those of the whole on rank 0; what else is summed over particles is of the part.
+  /// From the next step on the fluid, which rank 0 has, is spread over `ranks`: this model holds a part of
+  /// it. Forces, impulses, loads and looks are those of the whole on rank 0; what else is summed over
+  /// particles is of the part.
   void spread_over(Ranks& ranks);
-  /// Of a fluid that is spread, called on all ranks: on rank 0 `whole` becomes all of it, as one process has
-  /// it, but for its records, and its lists of neighbours (`list_anew`). Elsewhere `whole` is null.
-  void collect(FluidModel* whole);
+  /// The same of a model that has walls alone; on rank 0 it is given the `fluid` of another.
+  void spread_over(Ranks& ranks, const Extremes& largest, Particles fluid);
+  /// Of a fluid that is spread, called on all ranks: on rank 0 `whole` gets what is reported, or `all` that
+  /// one process has, but for its records, and its lists of neighbours (`list_anew`). Elsewhere `whole` is
+  /// null.
+  void collect(FluidModel* whole, bool all);
+  /// Frees the particles, until they are collected again.
+  void forget();
   /// Finds the lists of neighbours again.
   void list_anew();
 
@@ -101,7 +116,8 @@ class FluidModel : public Solver {
   /// Whether the fluid has no free surface as it stands.
   bool is_enclosed();
   /// What each term of the case takes from these energies.
-  virtual std::vector<Power> powers() const = 0;
+  virtual std::vector<Power> powers() = 0;
+  virtual Look look();
   const Particles& particles() const { return state_.fluid; }
   const std::optional<OpenEnds>& open_ends() const { return state_.open_ends; }
   const std::vector<Boundary>& boundaries() const { return state_.boundaries; }
@@ -159,6 +175,7 @@ class FluidModel : public Solver {
   void move_boundaries(double time);
   /// Walls that are pressed take the reaction of the last evaluation, in a step of `dt` [s] by explicit sums.
   void push_pressed_walls(double dt);
+  virtual void find_off_surface();
   /// Counts what the last evaluation is about to do in `dt` [s], so that the sum is the change of momentum to
   /// rounding.
   void count_forces(double dt);
@@ -176,8 +193,7 @@ class FluidModel : public Solver {
 
  private:
   int reaches_of_ghosts() const;
-  Field of_whole(const Field& values) const;
-  void collect_fluid(Particles* whole);
+  void collect_fluid(Particles* whole, bool all);
   void fill_regions();
   void start_flow(std::size_t particle);
   PressedMotion pressed(const Wall& wall, const std::vector<Vec>& points) const;

@@ -6,18 +6,26 @@ namespace toryu::fluid {
 
 namespace {
 
-void sort(Particles& f, const StripOrder& strips) {
-  const auto order = strips.sort(f.x[0], f.x[1], f.count);
+/// Returns the order: who comes k-th was at `order[k]`.
+std::vector<std::uint32_t> sort(Particles& f, const StripOrder& strips) {
+  auto order = strips.sort(f.x[0], f.x[1], f.count);
   reorder_fields(f, order);
   std::fill(f.m.begin() + static_cast<std::ptrdiff_t>(f.count), f.m.end(), 0.0);  // idle lanes weigh nothing
   std::vector<std::uint32_t> id(f.count);
   for (std::size_t k = 0; k < f.count; ++k) id[k] = f.id[order[k]];
   f.id.swap(id);
+  return order;
+}
+
+/// The largest of all ranks. Each by itself: a sum of the largest is another where they are apart.
+double largest_of_all(double value, const Ranks* ranks) {
+  return ranks ? ranks->largest(value) : value;
 }
 
 /// How far a particle may go in the next `dt` [s].
-double farthest_step(const Particles& fluid, double dt) {
-  return dt * (largest_norm(fluid.v, fluid.count) + dt * largest_norm(fluid.a, fluid.count));
+double farthest_step(const Particles& fluid, double dt, const Ranks* ranks) {
+  return dt * (largest_of_all(largest_norm(fluid.v, fluid.count), ranks) +
+               dt * largest_of_all(largest_norm(fluid.a, fluid.count), ranks));
 }
 double farthest_step(const Boundary& boundary, double dt) {
   return dt * (largest_norm(boundary.v, boundary.count) +
@@ -32,8 +40,8 @@ constexpr double smallest_skin = 0.02;
 bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
                            const Ranks* ranks) const {
   if (state_.builds == 0) return true;
-  double moved_fluid = largest_distance(fluid.x, state_.fluid, fluid.count) + farthest_step(fluid, dt);
-  if (ranks) moved_fluid = ranks->largest(moved_fluid);
+  const double moved_fluid = largest_of_all(largest_distance(fluid.x, state_.fluid, fluid.count), ranks) +
+                             farthest_step(fluid, dt, ranks);
   double moved = moved_fluid;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].moves())
@@ -44,8 +52,7 @@ bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& 
 
 double Neighbours::best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
                              const Ranks* ranks) const {
-  double step = farthest_step(fluid, dt);
-  if (ranks) step = ranks->largest(step);
+  double step = farthest_step(fluid, dt, ranks);
   for (const Boundary& boundary : boundaries)
     if (boundary.moves()) step = std::max(step, farthest_step(boundary, dt));
   const double best = std::sqrt(support_ * 2 * step);
@@ -56,9 +63,9 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, doub
   ++state_.builds;
   state_.skin = best_skin(fluid, boundaries, dt, ranks);
   if (ranks) ranks->divide(fluid, depth_of_ghosts(), shifts_);
-  sort(fluid, strips_);
+  const auto order = sort(fluid, strips_);
   if (ranks) {
-    ranks->find(fluid);
+    ranks->follow(order);
     ranks->number(fluid, strips_);
   }
   state_.fluid = fluid.x;
@@ -70,7 +77,7 @@ void Neighbours::build(Particles& fluid, std::vector<Boundary>& boundaries, doub
     state_.boundaries[b] = boundaries[b].x;
   }
   build_lists(fluid.count, boundaries);
-  if (ranks) ranks->note_lists(fluid, boundaries, near_interface(fluid.count, boundaries));
+  if (ranks) ranks->note_lists(fluid, of_fluid_, boundaries, near_interface(fluid.count, boundaries));
 }
 
 void Neighbours::rebuild(const Particles& fluid, std::vector<Boundary>& boundaries) {
@@ -81,10 +88,15 @@ void Neighbours::divide(Particles& fluid, std::vector<Boundary>& boundaries, Ran
   if (state_.builds == 0) return;
   for (int a = 0; a < dim; ++a) fluid.x[a].swap(state_.fluid[a]);  // they were divided there
   ranks.divide(fluid, depth_of_ghosts(), shifts_, &state_.fluid);
-  ranks.find(fluid);
   for (int a = 0; a < dim; ++a) fluid.x[a].swap(state_.fluid[a]);
   build_lists(fluid.count, boundaries);
-  ranks.note_lists(fluid, boundaries, near_interface(fluid.count, boundaries));
+  ranks.note_lists(fluid, of_fluid_, boundaries, near_interface(fluid.count, boundaries));
+}
+
+void Neighbours::forget(std::vector<Boundary>& boundaries) {
+  state_.fluid = {};
+  of_fluid_ = {};
+  for (Boundary& boundary : boundaries) boundary.list_for_fluid = boundary.list_for_wall = {};
 }
 
 std::vector<std::uint32_t> Neighbours::near_interface(std::size_t fluid_count,
@@ -111,7 +123,7 @@ void Neighbours::collect(const Neighbours& part, const Ranks& ranks, Neighbours*
   const VecField& x = part.state_.fluid;
   if (!whole) return ranks.collect({&x[0], &x[1]}, {});
   VecField all = std::move(whole->state_.fluid);
-  resize(all, ranks.masses().size());
+  resize(all, ranks.size_of_whole());
   ranks.collect({&x[0], &x[1]}, {&all[0], &all[1]});
   whole->state_ = {std::move(all), part.state_.boundaries, part.state_.skin, part.state_.builds};
 }

@@ -39,6 +39,8 @@ class Neighbours {
   void rebuild(const Particles& fluid, std::vector<Boundary>& boundaries);
   /// Divides a fluid over `ranks` that every process has from a checkpoint, with the lists that it says.
   void divide(Particles& fluid, std::vector<Boundary>& boundaries, Ranks& ranks);
+  /// Frees what takes memory, of a fluid that nobody needs for now.
+  void forget(std::vector<Boundary>& boundaries);
   /// How many reaches deep the ghosts of a fluid over ranks are.
   void keep_ghosts(int reaches) { reaches_ = reaches; }
   /// On rank 0 these become those of the whole fluid, of which `part` is spread over `ranks`, without lists.

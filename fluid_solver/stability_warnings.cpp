@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "common/error/counted.hpp"
-#include "common/scene/occupancy_index.hpp"
 #include "common/scene/period.hpp"
+#include "common/sph/sorted_points.hpp"
 #include "fluid_solver/passage_flow.hpp"
 #include "fluid_solver/start_checks.hpp"
 
@@ -35,8 +35,11 @@ class Bodies {
   Bodies(std::vector<Vec> places, const std::vector<Boundary>& others, double spacing,
          const std::vector<Vec>& shifts)
       : places_(std::move(places)), spacing_(spacing) {
-    take(with_images(places_, shifts));
-    for (const auto& other : others) take(with_images(places_of(other), shifts));
+    const auto take = [&](const std::vector<Vec>& body) {
+      bodies_.emplace_back(shifts.size() > 1 ? with_images(body, shifts) : body, nearest());
+    };
+    take(places_);
+    for (const auto& other : others) take(places_of(other));
   }
 
   /// The least thickness along x or y [m], if enough particles have one below `least` [m].
@@ -53,11 +56,16 @@ class Bodies {
   }
 
  private:
-  void take(const std::vector<Vec>& places) { taken_.emplace_back(0.6 * spacing_).take(places, ""); }
+  /// A site that is nearer to a particle is filled [m].
+  double nearest() const { return 0.6 * spacing_; }
 
   double thickness(const Vec& x, const Vec& direction, double least) const {
     const auto filled = [&](const Vec& site) {
-      return std::any_of(taken_.begin(), taken_.end(), [&](const auto& body) { return body.taken(site); });
+      return std::any_of(bodies_.begin(), bodies_.end(), [&](const SortedPoints& body) {
+        bool found = false;
+        body.near(site, nearest(), [&](std::uint32_t) { found = true; });
+        return found;
+      });
     };
     double sum = spacing_;
     for (const double step : {-spacing_, spacing_})
@@ -68,8 +76,7 @@ class Bodies {
 
   std::vector<Vec> places_;
   double spacing_;
-  std::vector<OccupancyIndex>
-      taken_;  // one a body: bodies may stand nearer to each other than their own particles
+  std::vector<SortedPoints> bodies_;  ///< that and the others
 };
 
 bool damps_noise(const Parameters& p) {

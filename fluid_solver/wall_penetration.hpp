@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
@@ -21,7 +22,9 @@ void serialize(Archive& archive, Penetration& found) {
   archive(count, boundary, place);
 }
 
-/// Needs the lists of the boundaries; none is found before they are built.
-Penetration penetration(const Particles& fluid, const std::vector<Boundary>& boundaries);
+/// Needs the lists of the boundaries; none is found before they are built. Of a part of a fluid over `ranks`
+/// rank 0 finds what is in the walls of the whole.
+Penetration penetration(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                        const Ranks* ranks = nullptr);
 
 }  // namespace toryu::fluid

@@ -4,8 +4,9 @@
 
 namespace toryu::fluid {
 
-double wetted_surface_moment(const Boundary& boundary, const Particles& fluid, const Kernel& kernel) {
-  double sum = 0;
+double wetted_surface_moment(const Boundary& boundary, const Particles& fluid, const Kernel& kernel,
+                             std::size_t b, const Ranks* ranks) {
+  Field moment(padded(boundary.count));
   kernel.visit([&](const auto& W) {
     for (const auto cluster : boundary.list_for_wall.active()) {
       const std::size_t first = cluster * lane_count;
@@ -16,10 +17,12 @@ double wetted_surface_moment(const Boundary& boundary, const Particles& fluid, c
                       [&](std::uint32_t i, const Neighbour& n) TORYU_INLINE_LAMBDA {
                         of_cluster += fluid.V[i] * n.G * (dot(r_w, n.x_ij) - 0.5 * n.r2);
                       });
-      for (std::size_t k = first; k < std::min(first + lane_count, boundary.count); ++k)
-        sum += boundary.V[k] * of_cluster[k - first];
+      store(of_cluster, moment, first);
     }
   });
+  if (ranks) ranks->collect_at(b, {&moment});
+  double sum = 0;
+  for (std::size_t k = 0; k < boundary.count; ++k) sum += boundary.V[k] * moment[k];
   return 2 * sum;
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/sph/neighbour_loop.hpp"
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
@@ -51,7 +52,9 @@ void turn_cluster(Boundary& boundary, const Particles& fluid, const W& kernel, s
 /// Within the fluid the latter makes no force, but on a wall that turns by omega, to which the fluid sticks,
 /// its moment on the fluid is mu omega times this integral, and so much by omega is dissipated beyond what
 /// the pairs take: without it a fluid that turns rigidly with its tank would need a moment and heat up.
-double wetted_surface_moment(const Boundary& boundary, const Particles& fluid, const Kernel& kernel);
+/// Of boundary `b` of a part of a fluid over `ranks` rank 0 finds that of the whole.
+double wetted_surface_moment(const Boundary& boundary, const Particles& fluid, const Kernel& kernel,
+                             std::size_t b, const Ranks* ranks);
 
 /// The velocity of particle i of the fluid against the wall, which may turn, at a place of the wall x_w - x_i
 /// from it.

@@ -148,9 +148,12 @@ std::vector<std::optional<Vec>> worn_places(const Wall& wall, const std::vector<
   return places;
 }
 
+bool any_is_worn(const std::vector<Wall>& walls) {
+  return std::any_of(walls.begin(), walls.end(), [](const Wall& wall) { return !wall.worn.empty(); });
+}
+
 void fill_worn_space(Filling& filling, std::vector<Vec>& home, const std::vector<Wall>& walls,
                      double spacing) {
-  if (std::all_of(walls.begin(), walls.end(), [](const Wall& wall) { return wall.worn.empty(); })) return;
   WornSpace space(filling, home, walls, spacing);
   for (int axis = dim - 1; axis >= 0; --axis) space.fill(axis);
   space.move();

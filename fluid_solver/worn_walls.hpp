@@ -26,6 +26,9 @@ namespace toryu::fluid {
 /// Where the particles of `wall` stand that have their places at `points`; nothing for one that drops out.
 std::vector<std::optional<Vec>> worn_places(const Wall& wall, const std::vector<Vec>& points);
 
+/// Whether some of `walls` are.
+bool any_is_worn(const std::vector<Wall>& walls);
+
 /// Widens the fluid's `filling` to the worn faces of `walls`. `home` gets for each particle a place in the
 /// region to which it belongs.
 void fill_worn_space(Filling& filling, std::vector<Vec>& home, const std::vector<Wall>& walls,

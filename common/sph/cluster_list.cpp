@@ -32,34 +32,37 @@ VecLanes beyond_axis(const VecLanes& x) {
 void ClusterList::build_block(Block& block, std::size_t begin, std::size_t end, const VecField& targets,
                               const VecField& sources, const StripOrder& strips, double reach,
                               std::span<const Vec> shifts, std::size_t first_image) {
-  block.found.clear();
-  block.ends.clear();
+  // They grow here, and the block takes what there is: it would keep up to twice as much.
+  static thread_local std::vector<std::uint32_t> found;
+  static thread_local std::vector<std::size_t> ends;  // of each of `near` in `found`
+  found.clear();
+  ends.clear();
   block.near.clear();
   std::array<std::size_t, clusters_per_block + 1> first{};  // of each cluster in `near`
   for (std::size_t c = begin; c < end; ++c) {
     const VecLanes x_i = load(targets, c * lane_count);
     for (std::size_t k = 0; k < shifts.size(); ++k) {
-      const std::size_t before = block.found.size();
-      collect(shifted(x_i, shifts[k]), sources, strips, reach, block.found);
-      if (k > 0 && block.found.size() == before) continue;
+      const std::size_t before = found.size();
+      collect(shifted(x_i, shifts[k]), sources, strips, reach, found);
+      if (k > 0 && found.size() == before) continue;
       block.near.push_back({shifts[k], {}});
-      block.ends.push_back(block.found.size());
+      ends.push_back(found.size());
     }
     for (std::size_t k = 0; first_image > 0 && k < shifts.size(); ++k) {
-      const std::size_t before = block.found.size();
-      collect(beyond_axis(shifted(x_i, shifts[k])), sources, strips, reach, block.found);
-      if (block.found.size() == before) continue;
-      for (std::size_t j = before; j < block.found.size(); ++j)
-        block.found[j] += static_cast<std::uint32_t>(first_image);
+      const std::size_t before = found.size();
+      collect(beyond_axis(shifted(x_i, shifts[k])), sources, strips, reach, found);
+      if (found.size() == before) continue;
+      for (std::size_t j = before; j < found.size(); ++j) found[j] += static_cast<std::uint32_t>(first_image);
       block.near.push_back({shifts[k], {}});
-      block.ends.push_back(block.found.size());
+      ends.push_back(found.size());
     }
     first[c - begin + 1] = block.near.size();
   }
   // where the vectors lie is known only now that they do not grow any more
+  block.found.assign(found.begin(), found.end());
   std::size_t start = 0;
-  for (std::size_t k = 0; k < block.near.size(); start = block.ends[k++])
-    block.near[k].sources = std::span(block.found).subspan(start, block.ends[k] - start);
+  for (std::size_t k = 0; k < block.near.size(); start = ends[k++])
+    block.near[k].sources = std::span(block.found).subspan(start, ends[k] - start);
   for (std::size_t c = begin; c < end; ++c)
     lists_[c] = std::span(block.near).subspan(first[c - begin], first[c - begin + 1] - first[c - begin]);
 }

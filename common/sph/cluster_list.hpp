@@ -47,7 +47,6 @@ class ClusterList {
  private:
   struct Block {
     std::vector<std::uint32_t> found;
-    std::vector<std::size_t> ends;  ///< of each of `near` in `found`
     std::vector<ShiftedNeighbours> near;
   };
   void build_block(Block& block, std::size_t begin, std::size_t end, const VecField& targets,

@@ -15,13 +15,9 @@ class SortedPoints {
  public:
   /// `reach` [m] is about how far `near` will look.
   SortedPoints(const std::vector<Vec>& points, double reach) : strips_(reach) {
-    Field x, y;
-    for (const Vec& point : points) {
-      x.push_back(point[0]);
-      y.push_back(point[1]);
-    }
-    order_ = strips_.sort(x, y, points.size());
     resize(sorted_, points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) set(sorted_, k, points[k]);
+    order_ = strips_.sort(sorted_[0], sorted_[1], points.size());
     for (std::size_t k = 0; k < points.size(); ++k) set(sorted_, k, points[order_[k]]);
     strips_.index(sorted_[0], points.size());
   }

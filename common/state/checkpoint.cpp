@@ -47,21 +47,40 @@ std::string target() {
   );
 }
 
-std::string checksum(const std::string& bytes) {
-  uLong sum = crc32(0, nullptr, 0);
-  constexpr std::size_t most = 1u << 30;
-  for (std::size_t start = 0; start < bytes.size(); start += most)
-    sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + start),
-                static_cast<uInt>(std::min(most, bytes.size() - start)));
-  return fmt::format("{:08x}", sum);
-}
+/// A stream that keeps of what is written to it the size and the checksum, and passes it on.
+class Summed : public std::ostream {
+ public:
+  explicit Summed(std::streambuf* to = nullptr) : std::ostream(&buffer_) { buffer_.to = to; }
+  /// "SIZE CHECKSUM"
+  std::string text() const { return fmt::format("{} {:08x}", buffer_.size, buffer_.sum); }
+
+ private:
+  struct Buffer : std::streambuf {
+    std::streambuf* to = nullptr;
+    std::size_t size = 0;
+    uLong sum = crc32(0, nullptr, 0);
+
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+      if (count == 0) return 0;  // of nothing, which may lie nowhere, zlib would begin anew
+      sum = crc32_z(sum, reinterpret_cast<const Bytef*>(bytes), static_cast<std::size_t>(count));
+      size += static_cast<std::size_t>(count);
+      return to ? to->sputn(bytes, count) : count;
+    }
+    int_type overflow(int_type byte) override {
+      const char one = traits_type::to_char_type(byte);
+      return xsputn(&one, 1) == 1 ? byte : traits_type::eof();
+    }
+  };
+  Buffer buffer_;
+};
 
 /// Tells this program from any that was built of other sources, whatever their commit.
 const std::string& build() {
   static const std::string sum = [] {
-    std::ostringstream bytes(std::ios::binary);
+    Summed bytes;
     bytes << std::ifstream("/proc/self/exe", std::ios::binary).rdbuf();
-    return checksum(bytes.str());
+    const std::string text = bytes.text();
+    return text.substr(text.find(' ') + 1);
   }();
   return sum;
 }
@@ -219,13 +238,17 @@ void abandon_checkpoint(const fs::path& folder) noexcept {
 
 void write_part(const fs::path& folder, const std::string& name, const Author& author,
                 const std::function<void(std::ostream&)>& write) {
-  std::ostringstream stream(std::ios::binary);
-  write(stream);
-  const std::string payload = std::move(stream).str();
   const fs::path path = folder / (name + ".state"), temporary = part_of(path);
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  file << header_of(author) << fmt::format("{} {}\n", payload.size(), checksum(payload));
-  file.write(payload.data(), static_cast<std::streamsize>(payload.size()));
+  file << header_of(author);
+  const auto place = file.tellp();
+  constexpr int room = 40;  // for the sum, which is known when all is written
+  file << fmt::format("{:{}}\n", "", room);
+  Summed summed(file.rdbuf());
+  write(summed);
+  if (!summed) file.setstate(std::ios::failbit);
+  file.seekp(place);
+  file << fmt::format("{:>{}}", summed.text(), room);
   file.close();
   if (!file) fail_to_write(temporary, errno);
   give_name(path);
@@ -256,11 +279,12 @@ void read_part(const fs::path& folder, const std::string& name, const Author& au
   file.get();
   const auto rest = fs::file_size(path) - static_cast<std::uintmax_t>(file.tellg());
   if (!file || rest != size) refuse_damaged(path, fmt::format("it holds {} bytes of {}", rest, size));
-  std::string payload(size, '\0');
-  file.read(payload.data(), static_cast<std::streamsize>(size));
-  if (!file || checksum(payload) != sum) refuse_damaged(path, "its checksum is another");
-  std::istringstream stream(std::move(payload), std::ios::binary);
-  read(stream);
+  const auto start = file.tellg();
+  Summed summed;
+  if (size > 0) summed << file.rdbuf();
+  if (summed.text() != fmt::format("{} {}", size, sum)) refuse_damaged(path, "its checksum is another");
+  file.seekg(start);
+  read(file);
 }
 
 void check_same_case(const Checkpoint& checkpoint, const std::string& case_text) {

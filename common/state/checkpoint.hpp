@@ -61,8 +61,8 @@ struct Author {
 };
 
 /// Writes the part `name` ("fluid") of the program `author` ("fluid_solver") into `folder`: what `write` puts
-/// into the stream. The file gets its name when it is on the disk. Throws MachineFailure, naming the file
-/// and the reason, if that fails.
+/// into the stream. The file gets its name when it is on the disk.
+/// Throws MachineFailure, naming the file and the reason, if that fails.
 void write_part(const std::filesystem::path& folder, const std::string& name, const Author& author,
                 const std::function<void(std::ostream&)>& write);
 /// Reads a part. Throws BadInput if it was written by another program, version or target (with what differs),

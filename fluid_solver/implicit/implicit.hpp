@@ -39,7 +39,7 @@ class Implicit final : public FluidModel {
   /// Throws PhysicsFailure if the system of the step is not solved.
   void advance(double dt) override;
   std::vector<ActiveTerm> active_terms() const override;
-  std::vector<Power> powers() const override {
+  std::vector<Power> powers() override {
     return dynamics_.powers(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries);
   }
   std::vector<std::pair<std::string, double>> figures() const override;

@@ -29,21 +29,13 @@ Gatherer::Gatherer(MPI_Comm communicator, std::vector<std::uint32_t> items,
 }
 
 void Gatherer::gather(const std::vector<const Field*>& part, const std::vector<Field*>& whole) const {
-  std::vector<double> message;
-  message.reserve(part.size() * items_.size());
-  for (const Field* field : part)
-    for (const auto item : items_) message.push_back((*field)[item]);
-  std::vector<int> counts = counts_;
-  for (int& count : counts) count *= static_cast<int>(part.size());
-  std::vector<double> received(part.size() * places_.size());
-  MPI_Gatherv(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, received.data(), counts.data(),
-              sums_before(counts).data(), MPI_DOUBLE, 0, communicator_);
-  auto value = received.begin();
-  auto first = places_.begin();
-  for (const int count : counts_) {  // rank by rank, field by field
-    for (Field* field : whole)
-      for (auto place = first; place != first + count; ++place) (*field)[*place] = *value++;
-    first += count;
+  const std::vector<int> before = sums_before(counts_);
+  std::vector<double> message(items_.size()), received(places_.size());
+  for (std::size_t n = 0; n < part.size(); ++n) {  // one by one, for the memory
+    for (std::size_t k = 0; k < items_.size(); ++k) message[k] = (*part[n])[items_[k]];
+    MPI_Gatherv(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, received.data(), counts_.data(),
+                before.data(), MPI_DOUBLE, 0, communicator_);
+    for (std::size_t k = 0; k < places_.size(); ++k) (*whole[n])[places_[k]] = received[k];
   }
 }
 

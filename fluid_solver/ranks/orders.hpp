@@ -13,13 +13,15 @@
 namespace toryu::fluid {
 
 enum class Action {
-  fill,          ///< read the case and fill its scene
+  fill,          ///< read the case and fill the walls of its scene
+  hand_out,      ///< the fluid, whose extremes come with it
   read_state,    ///< of a checkpoint, which comes with it
   attach,        ///< the interface that comes with it
   begin_window,  ///< of `value` [s], with the motion that comes with it
   advance,       ///< by `value` [s]
   check,         ///< at the time `value` [s]
-  collect,       ///< the state of the whole
+  look,          ///< at powers and at who is in walls
+  collect,       ///< of the whole what is reported, or with a `value` all of its state
   take_load,
   save,
   restore,

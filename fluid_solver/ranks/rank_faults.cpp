@@ -29,13 +29,10 @@ std::vector<StartFault> rank_faults(const Parameters& p, const Scene& scene) {
   refuse(p.model != Model::weakly_compressible, "fluid.model", "the implicit model does");
   refuse(p.has_open_ends(), "fluid", "inlets and outlets do");
   refuse(scene.geometry != Geometry::plane, "case.geometry", "a flow about an axis does");
-  refuse(scene.gravity_change.has_value(), "case.gravity_change", "gravity that changes does");
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
     const Wall& wall = scene.walls[w];
     refuse(wall.press.has_value(), fmt::format("wall.{}.press", w),
            fmt::format("the wall '{}', which is pressed, does", wall.name));
-    refuse(wall.motion && wall.motion->turns(), fmt::format("wall.{}.box", w),
-           fmt::format("the wall '{}', which turns, does", wall.name));
   }
   return faults;
 }

@@ -4,7 +4,7 @@
 /// sums round as they do there.
 #pragma once
 
-#include "common/sph/strip_order.hpp"
+#include "common/sph/cluster_list.hpp"
 #include "fluid_solver/particles.hpp"
 
 namespace toryu::fluid {
@@ -17,6 +17,12 @@ struct Renewal {
   std::vector<std::uint32_t> kept = {};      ///< its own particles in these that belong to no such cluster
 };
 
+/// Clusters of this rank that a sweep over pairs need look at.
+struct Swept {
+  std::vector<std::uint32_t> own = {};   ///< that have one of its own particles among them
+  std::vector<std::uint32_t> near = {};  ///< these, and what they see
+};
+
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -26,20 +32,21 @@ class Ranks {
   virtual double largest(const Field& values) const = 0;
 
   // where lists of neighbours are built
-  /// Whether the processes have parts of the fluid: before, every one has all of it.
-  virtual bool divided() const = 0;
+  /// Rank 0 has all of the fluid, without lists; what others hold nobody asks for.
+  virtual void begin(const Particles& fluid, const std::vector<Boundary>& boundaries) = 0;
   /// Gives each process its own particles, with ghosts up to `depth` [m] around them, in the order in which
   /// the whole fluid was stored; `shifts` [m], zero first, are those by which space repeats itself. A field
   /// `beside` those of the fluid goes with them.
   virtual void divide(Particles& fluid, double depth, const std::vector<Vec>& shifts,
                       VecField* beside = nullptr) = 0;
-  /// Finds the ghosts, and those of whom others have ghosts, where they are after sorting.
-  virtual void find(const Particles& fluid) = 0;
+  /// The particles have been sorted: k is now who was at `order`[k].
+  virtual void follow(const std::vector<std::uint32_t>& order) = 0;
   /// Finds the places in the whole fluid after sorting by `strips`.
   virtual void number(const Particles& fluid, const StripOrder& strips) = 0;
-  /// Notes who is near which boundary by the lists as they are now; particles at `near_interface` are in
-  /// reach of a solid's.
-  virtual void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries,
+  /// Notes who is near whom by the lists as they are now; particles at `near_interface` are in reach of a
+  /// solid's.
+  virtual void note_lists(const Particles& fluid, const ClusterList& neighbours,
+                          const std::vector<Boundary>& boundaries,
                           const std::vector<std::uint32_t>& near_interface) = 0;
   /// Keeps who is where, and brings it back.
   virtual void save() = 0;
@@ -49,8 +56,10 @@ class Ranks {
   /// Gives the ghosts what their owners have found.
   virtual void share(const std::vector<Field*>& fields) const = 0;
   virtual const Renewal& beside_interface() const = 0;
-  /// The masses of the whole fluid, on rank 0 [kg/m].
-  virtual const Field& masses() const = 0;
+  virtual const Swept& swept() const = 0;
+  /// Of the fields of the whole fluid, with padding, on rank 0; 0 elsewhere. And its mass [kg/m].
+  virtual std::size_t size_of_whole() const = 0;
+  virtual double mass() const = 0;
   /// On rank 0 `force_on_fluid` of each boundary becomes that on the whole fluid.
   virtual void collect_forces(std::vector<Boundary>& boundaries) const = 0;
   /// Brings `values` of the particles near boundary `b`, and their masses, to rank 0, cluster by cluster of
@@ -61,6 +70,12 @@ class Ranks {
   virtual void collect_at(std::size_t b, const std::vector<Field*>& values) const = 0;
   /// On rank 0 `whole` becomes the values of the whole fluid; elsewhere nothing happens.
   virtual void collect(const std::vector<const Field*>& part, const std::vector<Field*>& whole) const = 0;
+  /// Those of one field on rank 0; none elsewhere.
+  Field of_whole(const Field& part) const {
+    Field whole(size_of_whole(), 0.0);
+    collect({&part}, {&whole});
+    return whole;
+  }
 };
 
 }  // namespace toryu::fluid

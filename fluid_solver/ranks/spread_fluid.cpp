@@ -49,58 +49,94 @@ SpreadFluid::SpreadFluid(const Parameters& parameters, const Scene& scene, MPI_C
     : WeaklyCompressible(parameters, scene),
       communicator_(have_it_filled(communicator)),
       ranks_of_parts_(communicator),
-      part_(static_cast<const WeaklyCompressible&>(*this)) {
-  part_.spread_over(ranks_of_parts_);
-}
+      part_(parameters, scene, Filled::walls_alone) {}
 
 void SpreadFluid::together(const Order& order, const std::function<void()>& share) const {
   give(communicator_, order);
   end_all_if_it_fails(communicator_, share);
 }
 
-void SpreadFluid::collect() const {
-  if (!behind_) return;
-  together({.action = Action::collect}, [&] { part_.collect(&whole_); });
-  behind_ = listed_ = false;
+void SpreadFluid::hand_out() {
+  if (handed_out_) return;
+  handed_out_ = true;
+  together({.action = Action::hand_out, .with = packed(state_.largest)},
+           [&] { part_.spread_over(ranks_of_parts_, state_.largest, std::move(state_.fluid)); });
+  forget();
+}
+
+void SpreadFluid::collect(Known wanted) const {
+  if (known_ >= wanted) return;
+  const bool all = wanted == Known::all;
+  together({.action = Action::collect, .value = all ? 1.0 : 0.0}, [&] { part_.collect(&whole_, all); });
+  known_ = wanted;
+}
+
+void SpreadFluid::forget() {
+  if (known_ != Known::nothing) FluidModel::forget();
+  known_ = Known::nothing;
+}
+
+double SpreadFluid::time_step_limit() const {
+  return handed_out_ ? part_.time_step_limit() : WeaklyCompressible::time_step_limit();
+}
+
+std::string_view SpreadFluid::time_step_rule() const {
+  return handed_out_ ? part_.time_step_rule() : WeaklyCompressible::time_step_rule();
 }
 
 void SpreadFluid::advance(double dt) {
+  hand_out();
+  forget();
   together({.action = Action::advance, .value = dt}, [&] { part_.advance(dt); });
   ++state_.steps_since_look;
-  behind_ = true;
 }
 
 void SpreadFluid::check(double time) const {
-  bool any = false;
-  together({.action = Action::check, .value = time}, [&] { any = any_fails(ranks_of_parts_, part_, time); });
+  bool any = !handed_out_;
+  if (handed_out_)
+    together({.action = Action::check, .value = time},
+             [&] { any = any_fails(ranks_of_parts_, part_, time); });
   if (!any) return;
-  collect();
+  collect(Known::reported);
   WeaklyCompressible::check(time);  // which finds the same particle as in one process
 }
 
 Frame SpreadFluid::frame() const {
-  collect();
+  collect(Known::reported);
   return WeaklyCompressible::frame();
 }
 
 std::optional<Frame> SpreadFluid::walls() const {
-  collect();
+  collect(Known::reported);
   return WeaklyCompressible::walls();
 }
 
 std::vector<Observation> SpreadFluid::observe() const {
-  collect();
+  collect(Known::reported);
   return WeaklyCompressible::observe();
 }
 
-void SpreadFluid::record(double time) {
-  collect();
-  if (!listed_) list_anew();
-  listed_ = true;
-  WeaklyCompressible::record(time);
+void SpreadFluid::watch(double time) {
+  collect(Known::reported);
+  WeaklyCompressible::watch(time);
+}
+
+Look SpreadFluid::look() {
+  Look seen;
+  hand_out();
+  together({.action = Action::look}, [&] { seen = part_.look(); });
+  return seen;
+}
+
+void SpreadFluid::find_off_surface() {
+  collect(Known::all);
+  list_anew();
+  WeaklyCompressible::find_off_surface();
 }
 
 void SpreadFluid::save() {
+  hand_out();
+  forget();
   together({.action = Action::save}, [&] { part_.save(); });
   WeaklyCompressible::save();
 }
@@ -108,11 +144,11 @@ void SpreadFluid::save() {
 void SpreadFluid::restore() {
   together({.action = Action::restore}, [&] { part_.restore(); });
   WeaklyCompressible::restore();
-  behind_ = true;
+  known_ = Known::nothing;
 }
 
 void SpreadFluid::write_state(std::ostream& stream) const {
-  collect();
+  collect(Known::all);
   WeaklyCompressible::write_state(stream);
 }
 
@@ -121,8 +157,8 @@ void SpreadFluid::read_state(std::istream& stream) {
   const std::string state(std::istreambuf_iterator<char>(stream), {});
   std::istringstream of_part(state, std::ios::binary), of_whole(state, std::ios::binary);
   WeaklyCompressible::read_state(of_whole);
+  hand_out();
   together({.action = Action::read_state, .with = state}, [&] { part_.read_state(of_part); });
-  listed_ = true;
 }
 
 /// As `read_state`.
@@ -133,17 +169,18 @@ void SpreadFluid::attach(const Interface& interface, bool rigid) {
 }
 
 void SpreadFluid::begin_window(const InterfaceMotion& motion, double dt) {
+  hand_out();
+  forget();
   together({.action = Action::begin_window,
             .value = dt,
             .with = packed(motion.position, motion.velocity, motion.impulse, motion.work_of_impulse)},
            [&] { part_.begin_window(motion, dt); });
-  behind_ = true;
 }
 
 InterfaceLoad SpreadFluid::take_load() {
   InterfaceLoad load;
   together({.action = Action::take_load}, [&] { load = part_.take_load(); });
-  collect();  // for the energies that go with it
+  collect(Known::reported);  // for the energies that go with it
   return load;
 }
 
@@ -156,8 +193,13 @@ void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Sce
       case Action::fill: {
         ranks.emplace(communicator);
         const auto [parameters, scene] = read();
-        part = std::make_unique<WeaklyCompressible>(parameters, scene);
-        part->spread_over(*ranks);
+        part = std::make_unique<WeaklyCompressible>(parameters, scene, Filled::walls_alone);
+        break;
+      }
+      case Action::hand_out: {
+        Extremes largest;
+        unpack(order.with, largest);
+        part->spread_over(*ranks, largest, {});
         break;
       }
       case Action::read_state: {
@@ -177,8 +219,11 @@ void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Sce
       case Action::check:
         any_fails(*ranks, *part, order.value);
         break;
+      case Action::look:
+        part->look();
+        break;
       case Action::collect:
-        part->collect(nullptr);
+        part->collect(nullptr, order.value > 0);
         break;
       case Action::take_load:
         part->take_load();

@@ -1,5 +1,6 @@
-/// A fluid that is spread over MPI ranks, as the program on rank 0 sees it: a model of the whole that has a
-/// part of it advanced on each rank, and brings their states together where it is asked for its own.
+/// A fluid that is spread over MPI ranks, as the program on rank 0 sees it: a model of the whole, which at
+/// the first step hands its particles out to the parts. It has these advanced on each rank, and where it is
+/// asked for its state it brings together what the answer takes, until the next step.
 #pragma once
 
 #include <functional>
@@ -16,8 +17,8 @@ class SpreadFluid final : public WeaklyCompressible {
   /// On rank 0; the others `follow`.
   SpreadFluid(const Parameters& parameters, const Scene& scene, MPI_Comm communicator);
 
-  double time_step_limit() const override { return part_.time_step_limit(); }
-  std::string_view time_step_rule() const override { return part_.time_step_rule(); }
+  double time_step_limit() const override;
+  std::string_view time_step_rule() const override;
   void advance(double dt) override;
   void save() override;
   void restore() override;
@@ -27,7 +28,8 @@ class SpreadFluid final : public WeaklyCompressible {
   Frame frame() const override;
   std::optional<Frame> walls() const override;
   std::vector<Observation> observe() const override;
-  void record(double time) override;
+  void watch(double time) override;
+  Look look() override;
 
   void attach(const Interface& interface, bool rigid) override;
   void begin_window(const InterfaceMotion& motion, double dt) override;
@@ -37,15 +39,19 @@ class SpreadFluid final : public WeaklyCompressible {
  private:
   /// Gives the order, and does this rank's share of it.
   void together(const Order& order, const std::function<void()>& share) const;
-  /// Brings the state of the whole up to date.
-  void collect() const;
+  void find_off_surface() override;
+  void hand_out();
+  /// What is known here of the whole as it is now.
+  enum class Known { nothing, reported, all };
+  void collect(Known wanted) const;
+  void forget();
 
   MPI_Comm communicator_;
   ZoltanRanks ranks_of_parts_;
   mutable WeaklyCompressible part_;
-  FluidModel& whole_ = *this;    ///< which who only asks brings up to date too
-  mutable bool behind_ = false;  ///< the parts have advanced since it was collected last
-  mutable bool listed_ = true;   ///< its lists of neighbours are those of its state
+  FluidModel& whole_ = *this;  ///< which who only asks brings up to date too
+  bool handed_out_ = false;
+  mutable Known known_ = Known::all;
 };
 
 /// Does what rank 0 orders, until it orders the end: on the other ranks, of the case that `read` gives.

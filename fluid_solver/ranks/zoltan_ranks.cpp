@@ -4,9 +4,10 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "fluid_solver/ranks/all_to_all.hpp"
+#include "fluid_solver/ranks/carrying.hpp"
+#include "fluid_solver/ranks/numbering.hpp"
 
 namespace toryu::fluid {
 
@@ -47,72 +48,6 @@ void give_positions(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PT
 
 void check(int code, const char* what) {
   if (code != ZOLTAN_OK && code != ZOLTAN_WARN) throw std::runtime_error(what);
-}
-
-/// Calls visit(component) for each plain field that a particle takes with it.
-template <class Fluid, class Visit>
-void for_each_carried(Fluid& fluid, Visit&& visit) {
-  for_each_field(fluid, [&](auto& field) {
-    if (field.kind == FieldKind::state)
-      for_each_component(field, [&](Field& component) {
-        if (!component.empty()) visit(component);
-      });
-  });
-}
-
-/// The state of the particles at `places`, field by field, after the owner, the place in the whole fluid and
-/// the number of each.
-void pack(Particles& fluid, const VecField* beside, const std::vector<std::uint32_t>& places,
-          const std::vector<int>& owners, const std::vector<std::uint32_t>& place_in_whole,
-          std::vector<double>& message) {
-  message.push_back(static_cast<double>(places.size()));
-  message.insert(message.end(), owners.begin(), owners.end());
-  for (const auto i : places) message.push_back(place_in_whole[i]);
-  for (const auto i : places) message.push_back(fluid.id[i]);
-  const auto add = [&](const Field& component) {
-    for (const auto i : places) message.push_back(component[i]);
-  };
-  for_each_carried(fluid, add);
-  for (int a = 0; beside && a < dim; ++a) add((*beside)[a]);
-}
-
-/// What `pack` has made of the particles of all ranks becomes `fluid`, in the order of the whole.
-void unpack(const std::vector<std::vector<double>>& messages, Particles& fluid, VecField* beside,
-            std::vector<int>& owners, std::vector<std::uint32_t>& place_in_whole) {
-  struct Entry {
-    double place_in_whole;
-    std::size_t message, number;
-  };
-  std::vector<Entry> order;
-  for (std::size_t r = 0; r < messages.size(); ++r) {
-    const std::size_t count = messages[r].empty() ? 0 : static_cast<std::size_t>(messages[r][0]);
-    for (std::size_t k = 0; k < count; ++k) order.push_back({messages[r][1 + count + k], r, k});
-  }
-  std::sort(order.begin(), order.end(),
-            [](const Entry& a, const Entry& b) { return a.place_in_whole < b.place_in_whole; });
-  // the value in column `c` of the messages
-  const auto value = [&](const Entry& entry, std::size_t c) {
-    const std::vector<double>& message = messages[entry.message];
-    return message[1 + c * static_cast<std::size_t>(message[0]) + entry.number];
-  };
-  fluid.count = order.size();
-  fluid.id.clear();
-  owners.clear();
-  place_in_whole.clear();
-  resize_present_fields(fluid, padded(std::max<std::size_t>(fluid.count, 1)));  // without values: absent
-  for (const Entry& entry : order) {
-    owners.push_back(static_cast<int>(value(entry, 0)));
-    place_in_whole.push_back(static_cast<std::uint32_t>(value(entry, 1)));
-    fluid.id.push_back(static_cast<std::uint32_t>(value(entry, 2)));
-  }
-  std::size_t c = 3;
-  const auto take = [&](Field& component) {
-    for (std::size_t i = 0; i < order.size(); ++i) component[i] = value(order[i], c);
-    ++c;
-  };
-  for_each_carried(fluid, take);
-  if (beside) resize(*beside, fluid.rho.size());
-  for (int a = 0; beside && a < dim; ++a) take((*beside)[a]);
 }
 
 void sort_and_thin(std::vector<std::uint32_t>& values) {
@@ -182,122 +117,124 @@ void ZoltanRanks::balance(const Particles& fluid) {
                             &export_places, &export_ranks, &export_parts),
         "Zoltan finds no cuts");
   ++balancings_;
+  if (size_ == 1) return;
+  int axes = 0;
+  double low[3], high[3];
+  check(Zoltan_RCB_Box(zoltan, rank_, &axes, &low[0], &low[1], &low[2], &high[0], &high[1], &high[2]),
+        "a part without a box");
+  part_ = {{low[0], low[1]}, {high[0], high[1]}};
 }
 
 int ZoltanRanks::owner_of(const Vec& x) const {
   if (size_ == 1) return 0;  // Zoltan keeps no cuts for one
+  if (((x - part_.min).array() > 0).all() && ((part_.max - x).array() > 0).all()) return rank_;
   double point[3] = {x[0], x[1], 0};
   int owner = 0, part = 0;
   check(Zoltan_LB_Point_PP_Assign(zoltan_.get(), point, &owner, &part), "a place without an owner");
   return owner;
 }
 
-std::vector<std::size_t> ZoltanRanks::ranks_near(const Vec& x, double depth,
-                                                 const std::vector<Vec>& shifts) const {
-  if (size_ == 1) return {0};
-  std::vector<std::size_t> found;
-  std::vector<int> near(static_cast<std::size_t>(size_)), parts(near);
-  for (const Vec& shift : shifts) {
-    const Vec low = x + shift - Vec::Constant(depth), high = x + shift + Vec::Constant(depth);
-    int count = 0, part_count = 0;
-    check(Zoltan_LB_Box_PP_Assign(zoltan_.get(), low[0], low[1], 0, high[0], high[1], 0, near.data(), &count,
-                                  parts.data(), &part_count),
-          "a place without ranks near it");
-    for (int k = 0; k < count; ++k)
-      found.push_back(static_cast<std::size_t>(near[static_cast<std::size_t>(k)]));
+/// A box around the particles of each rank; an empty one where there are none.
+std::vector<Box> ZoltanRanks::boxes_of_parts(const Particles& fluid) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box own{Vec::Constant(infinity), Vec::Constant(-infinity)};
+  for (const auto i : own_) {
+    own.min = own.min.cwiseMin(at(fluid.x, i));
+    own.max = own.max.cwiseMax(at(fluid.x, i));
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  const std::array<double, 2 * dim> here{own.min[0], own.min[1], own.max[0], own.max[1]};
+  std::vector<double> all(here.size() * static_cast<std::size_t>(size_));
+  MPI_Allgather(here.data(), 2 * dim, MPI_DOUBLE, all.data(), 2 * dim, MPI_DOUBLE, communicator_);
+  std::vector<Box> boxes;
+  for (std::size_t k = 0; k < all.size(); k += here.size())
+    boxes.push_back({{all[k], all[k + 1]}, {all[k + 2], all[k + 3]}});
+  return boxes;
+}
+
+/// Own particles that others have as ghosts, by rank: those nearer than `depth` to its part, or with an image
+/// there.
+std::vector<std::vector<std::uint32_t>> ZoltanRanks::ghosts_of_others(const Particles& fluid, double depth,
+                                                                      const std::vector<Vec>& shifts) const {
+  const std::vector<Box> boxes = boxes_of_parts(fluid);
+  const Box& own = boxes[static_cast<std::size_t>(rank_)];
+  struct Near {
+    std::size_t rank;
+    Box box;  ///< in which particles are ghosts there
+  };
+  std::vector<Near> nears;
+  for (std::size_t r = 0; r < boxes.size(); ++r)
+    for (const Vec& shift : shifts) {
+      const Box box{boxes[r].min - shift - Vec::Constant(depth), boxes[r].max - shift + Vec::Constant(depth)};
+      const bool meet = ((box.max - own.min).array() >= 0).all() && ((own.max - box.min).array() >= 0).all();
+      if (meet && r != static_cast<std::size_t>(rank_)) nears.push_back({r, box});
+    }
+  std::vector<std::vector<std::uint32_t>> found(boxes.size());
+  for (const auto i : own_) {
+    const Vec x = at(fluid.x, i);
+    for (const auto& [rank, box] : nears)
+      if (((x - box.min).array() >= 0).all() && ((box.max - x).array() >= 0).all())
+        if (found[rank].empty() || found[rank].back() != i) found[rank].push_back(i);
+  }
   return found;
+}
+
+/// Sends particles at `places`, by rank, and has what comes join the own ones that are `kept`.
+Joined ZoltanRanks::exchange(Particles& fluid, VecField* beside, const std::vector<std::uint32_t>& kept,
+                             const std::vector<std::vector<std::uint32_t>>& places) {
+  std::vector<std::vector<double>> messages;
+  for (const auto& of_rank : places)
+    messages.push_back(packed_particles(fluid, beside, of_rank, place_in_whole_));
+  return join(fluid, beside, kept, all_to_all(messages, communicator_), place_in_whole_);
+}
+
+void ZoltanRanks::begin(const Particles& fluid, const std::vector<Boundary>& boundaries) {
+  own_.resize(rank_ == 0 ? fluid.count : 0);
+  std::iota(own_.begin(), own_.end(), 0u);
+  place_in_whole_.resize(fluid.count);
+  std::iota(place_in_whole_.begin(), place_in_whole_.end(), 0u);
+  note_own(fluid);
+  beside_walls_ = BesideWalls(communicator_, fluid, boundaries, {}, {});
+  at_walls_.assign(boundaries.size(), Gatherer(communicator_, {}, {}));
 }
 
 void ZoltanRanks::divide(Particles& fluid, double depth, const std::vector<Vec>& shifts, VecField* beside) {
   const auto ranks = static_cast<std::size_t>(size_);
-  if (!divided_) {  // any share of the whole will do to find cuts
-    own_.clear();
-    for (std::size_t i = static_cast<std::size_t>(rank_); i < fluid.count; i += ranks)
-      own_.push_back(static_cast<std::uint32_t>(i));
-    place_in_whole_.resize(fluid.count);
-    std::iota(place_in_whole_.begin(), place_in_whole_.end(), 0u);
-  }
   if (balancings_ == 0 || !is_balanced()) balance(fluid);
-  std::vector<std::vector<std::uint32_t>> there(ranks);
-  std::vector<std::vector<int>> owners(ranks);
-  for (const auto i : own_) {
-    const Vec x = at(fluid.x, i);
-    const int owner = owner_of(x);
-    for (const std::size_t r : ranks_near(x, depth, shifts)) {
-      there[r].push_back(i);
-      owners[r].push_back(owner);
-    }
+  std::vector<std::vector<std::uint32_t>> leaving(ranks);
+  std::vector<std::uint32_t> kept;
+  for (const auto i : own_)
+    if (const int owner = owner_of(at(fluid.x, i)); owner == rank_)
+      kept.push_back(i);
+    else
+      leaving[static_cast<std::size_t>(owner)].push_back(i);
+  if (largest(static_cast<double>(own_.size() - kept.size())) > 0) {
+    exchange(fluid, beside, kept, leaving);
+    own_.resize(fluid.count);
+    std::iota(own_.begin(), own_.end(), 0u);
   }
-  std::vector<std::vector<double>> messages(ranks);
-  for (std::size_t r = 0; r < ranks; ++r)
-    if (!there[r].empty()) pack(fluid, beside, there[r], owners[r], place_in_whole_, messages[r]);
-  unpack(all_to_all(messages, communicator_), fluid, beside, owners_, place_in_whole_);
-  held_ = fluid.id;
-  divided_ = true;
+  ghosts_there_ = ghosts_of_others(fluid, depth, shifts);
+  const std::vector<std::uint32_t> before = own_;
+  Joined joined = exchange(fluid, beside, before, ghosts_there_);
+  for (auto& of_rank : ghosts_there_)
+    for (auto& i : of_rank)
+      i = joined.kept[static_cast<std::size_t>(std::lower_bound(before.begin(), before.end(), i) -
+                                               before.begin())];
+  own_ = std::move(joined.kept);
+  ghosts_here_ = std::move(joined.received);
 }
 
-void ZoltanRanks::find(const Particles& fluid) {
-  const auto ranks = static_cast<std::size_t>(size_);
-  std::unordered_map<std::uint32_t, std::uint32_t> place_of;  // by number
-  for (std::size_t i = 0; i < fluid.count; ++i) place_of[fluid.id[i]] = static_cast<std::uint32_t>(i);
-  std::vector<std::vector<std::uint32_t>> wanted(ranks);  // numbers, by owner
-  std::vector<std::uint32_t> places_before(fluid.count);
-  own_.clear();
-  ghosts_here_.assign(ranks, {});
-  for (std::size_t k = 0; k < fluid.count; ++k) {
-    const std::uint32_t i = place_of.at(held_[k]);
-    places_before[i] = place_in_whole_[k];
-    if (owners_[k] == rank_) {
-      own_.push_back(i);
-      continue;
-    }
-    wanted[static_cast<std::size_t>(owners_[k])].push_back(held_[k]);
-    ghosts_here_[static_cast<std::size_t>(owners_[k])].push_back(i);
+void ZoltanRanks::follow(const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> now(order.size()), places(order.size());
+  for (std::uint32_t k = 0; k < order.size(); ++k) {
+    now[order[k]] = k;
+    places[k] = place_in_whole_[order[k]];
   }
-  place_in_whole_ = std::move(places_before);
-  ghosts_there_ = all_to_all(wanted, communicator_);
-  for (auto& numbers : ghosts_there_)
-    for (auto& number : numbers) number = place_of.at(number);
-}
-
-/// Finds the places in the whole fluid, as it is sorted now: each rank sorts the particles of some strips.
-void ZoltanRanks::number(const Particles& fluid, const StripOrder& strips) {
-  const auto ranks = static_cast<std::size_t>(size_);
-  double first = std::numeric_limits<double>::infinity(), last = -first;
-  const auto strip_of = [&](std::uint32_t i) {
-    return static_cast<double>(strips.place(fluid.x[0][i], fluid.x[1][i]).first);
-  };
-  for (const auto i : own_) first = std::min(first, strip_of(i)), last = std::max(last, strip_of(i));
-  first = -largest(-first), last = largest(last);
-  using Key = std::array<double, 3>;  // strip, along it, place before
-  std::vector<std::vector<double>> keys(ranks);
-  std::vector<std::vector<std::uint32_t>> asked(ranks);
-  for (const auto i : own_) {
-    const auto r = static_cast<std::size_t>((strip_of(i) - first) * size_ / (last - first + 1));
-    const double along = strips.place(fluid.x[0][i], fluid.x[1][i]).second;
-    keys[r].insert(keys[r].end(), {strip_of(i), along, static_cast<double>(place_in_whole_[i])});
-    asked[r].push_back(i);
-  }
-  const auto received = all_to_all(keys, communicator_);
-  std::vector<std::pair<Key, std::uint32_t*>> order;
-  std::vector<std::vector<std::uint32_t>> answers(ranks);
-  for (std::size_t r = 0; r < ranks; ++r) {
-    answers[r].resize(received[r].size() / 3);
-    for (std::size_t k = 0; k < answers[r].size(); ++k)
-      order.push_back({{received[r][3 * k], received[r][3 * k + 1], received[r][3 * k + 2]}, &answers[r][k]});
-  }
-  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  const auto count = static_cast<std::uint32_t>(order.size());
-  std::uint32_t before = 0;  // on lower ranks
-  MPI_Exscan(&count, &before, 1, MPI_UINT32_T, MPI_SUM, communicator_);
-  if (rank_ == 0) before = 0;  // MPI leaves it undefined there
-  for (const auto& [key, answer] : order) *answer = before++;
-  const auto places = all_to_all(answers, communicator_);
-  for (std::size_t r = 0; r < ranks; ++r)
-    for (std::size_t k = 0; k < places[r].size(); ++k) place_in_whole_[asked[r][k]] = places[r][k];
+  place_in_whole_ = std::move(places);
+  for (auto& i : own_) i = now[i];
+  std::sort(own_.begin(), own_.end());
+  for (auto* ghosts : {&ghosts_there_, &ghosts_here_})
+    for (auto& of_rank : *ghosts)
+      for (auto& i : of_rank) i = now[i];
 }
 
 void ZoltanRanks::share(const std::vector<Field*>& fields) const {
@@ -342,20 +279,47 @@ Renewal ZoltanRanks::renewal(const std::vector<std::uint32_t>& near) const {
   return found;
 }
 
-void ZoltanRanks::note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries,
+Swept ZoltanRanks::swept_by(const ClusterList& neighbours) const {
+  enum Kind : char { far, seen, own };
+  std::vector<Kind> kinds(neighbours.clusters(), far);
+  for (const auto i : own_) kinds[i / lane_count] = own;
+  for (std::size_t c = 0; c < kinds.size(); ++c)
+    if (kinds[c] == own)
+      for (const ShiftedNeighbours& near : neighbours.near(c))
+        for (const auto j : near.sources)
+          if (Kind& kind = kinds[j / lane_count]; kind == far) kind = seen;
+  Swept found;
+  for (std::uint32_t c = 0; c < kinds.size(); ++c) {
+    if (kinds[c] == own) found.own.push_back(c);
+    if (kinds[c] != far) found.near.push_back(c);
+  }
+  return found;
+}
+
+void ZoltanRanks::note_lists(const Particles& fluid, const ClusterList& neighbours,
+                             const std::vector<Boundary>& boundaries,
                              const std::vector<std::uint32_t>& near_interface) {
-  std::vector<std::uint32_t> places;
-  for (const auto i : own_) places.push_back(place_in_whole_[i]);
-  whole_ = Gatherer(communicator_, own_, places);
-  masses_.assign(padded(whole_.places().size()), 0.0);
-  whole_.gather({&fluid.m}, {&masses_});
+  note_own(fluid);
   beside_walls_ = BesideWalls(communicator_, fluid, boundaries, own_, place_in_whole_);
+  swept_ = swept_by(neighbours);
   renewal_ = renewal(near_interface);
   at_walls_.clear();
   for (const Boundary& boundary : boundaries) {
     const auto own = own_of(boundary);
     at_walls_.emplace_back(communicator_, own, own);
   }
+}
+
+/// Who brings which particles to rank 0.
+void ZoltanRanks::note_own(const Particles& fluid) {
+  std::vector<std::uint32_t> places;
+  places.reserve(own_.size());
+  for (const auto i : own_) places.push_back(place_in_whole_[i]);
+  whole_ = Gatherer(communicator_, own_, places);
+  size_of_whole_ = padded(whole_.places().size());
+  Field masses(size_of_whole_, 0.0);
+  whole_.gather({&fluid.m}, {&masses});
+  mass_ = std::reduce(masses.begin(), masses.end());
 }
 
 }  // namespace toryu::fluid

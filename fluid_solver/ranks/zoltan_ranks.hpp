@@ -7,25 +7,27 @@
 
 #include <memory>
 
+#include "common/scene/box.hpp"
 #include "fluid_solver/ranks/beside_walls.hpp"
+#include "fluid_solver/ranks/carrying.hpp"
+#include "fluid_solver/ranks/numbering.hpp"
 #include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
 /// Who is where since lists of neighbours were built last.
 struct Division {
-  bool divided_ = false;                  ///< else every rank has all of the fluid
-  std::vector<std::uint32_t> held_ = {};  ///< numbers of the particles as `divide` leaves them
-  std::vector<int> owners_ = {};          ///< of these
   /// By place: the place in the whole fluid. Sorting keeps the order of ties, so it must be known.
   std::vector<std::uint32_t> place_in_whole_ = {};
   std::vector<std::uint32_t> own_ = {};  ///< places of the own particles
   /// Places, by rank: of own particles of which it has ghosts, and of ghosts that it owns.
   std::vector<std::vector<std::uint32_t>> ghosts_there_ = {}, ghosts_here_ = {};
   Gatherer whole_ = {};  ///< of the own particles
-  Field masses_ = {};    ///< of the whole fluid, on rank 0 [kg/m]
+  std::size_t size_of_whole_ = 0;
+  double mass_ = 0;  ///< of the whole fluid [kg/m]
   BesideWalls beside_walls_ = {};
   Renewal renewal_ = {};
+  Swept swept_ = {};
   std::vector<Gatherer> at_walls_ = {};  ///< by boundary: of its particles
 };
 
@@ -35,17 +37,22 @@ class ZoltanRanks final : public Ranks, private Division {
 
   double largest(double value) const override;
   double largest(const Field& values) const override;
-  bool divided() const override { return divided_; }
+  void begin(const Particles& fluid, const std::vector<Boundary>& boundaries) override;
   void divide(Particles& fluid, double depth, const std::vector<Vec>& shifts, VecField* beside) override;
-  void find(const Particles& fluid) override;
-  void number(const Particles& fluid, const StripOrder& strips) override;
-  void note_lists(const Particles& fluid, const std::vector<Boundary>& boundaries,
+  void follow(const std::vector<std::uint32_t>& order) override;
+  void number(const Particles& fluid, const StripOrder& strips) override {
+    fluid::number(communicator_, fluid, strips, own_, place_in_whole_);
+  }
+  void note_lists(const Particles& fluid, const ClusterList& neighbours,
+                  const std::vector<Boundary>& boundaries,
                   const std::vector<std::uint32_t>& near_interface) override;
   const Renewal& beside_interface() const override { return renewal_; }
+  const Swept& swept() const override { return swept_; }
   void save() override { saved_ = *this; }
   void restore() override { static_cast<Division&>(*this) = saved_; }
   void share(const std::vector<Field*>& fields) const override;
-  const Field& masses() const override { return masses_; }
+  std::size_t size_of_whole() const override { return size_of_whole_; }
+  double mass() const override { return mass_; }
   void collect_forces(std::vector<Boundary>& boundaries) const override {
     beside_walls_.collect_forces(boundaries);
   }
@@ -72,17 +79,23 @@ class ZoltanRanks final : public Ranks, private Division {
     void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
   };
   int owner_of(const Vec& x) const;
-  /// Ranks whose parts are nearer than `depth` [m] to `x`, or to an image of it.
-  std::vector<std::size_t> ranks_near(const Vec& x, double depth, const std::vector<Vec>& shifts) const;
+  std::vector<Box> boxes_of_parts(const Particles& fluid) const;
+  std::vector<std::vector<std::uint32_t>> ghosts_of_others(const Particles& fluid, double depth,
+                                                           const std::vector<Vec>& shifts) const;
+  Joined exchange(Particles& fluid, VecField* beside, const std::vector<std::uint32_t>& kept,
+                  const std::vector<std::vector<std::uint32_t>>& places);
   void balance(const Particles& fluid);
   bool is_balanced() const;
+  void note_own(const Particles& fluid);
   Renewal renewal(const std::vector<std::uint32_t>& near) const;
+  Swept swept_by(const ClusterList& neighbours) const;
   std::vector<std::uint32_t> own_of(const Boundary& boundary) const;
 
   MPI_Comm communicator_;
   int rank_ = 0, size_ = 1;
   std::unique_ptr<Zoltan_Struct, Destroy> zoltan_;
   long balancings_ = 0;
+  Box part_ = {};  ///< inside which this rank owns all places [m]
   Division saved_ = {};
 };
 

@@ -94,11 +94,15 @@ void Dynamics::wall_densities(Boundary& boundary) const {
     }
 }
 
-void Dynamics::density_gradients(Particles& fluid, const ClusterList& neighbours) const {
+void Dynamics::density_gradients(Particles& fluid, const ClusterList& neighbours,
+                                 const std::vector<std::uint32_t>* some) const {
+  const std::size_t count = some ? some->size() : fluid.clusters();
   medium_.kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 8)
-    for (std::size_t c = 0; c < fluid.clusters(); ++c)
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t c = some ? (*some)[k] : k;
       store(density_gradient(fluid, W, c * lane_count, neighbours.near(c)), fluid.grad_rho, c * lane_count);
+    }
   });
 }
 
@@ -154,7 +158,8 @@ void Dynamics::log_conformation_rates(Particles& fluid, const ClusterList& neigh
 }
 
 void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                        std::vector<Boundary>& boundaries, Timers& timers) const {
+                        std::vector<Boundary>& boundaries, Timers& timers, const Swept* swept) const {
+  const auto* own = swept ? &swept->own : nullptr;
   const bool density = wanted != RatesOf::velocity, velocity = wanted != RatesOf::density;
   for (auto& boundary : boundaries) boundary.force_on_fluid.make_room(fluid.clusters());
   if (viscosity_varies())
@@ -185,7 +190,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
           if (axisymmetric()) once([&] { mirror_extrapolated(boundary); });
         }
       if (density && renormalised_diffusion()) {
-        density_gradients(fluid, neighbours);
+        density_gradients(fluid, neighbours, swept ? &swept->near : nullptr);
         if (axisymmetric()) once([&] { mirror(fluid.grad_rho); });
       }
     }
@@ -204,13 +209,14 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
     }
   }
   const auto timer = timers.measure("rates");
-  medium_.kernel.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries); });
+  medium_.kernel.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries, own); });
   if (parameters_.consistent_gradients)
     make_gradients_consistent(wanted, viscosity_varies() ? 0.0 : viscosity_at_rest(), fluid, neighbours,
                               medium_.kernel);
   if (velocity)
-    medium_.kernel.visit(
-        [&](const auto& W) { add_further_forces(W, parameters_, medium_, fluid, neighbours, boundaries); });
+    medium_.kernel.visit([&](const auto& W) {
+      add_further_forces(W, parameters_, medium_, fluid, neighbours, boundaries, own);
+    });
   if (velocity && friction_) brake_by_friction(fluid, boundaries);
 }
 
@@ -230,11 +236,13 @@ void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& bounda
     }
 }
 
-double Dynamics::moment_beside_pairs(const Particles& fluid, const Boundary& wall) const {
+double Dynamics::moment_beside_pairs(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                                     std::size_t b, const Ranks* ranks) const {
+  const Boundary& wall = boundaries[b];
   const auto& viscosity = parameters_.laminar_viscosity;
   if (!viscosity || !viscous_walls()) return 0;
   return viscosity->dynamic_viscosity * wall.angular_velocity *
-         wetted_surface_moment(wall, fluid, medium_.kernel);
+         wetted_surface_moment(wall, fluid, medium_.kernel, b, ranks);
 }
 
 double Dynamics::pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const {

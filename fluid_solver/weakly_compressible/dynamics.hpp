@@ -10,6 +10,7 @@
 #include "common/run/timers.hpp"
 #include "fluid_solver/energy_balance.hpp"
 #include "fluid_solver/parameters.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 #include "fluid_solver/terms/rheology.hpp"
 #include "fluid_solver/weakly_compressible/friction.hpp"
@@ -26,9 +27,10 @@ class Dynamics {
   void allocate(Particles& fluid) const;
 
   /// Fills p, V, the boundaries' extrapolated values and the wanted rates a, drho of `fluid` from its state,
-  /// and what each boundary did to the fluid where the velocity's rate is wanted.
+  /// and what each boundary did to the fluid where the velocity's rate is wanted. Of a part of a fluid the
+  /// rates of what is `swept` alone.
   void evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                std::vector<Boundary>& boundaries, Timers& timers) const;
+                std::vector<Boundary>& boundaries, Timers& timers, const Swept* swept = nullptr) const;
 
   /// Finds drho anew for `clusters` of the fluid, after velocities have changed beside the interface. The
   /// rest of the last evaluation of drho must stand.
@@ -43,13 +45,15 @@ class Dynamics {
 
   /// Of a medium that is held at a mean pressure: what contact adds to p [Pa].
   double pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const;
-  /// Of a wall that turns: the moment on the fluid that the pair forces of a laminar viscosity leave out
+  /// Of wall `b`, which turns: the moment on the fluid that the pair forces of a laminar viscosity leave out
   /// (wall_turning.hpp). It gives the fluid as much as its viscosity takes in addition [N.m per metre depth].
-  double moment_beside_pairs(const Particles& fluid, const Boundary& wall) const;
+  double moment_beside_pairs(const Particles& fluid, const std::vector<Boundary>& boundaries, std::size_t b,
+                             const Ranks* ranks) const;
   /// What each term of the case takes from the fluid's energy, with the fields of the last evaluation;
-  /// nothing before the first step.
+  /// nothing before the first step. Of a part of a fluid over `ranks`, on rank 0, what they take from the
+  /// whole.
   std::vector<Power> powers(const Particles& fluid, const ClusterList& neighbours,
-                            const std::vector<Boundary>& boundaries) const;
+                            const std::vector<Boundary>& boundaries, const Ranks* ranks = nullptr) const;
 
   /// From now on [m/s2].
   void set_gravity(const Vec& gravity) { body_force_.gravity = gravity; }
@@ -68,7 +72,8 @@ class Dynamics {
  private:
   void pressures(Particles& fluid) const;
   void wall_densities(Boundary& boundary) const;
-  void density_gradients(Particles& fluid, const ClusterList& neighbours) const;
+  void density_gradients(Particles& fluid, const ClusterList& neighbours,
+                         const std::vector<std::uint32_t>* some) const;
   void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
   void polymer_stresses(Particles& fluid, std::vector<Boundary>& boundaries) const;
   void log_conformation_rates(Particles& fluid, const ClusterList& neighbours,

@@ -67,22 +67,25 @@ void add_to_cluster(const W& kernel, const Force& of_all, Particles& fluid, cons
       over_pairs(kernel, boundary.list_for_fluid.near(cluster), i, wall,
                  [&](std::size_t j, const Pair& pair)
                      TORYU_INLINE_LAMBDA { force.at_wall(i, wall, j, pair, by_wall); });
-      boundary.force_on_fluid.by_cluster[cluster] += lane_sums(load(fluid.m, first), by_wall.a);
+      boundary.force_on_fluid.add(cluster, load(fluid.m, first), by_wall.a);
       for (int a = 0; a < dim; ++a) rates.a[a] += by_wall.a[a];
     }
   for (int a = 0; a < dim; ++a) store(load(fluid.a[a], first) + rates.a[a], fluid.a[a], first);
 }
 
-/// Adds all of them to the accelerations of `fluid`, and to what each boundary did to it.
+/// Adds all of them to the accelerations of `fluid`, and to what each boundary did to it; with `some`, of
+/// these clusters.
 template <class W>
 void add_further_forces(const W& kernel, const OptionalTerms& terms, const Medium& medium, Particles& fluid,
-                        const ClusterList& neighbours, std::vector<Boundary>& boundaries) {
+                        const ClusterList& neighbours, std::vector<Boundary>& boundaries,
+                        const std::vector<std::uint32_t>* some) {
+  const std::size_t count = some ? some->size() : fluid.clusters();
   for_each_further_force(terms, medium, [&](auto& force) {
     if constexpr (requires { force.prepare(kernel, fluid, neighbours, boundaries); })
       force.prepare(kernel, fluid, neighbours, boundaries);
 #pragma omp parallel for schedule(dynamic, 8)
-    for (std::size_t c = 0; c < fluid.clusters(); ++c)
-      add_to_cluster(kernel, force, fluid, neighbours, boundaries, c);
+    for (std::size_t k = 0; k < count; ++k)
+      add_to_cluster(kernel, force, fluid, neighbours, boundaries, some ? (*some)[k] : k);
   });
 }
 

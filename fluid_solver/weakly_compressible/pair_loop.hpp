@@ -47,12 +47,6 @@ inline Targets load_targets(const Boundary& b, std::size_t first) {
           load_if_there(b.polymer_stress, first)};
 }
 
-inline Vec lane_sums(const Lanes& m, const VecLanes& v) {
-  Vec sum;
-  for (int a = 0; a < dim; ++a) sum[a] = sum_of(m * v[a]);
-  return sum;
-}
-
 /// [a][b]: dv_b/dx_a of a cluster of the fluid [1/s], from it and, where walls stick, from them.
 template <class W>
 TensorLanes velocity_gradient(const W& kernel, const Particles& fluid, const ClusterList& neighbours,

@@ -53,14 +53,6 @@ inline constexpr bool of_velocity = wanted != RatesOf::density;
 template <RatesOf wanted>
 inline constexpr bool of_density = wanted != RatesOf::velocity;
 
-/// Notes what a boundary does to a cluster of masses `m`, by its accelerations.
-inline void note(ForceOnFluid& force, std::size_t cluster, const Lanes& m, const VecLanes& by_wall) {
-  if (force.of_part)
-    store(by_wall, force.by_particle, cluster * lane_count);
-  else
-    force.by_cluster[cluster] = lane_sums(m, by_wall);
-}
-
 /// The rates of one cluster of `fluid` by `terms`.
 template <RatesOf wanted, class W, class... Terms>
 void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& fluid,
@@ -102,7 +94,7 @@ void rates_of_cluster(const PairSweeps& sweeps, const W& kernel, Particles& flui
       }
     });
     if constexpr (of_velocity<wanted>)
-      note(boundaries[b].force_on_fluid, cluster, load(fluid.m, first), rates.a);
+      boundaries[b].force_on_fluid.set(cluster, load(fluid.m, first), rates.a);
     for (int a = 0; a < dim; ++a) rates.a[a] += others[a];
   }
   if constexpr (of_density<wanted>) store(i.rho * rates.compression + rates.diffusion, fluid.drho, first);

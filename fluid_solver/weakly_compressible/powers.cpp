@@ -1,7 +1,7 @@
 /// What each term takes from the energy of the fluid, see energy_balance.hpp. A term is summed in a loop of
 /// its own: the loops by which the fluid advances carry nothing of it.
 
-#include <numeric>
+#include <utility>
 
 #include "fluid_solver/terms/axisymmetry.hpp"
 #include "fluid_solver/terms/continuity.hpp"
@@ -19,15 +19,33 @@ struct Bodies {
   const ClusterList& neighbours;
   const std::vector<Boundary>& boundaries;
   bool axisymmetric;
+  const Ranks* ranks;
 };
 
-/// Sums what `of_cluster(c)` gives, in the same order whatever the threads.
+/// Calls of_cluster(c) for each cluster whose particles count.
 template <class OfCluster>
-double sum_over_clusters(const Particles& fluid, OfCluster&& of_cluster) {
-  std::vector<double> sums(fluid.clusters());
+void for_each_cluster(const Bodies& bodies, OfCluster&& of_cluster) {
+  const auto* some = bodies.ranks ? &bodies.ranks->swept().own : nullptr;
+  const std::size_t count = some ? some->size() : bodies.fluid.clusters();
 #pragma omp parallel for schedule(dynamic, 8)
-  for (std::size_t c = 0; c < sums.size(); ++c) sums[c] = of_cluster(c);
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
+  for (std::size_t k = 0; k < count; ++k) of_cluster(some ? (*some)[k] : k);
+}
+
+/// Values of the particles as those of the whole fluid.
+Field of_whole(const Bodies& bodies, Field values) {
+  return bodies.ranks ? bodies.ranks->of_whole(values) : std::move(values);
+}
+
+/// Sums what `of_cluster(c)` gives for the particles of a cluster, cluster by cluster of the whole fluid:
+/// in the same order whatever the threads and ranks.
+template <class OfCluster>
+double sum_over_clusters(const Bodies& bodies, OfCluster&& of_cluster) {
+  Field values(padded(bodies.fluid.count));
+  for_each_cluster(bodies, [&](std::size_t c) { store(of_cluster(c), values, c * lane_count); });
+  values = of_whole(bodies, std::move(values));
+  double sum = 0;
+  for (std::size_t first = 0; first < values.size(); first += lane_count) sum += sum_of(load(values, first));
+  return sum;
 }
 
 /// - sum F_ij . v_ij over the pairs of the fluid and those with its boundaries. About an axis the two of a
@@ -38,7 +56,7 @@ double power_of_pairs(const W& kernel, const Bodies& bodies, Between&& between) 
   const Particles& fluid = bodies.fluid;  // a name that lambdas may capture
   const Sources own = sources(fluid);
   const bool axisymmetric = bodies.axisymmetric;
-  return sum_over_clusters(fluid, [&](std::size_t c) {
+  return sum_over_clusters(bodies, [&](std::size_t c) {
     const auto force = between(c);
     const Targets i = load_targets(fluid, c * lane_count);
     Lanes of_fluid = 0.0, of_walls = 0.0;
@@ -62,7 +80,7 @@ double power_of_pairs(const W& kernel, const Bodies& bodies, Between&& between) 
                    });
       }
     // each pair of the fluid is met from both sides
-    return -sum_of(load(fluid.m, c * lane_count) * (0.5 * of_fluid + of_walls));
+    return -(load(fluid.m, c * lane_count) * (0.5 * of_fluid + of_walls));
   });
 }
 
@@ -87,18 +105,25 @@ double power_of_diffusion(const W& kernel, const Bodies& bodies, const EquationO
                           const Term& term) {
   const Particles& fluid = bodies.fluid;
   const Sources own = sources(fluid);
-  return sum_over_clusters(fluid, [&](std::size_t c) {
+  Field p_rho(padded(fluid.count)), diffusion(padded(fluid.count));  // m p/rho^2; D
+  for_each_cluster(bodies, [&](std::size_t c) {
     const Targets i = load_targets(fluid, c * lane_count);
     Rates rates;
     over_pairs<PairsOf::fluid>(kernel, bodies.neighbours.near(c), i, own,
                                [&](std::uint32_t j, const Pair& pair)
                                    TORYU_INLINE_LAMBDA { term.diffusion(i, own, j, pair, rates); });
-    double sum = 0;
+    store(rates.diffusion, diffusion, c * lane_count);
     for (std::size_t k = c * lane_count; k < std::min((c + 1) * lane_count, fluid.count); ++k)
-      sum -= fluid.m[k] * state.pressure(fluid.rho[k]) / (fluid.rho[k] * fluid.rho[k]) *
-             rates.diffusion[k - c * lane_count];
-    return sum;
+      p_rho[k] = fluid.m[k] * state.pressure(fluid.rho[k]) / (fluid.rho[k] * fluid.rho[k]);
   });
+  p_rho = of_whole(bodies, std::move(p_rho)), diffusion = of_whole(bodies, std::move(diffusion));
+  double sum = 0;
+  for (std::size_t first = 0; first < p_rho.size(); first += lane_count) {
+    double of_cluster = 0;
+    for (std::size_t k = first; k < first + lane_count; ++k) of_cluster -= p_rho[k] * diffusion[k];
+    sum += of_cluster;
+  }
+  return sum;
 }
 
 /// What is lost where the fluid meets walls: sum_w F_iw . v_iw by pressure, less what density gains there.
@@ -106,7 +131,7 @@ template <class W, class PressureTerm, class ContinuityTerm>
 double power_of_walls(const W& kernel, const Bodies& bodies, const PressureTerm& pressure,
                       const ContinuityTerm& continuity) {
   const Particles& fluid = bodies.fluid;
-  return sum_over_clusters(fluid, [&](std::size_t c) {
+  return sum_over_clusters(bodies, [&](std::size_t c) {
     const Targets i = load_targets(fluid, c * lane_count);
     Lanes of_pressure = 0.0;
     Rates density;
@@ -121,7 +146,7 @@ double power_of_walls(const W& kernel, const Bodies& bodies, const PressureTerm&
                    continuity.density_at_wall(i, wall, j, pair, density);
                  });
     }
-    return -sum_of(load(fluid.m, c * lane_count) * (of_pressure + i.p_rho2 * i.rho * density.compression));
+    return -(load(fluid.m, c * lane_count) * (of_pressure + i.p_rho2 * i.rho * density.compression));
   });
 }
 
@@ -138,7 +163,7 @@ double power_of_pressure(const W& kernel, const Bodies& bodies, const PressureTe
   const Particles& fluid = bodies.fluid;
   const Sources own = sources(fluid);
   const bool axisymmetric = bodies.axisymmetric;
-  return sum_over_clusters(fluid, [&](std::size_t c) {
+  return sum_over_clusters(bodies, [&](std::size_t c) {
     const Targets i = load_targets(fluid, c * lane_count);
     const Lanes m = load(fluid.m, c * lane_count);
     Lanes rho = m * inverse(max(load(fluid.V, c * lane_count), 1e-300));
@@ -153,7 +178,7 @@ double power_of_pressure(const W& kernel, const Bodies& bodies, const PressureTe
                                  of_pressure += dot(rates.a, axisymmetric ? product(2.0, i.v) : pair.v_ij);
                                  continuity.density(i, own, j, pair, density);
                                });
-    return -sum_of(m * (0.5 * of_pressure + i.p_rho2 * rho * density.compression));
+    return -(m * (0.5 * of_pressure + i.p_rho2 * rho * density.compression));
   });
 }
 
@@ -163,8 +188,8 @@ constexpr bool is_there = !std::is_same_v<Term, Absent>;
 }  // namespace
 
 std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& neighbours,
-                                    const std::vector<Boundary>& boundaries) const {
-  const Bodies bodies{fluid, neighbours, boundaries, axisymmetric()};
+                                    const std::vector<Boundary>& boundaries, const Ranks* ranks) const {
+  const Bodies bodies{fluid, neighbours, boundaries, axisymmetric(), ranks};
   const bool known = neighbours.clusters() > 0;  // before the first step nobody knows who is near
   std::vector<Power> found;
   const auto note = [&](const char* term, Taken taken, auto&& power) {
@@ -201,9 +226,9 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
       terms_.diffusion);
   note_viscous(ArtificialViscosity::section, terms_.artificial);
   note_viscous("viscosity", terms_.viscous);
-  for (const Boundary& boundary : boundaries)
-    if (known && parameters_.laminar_viscosity && boundary.turns())
-      found.back().value += boundary.angular_velocity * moment_beside_pairs(fluid, boundary);
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+    if (known && parameters_.laminar_viscosity && boundaries[b].turns())
+      found.back().value += boundaries[b].angular_velocity * moment_beside_pairs(fluid, boundaries, b, ranks);
   if (friction_)
     note(Friction::section, Taken::dissipated, [&](const auto&) {
       return friction_->power(fluid, pressure_offset(fluid, boundaries), boundaries);

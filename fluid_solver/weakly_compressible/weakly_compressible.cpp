@@ -105,6 +105,14 @@ void add(Field& field, double dt, const Field& rate, std::size_t clusters) {
   for (std::size_t c = 0; c < clusters; ++c)
     store(load(field, c * lane_count) + dt * load(rate, c * lane_count), field, c * lane_count);
 }
+/// Calls visit(component) for each field of the particles that an evaluation finds.
+template <class Visit>
+void for_each_found(Particles& f, Visit&& visit) {
+  const auto walk = [&](auto&... field) { (for_each_component(field, visit), ...); };
+  walk(f.V, f.p, f.p_rho2, f.grad_rho, f.gdot, f.eta, f.eta_grad_v, f.log_conformation_rate, f.polymer_stress,
+       f.a, f.drho);
+}
+
 void add_to_log_conformation(Particles& fluid, double dt) {
   for_each_log_conformation(
       fluid, [&](Field& psi, const Field& rate, std::size_t) { add(psi, dt, rate, fluid.clusters()); });
@@ -112,8 +120,8 @@ void add_to_log_conformation(Particles& fluid, double dt) {
 
 }  // namespace
 
-WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene& scene)
-    : FluidModel(parameters, scene),
+WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene& scene, Filled filled)
+    : FluidModel(parameters, scene, filled),
       dynamics_(parameters, scene.gravity_at(0), kernel_, equation_of_state_, scene.geometry) {
   dynamics_.allocate(state_.fluid);
   if (parameters.particle_shifting)
@@ -132,16 +140,22 @@ std::string_view WeaklyCompressible::time_step_rule() const {
   return smallest_limit(parameters_, dynamics_.medium(), state_.largest, scene_.geometry).rule;
 }
 
-std::vector<Power> WeaklyCompressible::powers() const {
+std::vector<Power> WeaklyCompressible::powers() {
   const ClusterList& neighbours = state_.neighbours.of_fluid();
   if (neighbours.clusters() == 0) return dynamics_.powers(state_.fluid, neighbours, state_.boundaries);
   // Pressures of the last evaluation are half a step older than the velocities. Where both swing, as sound
   // does, their product would be wrong by the step, always to the same side.
-  Particles fluid = state_.fluid;
+  Particles& fluid = state_.fluid;
+  start_ = {};              // its memory is needed
+  std::vector<Field> kept;  // as a step expects it
+  for_each_found(fluid, [&](Field& component) { kept.push_back(component); });
   std::vector<Boundary> boundaries = state_.boundaries;
   Timers not_told;
-  dynamics_.evaluate(RatesOf::both, fluid, neighbours, boundaries, not_told);
-  return dynamics_.powers(fluid, neighbours, boundaries);
+  dynamics_.evaluate(RatesOf::both, fluid, neighbours, boundaries, not_told, swept());
+  std::vector<Power> found = dynamics_.powers(fluid, neighbours, boundaries, ranks_);
+  auto before = kept.begin();
+  for_each_found(fluid, [&](Field& component) { component.swap(*before++); });
+  return found;
 }
 
 void WeaklyCompressible::advance_from(const Start& start, double dt) {
@@ -164,7 +178,7 @@ void WeaklyCompressible::advance(double dt) {
   update_neighbours(dt);
   if (parameters_.seeks_free_surface()) {
     const auto timer = timers_.measure("free surface");
-    free_surface_.find_off_surface(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_);
+    find_off_surface();
     if (state_.open_ends) state_.open_ends->exclude_from_corrections(state_.fluid);
     if (parameters_.keeps_off_walls()) find_off_surface_and_walls(state_.fluid, state_.boundaries, kernel_);
   }
@@ -180,7 +194,7 @@ void WeaklyCompressible::advance(double dt) {
 void WeaklyCompressible::evaluate(RatesOf wanted, double time) {
   if (scene_.gravity_change) dynamics_.set_gravity(scene_.gravity_at(time));
   if (state_.open_ends) state_.open_ends->impose(state_.fluid, time, scene_.gravity_at(time));
-  dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_);
+  dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_, swept());
   share_rates();
   if (state_.open_ends)
     state_.open_ends->take_rates(state_.fluid, wanted != RatesOf::density, wanted != RatesOf::velocity);
@@ -260,8 +274,9 @@ void WeaklyCompressible::accumulate_reaction(double dt) {
   note_surface(dt);
   push_pressed_walls(dt);
   count_forces(dt);
-  for (Boundary& boundary : state_.boundaries)
-    if (boundary.turns()) boundary.count_moment(dynamics_.moment_beside_pairs(state_.fluid, boundary), dt);
+  for (std::size_t b = 0; b < state_.boundaries.size(); ++b)
+    if (Boundary& boundary = state_.boundaries[b]; boundary.turns())
+      boundary.count_moment(dynamics_.moment_beside_pairs(state_.fluid, state_.boundaries, b, ranks_), dt);
 }
 
 void WeaklyCompressible::note_surface(double dt) {
@@ -295,9 +310,8 @@ void WeaklyCompressible::note_extremes() {
     if (boundary.turns())
       largest.speed_of_turning = std::max(largest.speed_of_turning, largest_norm(boundary.v, boundary.count));
   if (dynamics_.viscosity_varies())
-    largest.viscosity = ranks_ && ranks_->divided()
-                            ? ranks_->largest(fluid.eta)
-                            : *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
+    largest.viscosity = ranks_ ? ranks_->largest(fluid.eta)
+                               : *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
   if (const auto& medium = parameters_.viscoelasticity) {
     const PolymerExtremes extremes = polymer_extremes(*medium, fluid);
     largest.elastic_speed = extremes.elastic_speed;

@@ -23,14 +23,14 @@ namespace toryu::fluid {
 
 class WeaklyCompressible : public FluidModel {
  public:
-  WeaklyCompressible(const Parameters& parameters, const Scene& scene);
+  WeaklyCompressible(const Parameters& parameters, const Scene& scene, Filled filled = Filled::all);
 
   double time_step_limit() const override;
   std::string_view time_step_rule() const override;
   /// A step by the integrator of the case.
   void advance(double dt) override;
   std::vector<ActiveTerm> active_terms() const override { return dynamics_.active_terms(); }
-  std::vector<Power> powers() const override;
+  std::vector<Power> powers() override;
 
  private:
   /// The state at the start of a midpoint step.
@@ -47,6 +47,7 @@ class WeaklyCompressible : public FluidModel {
   void shift(double dt);
   void renew_density_rates();
   void share_rates();  ///< with the other ranks
+  const Swept* swept() const { return ranks_ ? &ranks_->swept() : nullptr; }
   void note_surface(double dt);
   void note_extremes();
 

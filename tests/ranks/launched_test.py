@@ -40,6 +40,9 @@ TERMS = {
     "fits through faces": ["poiseuille", *SHORT, "--set", "fluid.wall_model.extrapolation=fit"],
     "slip along walls": ["poiseuille", *SHORT, "--set", "fluid.wall_slip={coefficient=0.001}"],
     "a moving wall": ["retreating_piston", *SHORT[:-1], "0.1"],
+    "a disc that turns, and takes a moment": ["turning_disc", "--set", "case.series_interval=0.002", "--end-time", "0.02"],
+    "a tank that turns": ["sloshing_tank", "--set", "case.series_interval=0.05", "--end-time", "0.3"],
+    "gravity that changes": [*COARSE_DAM, "--set", "case.gravity_change.acceleration=[[0, 0, 0], [0.006, 3, 1], [1, 3, 1]]"],
 }
 
 

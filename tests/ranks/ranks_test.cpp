@@ -55,7 +55,7 @@ Seen expect_the_same(const std::string& name, const std::vector<std::string>& ov
   WeaklyCompressible all = the_case.solver();
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  part.collect(rank == 0 ? &all : nullptr);
+  part.collect(rank == 0 ? &all : nullptr, true);
   if (rank == 0) {
     const Particles& gathered = all.particles();
     EXPECT_EQ(gathered.count, whole.particle_count());

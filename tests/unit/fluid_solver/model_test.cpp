@@ -29,7 +29,7 @@ class FreeFall final : public FluidModel {
   std::vector<ActiveTerm> active_terms() const override {
     return {{"free fall", "Dv/Dt = g", "Galilei 1638", ""}};
   }
-  std::vector<Power> powers() const override { return {}; }
+  std::vector<Power> powers() override { return {}; }
 };
 
 Setting falling() {
