@@ -8,7 +8,7 @@ namespace toryu::fluid {
 namespace {
 
 /// Sums over the neighbours of one cluster.
-struct Sums {
+struct GradientSums {
   Moment moment;
   TensorLanes v = zero_tensor();  ///< sum_j V_j (v_j - v_i) (x) gradW_ij, one row a component of the velocity
   VecLanes p = zero_vector();     ///< sum_j V_j (p_j - p_i) gradW_ij
@@ -17,12 +17,12 @@ struct Sums {
 };
 
 template <class W>
-Sums sums_of(const Particles& f, double mu, const W& kernel, std::size_t first,
-             std::span<const ShiftedNeighbours> nears) {
+GradientSums sums_of(const Particles& f, double mu, const W& kernel, std::size_t first,
+                     std::span<const ShiftedNeighbours> nears) {
   const VecLanes v_i = load(f.v, first);
   const Lanes p_i = load(f.p, first), p_rho2_i = load(f.p_rho2, first);
   const Lanes two_nu = 2.0 * mu * inverse(load(f.rho, first));
-  Sums sums;
+  GradientSums sums;
   over_neighbours(kernel, nears, load(f.x, first), pointers(f.x),
                   [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
                     const VecLanes V_grad = n.gradient(f.V[j]);
@@ -45,7 +45,7 @@ struct Difference {
   VecLanes a;
 };
 // One for all kernels, so that it rounds alike wherever it stands.
-[[gnu::noinline]] Difference difference(Sums& sums, const Lanes& rho) {
+[[gnu::noinline]] Difference difference(GradientSums& sums, const Lanes& rho) {
   sums.moment.invert();
   const VecLanes grad_p = sums.moment.renormalised(sums.p);
   const Lanes inverse_rho = inverse(rho);
@@ -70,7 +70,7 @@ void make_gradients_consistent(RatesOf wanted, double mu, Particles& fluid, cons
       const std::size_t first = c * lane_count;
       const Lanes rho = load(fluid.rho, first), deep = load(fluid.off_surface_and_walls, first);
       if (sum_of(deep) == 0) continue;
-      Sums sums = sums_of(fluid, mu, W, first, neighbours.near(c));
+      GradientSums sums = sums_of(fluid, mu, W, first, neighbours.near(c));
       const Difference more = difference(sums, rho);
       if (wanted != RatesOf::velocity)
         store(load(fluid.drho, first) - deep * rho * more.divergence, fluid.drho, first);

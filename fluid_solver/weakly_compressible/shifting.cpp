@@ -13,7 +13,7 @@ namespace {
 constexpr double R = 0.2;
 
 /// Sums over the neighbours of one cluster.
-struct Sums {
+struct ShiftingSums {
   VecLanes crowding = zero_vector();  ///< sum_j V_j [1 + R (W_ij/W(d_0))^4] gradW_ij
   Moment moment;                      ///< of fluid neighbours
   TensorLanes v = zero_tensor();      ///< one row a component of the velocity
@@ -22,8 +22,9 @@ struct Sums {
 
 /// `inverse_W_d0` is 1/W(d_0).
 template <bool fluid_sources, class W>
-void add(Sums& sums, const VecLanes& x_i, const VecLanes& v_i, const Lanes& rho_i, const Sources& source,
-         std::span<const ShiftedNeighbours> nears, const W& kernel, double inverse_W_d0) {
+void add(ShiftingSums& sums, const VecLanes& x_i, const VecLanes& v_i, const Lanes& rho_i,
+         const Sources& source, std::span<const ShiftedNeighbours> nears, const W& kernel,
+         double inverse_W_d0) {
   over_neighbours(kernel, nears, x_i, source.x, [&](std::uint32_t j, const Neighbour& n) TORYU_INLINE_LAMBDA {
     const VecLanes V_grad = n.gradient(source.V[j]);
     const Lanes share = kernel.value(n.r) * inverse_W_d0, share_2 = share * share;
@@ -50,7 +51,7 @@ void Shifting::shift(Particles& fluid, const ClusterList& neighbours, const std:
       const std::size_t first = c * lane_count;
       const VecLanes x_i = load(fluid.x, first), v_i = load(fluid.v, first);
       const Lanes rho_i = load(fluid.rho, first);
-      Sums sums;
+      ShiftingSums sums;
       add<true>(sums, x_i, v_i, rho_i, sources(fluid), neighbours.near(c), W, inverse_W_d0);
       for (const auto& wall : boundaries)
         add<false>(sums, x_i, v_i, rho_i, sources(wall), wall.list_for_fluid.near(c), W, inverse_W_d0);
