@@ -17,12 +17,17 @@ double curvature_at(const Outline& outline, const Outline::Foot& foot, double st
   const Vec along(-foot.normal[1], foot.normal[0]);
   const auto bend = [&](double way) {
     const double off = outline.nearest(foot.place + way * along).distance;
-    return 2 * off / (step * step - off * off);
+    return 2 * off / (way * way - off * off);
   };
-  const double ahead = bend(step), behind = bend(-step);
-  if (!(ahead * behind > 0)) return 0;
-  const double mean = 2 * ahead * behind / (ahead + behind);
-  return std::abs(mean) * step > 1 ? 0 : mean;
+  const auto mean = [&](double way) {
+    const double ahead = bend(way), behind = bend(-way);
+    return ahead * behind > 0 ? 2 * ahead * behind / (ahead + behind) : 0.0;
+  };
+  const double curvature = mean(step);
+  // An arc bends as much over half the step, a corner twice as much.
+  const bool strong = std::abs(curvature) * step > 0.3;
+  if (strong && std::abs(mean(0.5 * step)) > 1.5 * std::abs(curvature)) return 0;
+  return std::abs(curvature) * step > 1 ? 0 : curvature;
 }
 
 /// Over the spacing: far enough for a bend to be seen beside the tolerance of a flattened arc.

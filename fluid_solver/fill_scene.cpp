@@ -127,7 +127,7 @@ void FluidModel::fill_regions() {
   }
   for (std::size_t r = 0; r < boxes.size(); ++r)
     if (!filled[r])
-      throw BadKey("fluid.region." + parameters_.regions[r].name,
+      throw BadKey(fmt::format("fluid.region.{}.{}", r, parameters_.regions[r].shape.place()),
                    fmt::format("region '{}' holds no particle at this spacing", parameters_.regions[r].name));
 }
 
@@ -147,7 +147,7 @@ PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& poin
                fluid = parameters_.density * area * parameters_.h();
   const bool explicit_steps = parameters_.model == Model::weakly_compressible;
   if (explicit_steps && wall.press->mass > 0 && wall.press->mass < fluid)
-    throw BadKey(fmt::format("wall.{}.press.mass", wall.name),
+    throw BadKey(fmt::format("wall.{}.press.mass", &wall - scene_.walls.data()),
                  fmt::format("a press of {:g} kg/m is too light beside the fluid for steps like its: give it "
                              "{:.3g} kg/m or more, or leave 'mass' out",
                              wall.press->mass, fluid));
@@ -182,11 +182,12 @@ void FluidModel::fill_walls() {
     for (Vec& x : made.places) x = period_.inside(x);
     const bool on_its_own = wall.motion || wall.press || wall.work_piece;
     const bool in_group = !wall.moves_with.empty() && !wall.work_piece;
-    const std::string key = "wall." + wall.name;
+    const std::string key = fmt::format("wall.{}.", &wall - scene_.walls.data());
     if (made.places.empty())
-      throw BadKey(key, fmt::format("wall '{}' holds no particle at this spacing", wall.name));
+      throw BadKey(key + wall.shape.place(),
+                   fmt::format("wall '{}' holds no particle at this spacing", wall.name));
     if (on_its_own && (wall.name == "walls" || wall.name == "interface"))
-      throw BadKey(key,
+      throw BadKey(key + "name",
                    fmt::format("results call the walls at rest 'walls', the solid 'interface'; '{}', a body "
                                "of its own, needs another name",
                                wall.name));

@@ -36,7 +36,7 @@ long cells(const Region& region, int axis, double side, double spacing, const Te
   const long n = std::lround(side / spacing);
   if (n >= 1 && std::abs(side / (static_cast<double>(n) * spacing) - 1.0) <= largest_misfit(region)) return n;
   tell_fault(
-      item("region", region.name),
+      item("region", region.name, region.shape.place()),
       fmt::format("region '{}' is {:.3g} spacings long along {}; rows of particles fill it only if that is "
                   "within {:.0f} % of a whole number",
                   region.name, side / spacing, axis == 0 ? "x" : "y", 100 * largest_misfit(region)));
@@ -62,8 +62,9 @@ std::optional<Outline> outline_without(const Region& region, const std::vector<N
     if (!touch(hole.box, region.box)) continue;
     auto rings = difference(outline, outline_of(hole.box));
     if (const auto fault = fault_of(rings)) {
-      tell_fault(item("hole", hole.name), fmt::format("what hole '{}' leaves of region '{}' {}", hole.name,
-                                                      region.name, fault->message));
+      tell_fault(
+          item("hole", hole.name, hole.shape.place()),
+          fmt::format("what hole '{}' leaves of region '{}' {}", hole.name, region.name, fault->message));
       return std::nullopt;
     }
     outline = Outline(std::move(rings));
@@ -82,7 +83,7 @@ void fit_region(std::size_t index, const Outline& outline, const Parameters& par
   };
   const FittedFilling filling = fill_outline(outline, parameters.spacing, tell);
   if (filling.points.empty())
-    tell_fault(item("region", name),
+    tell_fault(item("region", name, parameters.regions[index].shape.place()),
                fmt::format("region '{}' is nowhere as wide as a row of particles", name));
   body.spread = std::max(body.spread, filling.spread);
   body.X.insert(body.X.end(), filling.points.begin(), filling.points.end());
@@ -177,17 +178,19 @@ void find_outlined_surface(Body& body) {
 void check_load(const BoxLoad& load, const Body& body, double h, const TellFault& tell_fault) {
   if (load.pressure == 0) {
     if (body.inside(load.box).empty())
-      tell_fault(item("load", load.name),
+      tell_fault(item("load", load.name, load.shape.place()),
                  fmt::format("load '{}' acts on no particle of the solid", load.name));
     return;
   }
   const auto surface = body.surface(load.box);
   if (surface.empty())
-    tell_fault(item("load", load.name), fmt::format("load '{}' acts on no surface of the solid", load.name));
+    tell_fault(item("load", load.name, load.shape.place()),
+               fmt::format("load '{}' acts on no surface of the solid", load.name));
   for (const SurfacePiece& piece : surface) try {
       MaterialPoint(piece.place, body.X, 2.0 * h, body.shape, body.shifts);
     } catch (const std::invalid_argument& error) {
-      return tell_fault(item("load", load.name), fmt::format("load '{}': {}", load.name, error.what()));
+      return tell_fault(item("load", load.name, load.shape.place()),
+                        fmt::format("load '{}': {}", load.name, error.what()));
     }
 }
 
@@ -284,7 +287,7 @@ void check_loads_and_observers(const Parameters& parameters, const Body& body, c
   for (const auto& observer : parameters.observers) try {
       MaterialPoint(observer.point, body.X, 2.0 * parameters.h(), body.shape, body.shifts);
     } catch (const std::invalid_argument& error) {
-      tell_fault(item("observer", observer.name),
+      tell_fault(item("observer", observer.name, "point"),
                  fmt::format("observer '{}': {}", observer.name, error.what()));
     }
 }
@@ -314,7 +317,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault, const
       body.outlines.push_back(std::move(*outline));
     }
     if (is_fitted(regions[a], parameters.holes) && !regions[a].worn.empty())
-      tell_fault(item("region", regions[a].name),
+      tell_fault(item("region", regions[a].name, regions[a].shape.place()),
                  fmt::format("region '{}' has 'worn' faces and a hole that is no box: it cannot have both",
                              regions[a].name));
     if (is_fitted(regions[a], parameters.holes))
@@ -323,11 +326,11 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault, const
       fill_region(a, parameters, body, tell_fault);
     for (std::size_t b = 0; b < a; ++b)
       if (overlap(parameters, body, a, b))
-        tell_fault(item("region", regions[a].name),
+        tell_fault(item("region", regions[a].name, regions[a].shape.place()),
                    fmt::format("region '{}' overlaps region '{}'; regions may touch only", regions[a].name,
                                regions[b].name));
     if (body.size() == before && !parameters.holes.empty() && !has_outline)
-      tell_fault(item("region", regions[a].name),
+      tell_fault(item("region", regions[a].name, regions[a].shape.place()),
                  fmt::format("holes leave no particle of region '{}'", regions[a].name));
     body.counts.emplace_back("region " + regions[a].name, body.size() - before);
   }
@@ -339,7 +342,7 @@ Body build_body(const Parameters& parameters, const TellFault& tell_fault, const
   for (const auto& clamp : parameters.clamps) {
     const auto particles = body.inside(clamp.box);
     if (particles.empty())
-      tell_fault(item("clamp", clamp.name),
+      tell_fault(item("clamp", clamp.name, clamp.shape.place()),
                  fmt::format("clamp '{}' holds no particle of the solid", clamp.name));
     for (const auto i : particles) body.held[i] = 1;
     body.counts.emplace_back("clamp " + clamp.name, particles.size());

@@ -65,9 +65,9 @@ struct Body {
 
 /// Takes a fault of the input: the key of the case file it belongs to, and what is wrong.
 using TellFault = std::function<void(const std::string& key, const std::string& message)>;
-/// The key of that item of [solid]: "solid.region.gate".
-inline std::string item(const std::string& list, const std::string& name) {
-  return "solid." + list + "." + name;
+/// The key in that item of [solid]: solid.region."gate".box.
+inline std::string item(const std::string& list, const std::string& name, const std::string& key) {
+  return "solid." + list + ".\"" + name + "\"." + key;
 }
 
 /// Tells as faults: a region that cannot be filled (a side shorter than a spacing, or not near a whole number

@@ -65,7 +65,7 @@ void share_loads_and_observers(Part& elastic, Part& rigid, const TellFault& tell
     if (!acts_on(load, rigid.body)) return false;
     if (acts_on(load, elastic.body))
       tell_fault(
-          item("load", load.name),
+          item("load", load.name, load.shape.place()),
           fmt::format("load '{}' acts on elastic regions and on rigid bodies: make it of two", load.name));
     return true;
   });
@@ -76,7 +76,7 @@ void share_loads_and_observers(Part& elastic, Part& rigid, const TellFault& tell
   std::erase_if(elastic.parameters.observers, is_of_rigid);
   for (const PointObserver& observer : rigid.parameters.observers)
     if (observer.stress)
-      tell_fault(item("observer", observer.name),
+      tell_fault(item("observer", observer.name, "stress"),
                  fmt::format("observer '{}': there is no stress in a rigid body", observer.name));
 }
 
@@ -90,7 +90,7 @@ void keep_apart(const Part& elastic, const Part& rigid, const TellFault& tell_fa
                j = std::max(met->first, met->second) - static_cast<std::uint32_t>(elastic.body.size());
     const Region& of_rigid = rigid.parameters.regions[rigid.body.region[j]];
     tell_fault(
-        item("region", of_rigid.name),
+        item("region", of_rigid.name, of_rigid.shape.place()),
         fmt::format("region '{}' touches or overlaps region '{}' of the rigid body '{}': they are not "
                     "joined, and need a gap; what is to move with an elastic solid is a region of it "
                     "with a stiff 'material'",
@@ -98,7 +98,7 @@ void keep_apart(const Part& elastic, const Part& rigid, const TellFault& tell_fa
   }
   for (const Clamp& clamp : elastic.parameters.clamps)
     if (const auto held = rigid.body.inside(clamp.box).size(); held > 0)
-      tell_fault(item("clamp", clamp.name),
+      tell_fault(item("clamp", clamp.name, clamp.shape.place()),
                  fmt::format("clamp '{}' holds {} of rigid bodies, which [solid.body.mounting] holds",
                              clamp.name, counted(held, "particle")));
 }
@@ -110,8 +110,7 @@ std::vector<Part> build_parts(const Parameters& parameters, const TellFault& tel
   if (!parameters.is_mixed()) return {{parameters, build_body(parameters, tell_fault, shifts)}};
   // Only the bodies tell in which of them a load or an observer lies.
   const TellFault of_shapes = [&](const std::string& key, const std::string& message) {
-    if (!key.starts_with(item("load", "")) && !key.starts_with(item("observer", "")))
-      tell_fault(key, message);
+    if (!key.starts_with("solid.load.") && !key.starts_with("solid.observer.")) tell_fault(key, message);
   };
   std::vector<Part> parts;
   for (const Parameters& own : {elastic_part(parameters), rigid_part(parameters)})

@@ -17,6 +17,13 @@ class Inside {
   bool operator()(const Vec& x) const {
     return box_.contains(pose_.about + pose_.rotation.transpose() * (x - pose_.centre));
   }
+  /// Whether the middles of the sides of a cell are inside.
+  bool all_of(const Vec& x, double side) const {
+    for (int a = 0; a < dim; ++a)
+      for (const double way : {-0.5 * side, 0.5 * side})
+        if (!(*this)(x + way * Vec::Unit(a))) return false;
+    return true;
+  }
 
  private:
   const Box& box_;
@@ -25,7 +32,8 @@ class Inside {
 
 }  // namespace
 
-PassedWalls::PassedWalls(const std::vector<Wall>& walls, const std::vector<Vec>& X) : walls_(walls) {
+PassedWalls::PassedWalls(const std::vector<Wall>& walls, const std::vector<Vec>& X, double spacing)
+    : walls_(walls), spacing_(spacing) {
   std::vector<std::uint8_t> held(X.size(), 0);
   for (const Wall& wall : walls_) {
     const Inside inside(wall, 0);
@@ -38,8 +46,8 @@ PassedWalls::PassedWalls(const std::vector<Wall>& walls, const std::vector<Vec>&
 void PassedWalls::check(const std::vector<Vec>& x, double time) {
   for (const Wall& wall : walls_) {
     const Inside inside(wall, time);
-    const auto found =
-        std::find_if(free_.begin(), free_.end(), [&](std::uint32_t i) { return inside(x[i]); });
+    const auto found = std::find_if(free_.begin(), free_.end(),
+                                    [&](std::uint32_t i) { return inside.all_of(x[i], spacing_); });
     if (found == free_.end()) continue;
     log::warn(
         "the solid passes through wall '{}': particle {} is in it at ({:.4g}, {:.4g}) m, t = {:.6g} s; "

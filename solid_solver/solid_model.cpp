@@ -59,7 +59,7 @@ SolidModel::SolidModel(const Parameters& parameters, const Body& body, const Sce
     state_.walls = walls_->start();
     resize(state_.push, size);
   } else if (!scene.walls.empty()) {
-    passed_.emplace(scene.walls, body_.X);
+    passed_.emplace(scene.walls, body_.X, body_.spacing);
   }
   first_energy_ = kinetic_energy();
   for (std::uint32_t i = 0; i < count; ++i)

@@ -16,7 +16,7 @@ void merge_items(toml::array& base, toml::array&& changes) {
   for (auto& item : changes) {
     toml::table& table = *item.as_table();
     const auto name = table["name"].value<std::string>();
-    const auto index = name ? item_index(base, *name) : std::nullopt;
+    const auto index = name ? item_index(base, quoted(*name)) : std::nullopt;
     if (index)
       merge_document(*base.get(*index)->as_table(), std::move(table));
     else
@@ -65,13 +65,19 @@ InputError fault_at(const toml::source_region& place, const std::string& message
 
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> parts(1);
+  bool quoted = false;
   for (const char c : path) {
-    if (c == '.')
+    quoted ^= c == '"';
+    if (c == '.' && !quoted)
       parts.emplace_back();
     else
       parts.back() += c;
   }
   return parts;
+}
+
+std::string quoted(const std::string& name) {
+  return '"' + name + '"';
 }
 
 std::optional<std::size_t> item_index(const toml::array& array, const std::string& part) {
@@ -82,7 +88,8 @@ std::optional<std::size_t> item_index(const toml::array& array, const std::strin
     return number < array.size() ? std::optional(number) : std::nullopt;
   for (std::size_t i = 0; i < array.size(); ++i) {
     const toml::table* table = array.get(i)->as_table();
-    if (table && (*table)["name"].value<std::string>() == part) return i;
+    const auto name = table ? (*table)["name"].value<std::string>() : std::nullopt;
+    if (name && (*name == part || quoted(*name) == part)) return i;
   }
   return std::nullopt;
 }

@@ -31,10 +31,12 @@ InputError fault_at(const toml::source_region& place, const std::string& message
 toml::source_region place_of(const toml::table& table, const std::string& path,
                              const toml::source_region& otherwise);
 
-/// The parts of a dotted path.
+/// The parts of a dotted path. What stands in double quotes, which stay, is one part.
 std::vector<std::string> split_path(const std::string& path);
 
-/// The index of the item of an array of tables that `part` means: a number from 0, or the item's `name`.
+/// The index of the item of an array of tables that `part` means: a number from 0, or the item's `name`, in
+/// double quotes even one that reads as a number.
+std::string quoted(const std::string& name);
 std::optional<std::size_t> item_index(const toml::array& array, const std::string& part);
 
 /// JSON, with Infinity and NaN for numbers that are not finite, as Python reads it.

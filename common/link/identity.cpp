@@ -104,6 +104,8 @@ class Files {
   File open(const std::string& name) {
     File file(BIO_new_file((folder_ / name).c_str(), "r"));
     if (!file) add(name, fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (file && !name.ends_with(".key"))
+      check_mode(name, 022, "can be changed by others", "go-w", "keeps it yours");
     return file;
   }
 

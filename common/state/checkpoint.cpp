@@ -53,18 +53,24 @@ class Summed : public std::ostream {
   explicit Summed(std::streambuf* to = nullptr) : std::ostream(&buffer_) { buffer_.to = to; }
   /// "SIZE CHECKSUM"
   std::string text() const { return fmt::format("{} {:08x}", buffer_.size, buffer_.sum); }
+  /// Why it could not be passed on (errno).
+  int error() const { return buffer_.error; }
 
  private:
   struct Buffer : std::streambuf {
     std::streambuf* to = nullptr;
     std::size_t size = 0;
     uLong sum = crc32(0, nullptr, 0);
+    int error = 0;
 
     std::streamsize xsputn(const char* bytes, std::streamsize count) override {
       if (count == 0) return 0;  // of nothing, which may lie nowhere, zlib would begin anew
       sum = crc32_z(sum, reinterpret_cast<const Bytef*>(bytes), static_cast<std::size_t>(count));
       size += static_cast<std::size_t>(count);
-      return to ? to->sputn(bytes, count) : count;
+      if (!to) return count;
+      const std::streamsize passed = to->sputn(bytes, count);
+      if (passed != count) error = errno;
+      return passed;
     }
     int_type overflow(int_type byte) override {
       const char one = traits_type::to_char_type(byte);
@@ -240,13 +246,18 @@ void write_part(const fs::path& folder, const std::string& name, const Author& a
                 const std::function<void(std::ostream&)>& write) {
   const fs::path path = folder / (name + ".state"), temporary = part_of(path);
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  if (!file) fail_to_write(temporary, errno);
   file << header_of(author);
   const auto place = file.tellp();
   constexpr int room = 40;  // for the sum, which is known when all is written
   file << fmt::format("{:{}}\n", "", room);
   Summed summed(file.rdbuf());
-  write(summed);
-  if (!summed) file.setstate(std::ios::failbit);
+  try {
+    write(summed);
+  } catch (const std::exception&) {  // which knows of the stream alone that it takes no more
+    if (summed.error() == 0) throw;
+  }
+  if (!summed) fail_to_write(temporary, summed.error());
   file.seekp(place);
   file << fmt::format("{:>{}}", summed.text(), room);
   file.close();

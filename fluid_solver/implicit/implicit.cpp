@@ -5,6 +5,7 @@
 
 #include "common/error/counted.hpp"
 #include "common/error/failure.hpp"
+#include "common/run/log.hpp"
 #include "common/sph/skin.hpp"
 #include "fluid_solver/implicit/krylov.hpp"
 
@@ -14,6 +15,8 @@ namespace {
 
 /// Of the spacing: how far a particle goes in a step.
 constexpr double advection_share = 0.2;
+/// Of what is meant: how far it may go in a step whose speed nothing foretold.
+constexpr double ways_to_warn_of = 5;
 /// Unbalanced force over the driving one up to which a viscosity is taken to change with the velocity as its
 /// law says (Newton); farther off, where that may overshoot, it is kept (Picard).
 constexpr double newton_from = 0.1;
@@ -77,6 +80,17 @@ void Implicit::advance(double dt) {
     shifting_->shift(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, state_.largest.speed, dt);
   }
   note_extremes();
+  warn_of_way(state_.largest.speed * dt);
+}
+
+void Implicit::warn_of_way(double way) {
+  const double meant = advection_share * parameters_.time_step_share * parameters_.spacing;
+  if (way < std::max(ways_to_warn_of * meant, parameters_.spacing) || warned_of_way_) return;
+  warned_of_way_ = true;
+  log::warn(
+      "a particle went {:.3g} spacings in the step to t = {:.6g} s, where {:.3g} are meant: nothing told its "
+      "speed before; give 'expected_speed' in [fluid.implicit], {:.3g} m/s or more",
+      way / parameters_.spacing, state_.time, meant / parameters_.spacing, state_.largest.speed);
 }
 
 void Implicit::solve(double dt) {

@@ -59,6 +59,8 @@ class Implicit final : public FluidModel {
   /// Adds what a step does to the work pieces to their record.
   void note_surface(double dt);
   void note_extremes();
+  /// Once in a process, of a step in which a particle went this far [m] and much farther than is meant.
+  void warn_of_way(double way);
 
   Dynamics dynamics_;
   ImplicitTerms terms_;
@@ -66,6 +68,7 @@ class Implicit final : public FluidModel {
   double largest_wall_speed_;  ///< over all of the run, of walls that are pressed as expected [m/s]
   std::optional<Shifting> shifting_;
   Effort effort_;  ///< of this process
+  bool warned_of_way_ = false;
 };
 
 }  // namespace toryu::fluid

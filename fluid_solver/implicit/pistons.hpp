@@ -47,7 +47,9 @@ class Pistons {
   /// holds how far it is off its bound.
   Vector unbalance(const Vector& u) const;
 
-  /// After an evaluation at 1 Pa everywhere: the areas. Until then they are those of the faces.
+  /// After an evaluation at 1 Pa everywhere: the areas. Until then they are those of the faces. Throws
+  /// PhysicsFailure where one is not near that of the face: with the medium on both sides, on the other, or
+  /// gone.
   void take_areas();
 
   /// Takes `u` back between the bounds, and lets all go.

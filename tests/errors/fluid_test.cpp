@@ -290,7 +290,7 @@ INSTANTIATE_TEST_SUITE_P(
               "no "
               "particle at this spacing"},
         Fault{"WallWithoutParticles", "wall.left.box.max=[-0.19,1.2]",
-              HYDROSTATIC_TANK "/case.toml:16:1: error: wall 'left' holds no particle at this spacing"},
+              HYDROSTATIC_TANK "/case.toml:18:1: error: wall 'left' holds no particle at this spacing"},
         Fault{"StartTooFast", "fluid.region.water.velocity=[40,0]",
               "[fluid]: error: cannot start: fluid particle 0 at t = 0 s: speed [m/s] = 40, limit 31.3"},
         Fault{"StartTooDense", "fluid.limits.largest_density_change=0.001",

@@ -16,7 +16,7 @@ from toryu_testing.trio import ROLES
 
 LAUNCH = [sys.executable, "-I", "-X", "utf8", str(pathlib.Path(identities.__file__).parent), "launch"]
 END_TIME = "0.01"  # [s] of the strip
-LIFE = 20  # [s] of an identity that expires in mid-run
+LIFE = 30  # [s] of an identity that expires in mid-run
 PATIENCE = ["--set", "coupling.time_limit=5"]  # of who waits for one that is refused [s]
 NONE, OTHER = "it has no certificate, which --secure asks for", "its certificate is of another CA than that of --secure"
 ASKED = "it takes certificates alone, and this program has none: give it --secure FOLDER too"

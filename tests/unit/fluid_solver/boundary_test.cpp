@@ -367,6 +367,8 @@ TEST(FaceDepths, KnowTheCurvatureOfTheirOutlineButAtCorners) {
   EXPECT_EQ(curvature(corners, {10, 1}), 0);
   EXPECT_EQ(curvature(corners, {1, 2}), 0) << "beside an outer corner";
   EXPECT_EQ(curvature(corners, {22, 18}), 0) << "behind an inner corner";
+  const Outline chamfer({{{0, 0}, {40, 0}, {40, 40}, {20, 20}, {0, 20}}});
+  EXPECT_EQ(curvature(chamfer, {20.57, 18.61}), 0) << "behind an inner corner of 45 degrees";
   const Outline tiny({ellipse_ring({0, 0}, {1, 1})});
   EXPECT_EQ(curvature(tiny, {0.5, 0}), 0) << "as a corner";
 }

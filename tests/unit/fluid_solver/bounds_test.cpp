@@ -95,7 +95,7 @@ TEST(Bodies, MustNotOverlap) {
 TEST(Bodies, AreWallsOfSomeParticles) {
   Setting setting = one_block();
   setting.scene.walls = {{"thin", {Vec(0.3, 0), Vec(0.31, 1)}, {}}};
-  EXPECT_EQ(refusal(setting), "wall.thin: error: wall 'thin' holds no particle at this spacing");
+  EXPECT_EQ(refusal(setting), "wall.0.box: error: wall 'thin' holds no particle at this spacing");
 }
 
 TEST(Bodies, AreToldApartByName) {
@@ -105,9 +105,9 @@ TEST(Bodies, AreToldApartByName) {
   const std::string text = ": error: results call the walls at rest 'walls', the solid 'interface'; '",
                     needed = "', a body of its own, needs another name";
   setting.scene.walls[0].work_piece = true;
-  EXPECT_EQ(refusal(setting), "wall.walls" + text + "walls" + needed);
+  EXPECT_EQ(refusal(setting), "wall.0.name" + text + "walls" + needed);
   setting.scene.walls[0] = {"interface", setting.scene.walls[0].box, Motion{{{0.0, 1.0, 0.0}}}};
-  EXPECT_EQ(refusal(setting), "wall.interface" + text + "interface" + needed);
+  EXPECT_EQ(refusal(setting), "wall.0.name" + text + "interface" + needed);
   setting.scene.walls[0].name = "piston";
   EXPECT_EQ(refusal(setting), "none");
 }
@@ -116,7 +116,7 @@ TEST(Bodies, MustHoldFluid) {
   Setting setting = one_block();
   const auto block = setting.parameters.regions.front();
   setting.parameters.regions.push_back({"film", {Vec(1, 1), Vec(1.02, 2)}});
-  EXPECT_EQ(refusal(setting), "fluid.region.film: error: region 'film' holds no particle at this spacing");
+  EXPECT_EQ(refusal(setting), "fluid.region.1.box: error: region 'film' holds no particle at this spacing");
   setting.parameters.regions = {block};
   setting.parameters.holes = {{{Vec(-1, -1), Vec(1, 1)}, "all"}};
   EXPECT_THAT(refusal(setting), testing::EndsWith("holds no particle at this spacing"));

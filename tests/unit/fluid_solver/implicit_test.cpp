@@ -11,6 +11,7 @@
 #include "common/error/failure.hpp"
 #include "common/sph/skin.hpp"
 #include "tests/one_thread.hpp"
+#include "tests/said.hpp"
 #include "tests/unit/fluid_solver/few_particles.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
@@ -228,6 +229,16 @@ TEST(Implicit, IsSolvedWhereRoundingAloneDrivesTheMedium) {
   Implicit model(s.parameters, s.scene);
   for (int n = 0; n < 3; ++n) model.advance(2e-3);
   EXPECT_LT(largest_norm(model.particles().v, model.particles().count), 1e-9);
+}
+
+TEST(Implicit, TellsOfAStepThatNothingForetold) {
+  const Setting s = stirred_slit();
+  const Said said;
+  Implicit model(s.parameters, s.scene);
+  model.advance(2e-3);
+  EXPECT_EQ(said.times("spacings in the step"), 0) << said.text();
+  model.advance(0.4);
+  EXPECT_EQ(said.times("give 'expected_speed' in [fluid.implicit]"), 1) << said.text();
 }
 
 TEST(Implicit, KeepsMomentumInEmptySpace) {

@@ -81,7 +81,7 @@ TEST(Body, LosesTheAreaThatIsOff) {
 
 TEST(Body, CannotBeWornToLessThanRowsFill) {
   EXPECT_THAT(faults_of(worn_plate({{Side::upper, {{0, 0}, {0.08, 0.018}}}})),
-              ElementsAre(testing::HasSubstr("solid.region.plate: region 'plate' is")));
+              ElementsAre(testing::HasSubstr("solid.region.\"plate\".box: region 'plate' is")));
 }
 
 TEST(Body, CountsTheParticlesOfRegionsAndClamps) {
@@ -123,7 +123,8 @@ TEST(Body, ARingIsADiscWithADiscCutOut) {
   p.regions.push_back({"in the corner", {Vec(0.027, 0.017), Vec(0.03, 0.02)}});
   EXPECT_THAT(
       faults_of(p),
-      ElementsAre("solid.region.inside: region 'inside' overlaps region 'right'; regions may touch only"));
+      ElementsAre(
+          "solid.region.\"inside\".box: region 'inside' overlaps region 'right'; regions may touch only"));
 }
 
 TEST(Body, InterfaceIsWhatAFluidCanReachFromOutside) {
@@ -141,14 +142,15 @@ TEST(Body, TellsWhatIsWrongWithTheGeometry) {
   p.observers = {{"far", Vec(2, 2)}};
   EXPECT_THAT(
       faults_of(p),
-      ElementsAre(
-          "solid.region.lid: region 'lid' is 1.5 spacings long along y; rows of particles fill it only if "
-          "that is within 10 % of a whole number",
-          "solid.region.lid: region 'lid' overlaps region 'plate'; regions may touch only",
-          "solid.clamp.nowhere: clamp 'nowhere' holds no particle of the solid",
-          "solid.load.push: load 'push' acts on no particle of the solid",
-          "solid.observer.far: observer 'far': the point (2, 2) is not in the solid: 0 particles within "
-          "0.013 m"));
+      ElementsAre("solid.region.\"lid\".box: region 'lid' is 1.5 spacings long along y; rows of particles "
+                  "fill it only if "
+                  "that is within 10 % of a whole number",
+                  "solid.region.\"lid\".box: region 'lid' overlaps region 'plate'; regions may touch only",
+                  "solid.clamp.\"nowhere\".box: clamp 'nowhere' holds no particle of the solid",
+                  "solid.load.\"push\".box: load 'push' acts on no particle of the solid",
+                  "solid.observer.\"far\".point: observer 'far': the point (2, 2) is not in the solid: 0 "
+                  "particles within "
+                  "0.013 m"));
 }
 
 TEST(MaterialPoint, IsExactForLinearFieldsAlsoInACorner) {

@@ -98,10 +98,11 @@ TEST(FittedBody, TellsWhatIsWrong) {
   p.loads = {{"wind", {Vec(8, 8), Vec(9, 9)}, Vec::Zero(), 5.0}};
   build_body(
       p, [&](const std::string& key, const std::string& message) { faults.push_back(key + ": " + message); });
-  EXPECT_THAT(faults, testing::ElementsAre(
-                          "solid.region.thread: region 'thread' is nowhere as wide as a row of particles",
-                          "solid.hole.bore: what hole 'bore' leaves of region 'gone' has no ring",
-                          "solid.load.wind: load 'wind' acts on no surface of the solid"));
+  EXPECT_THAT(faults,
+              testing::ElementsAre(
+                  "solid.region.\"thread\".box: region 'thread' is nowhere as wide as a row of particles",
+                  "solid.hole.\"bore\".box: what hole 'bore' leaves of region 'gone' has no ring",
+                  "solid.load.\"wind\".box: load 'wind' acts on no surface of the solid"));
 }
 
 TEST(FilledBody, TellsOfHolesThatLeaveNothing) {
@@ -109,7 +110,7 @@ TEST(FilledBody, TellsOfHolesThatLeaveNothing) {
   Parameters p = free_plate(4);
   p.holes = {{"all", {Vec(-9, -9), Vec(9, 9)}}};
   build_body(p, [&](const std::string& key, const std::string&) { faults.push_back(key); });
-  EXPECT_THAT(faults, testing::ElementsAre("solid.region.plate"));
+  EXPECT_THAT(faults, testing::ElementsAre("solid.region.\"plate\".box"));
 }
 
 TEST(ClampFaces, CellsOfNearestParticlesAreThoseOfALattice) {

@@ -118,25 +118,27 @@ TEST(MixedSolid, RefusesWhatBothWouldShare) {
   p.loads.clear(), p.observers.clear();
   EXPECT_EQ(
       faults(p),
-      "solid.region.bar: region 'plate' touches or overlaps region 'bar' of the rigid body 'bar': they are "
+      "solid.region.\"bar\".box: region 'plate' touches or overlaps region 'bar' of the rigid body 'bar': "
+      "they are "
       "not joined, and need a gap; what is to move with an elastic solid is a region of it with a stiff "
       "'material'");
   p = plate_and_bar();
   p.loads[0].box = {Vec(0, 0), Vec(1, 1)};
-  EXPECT_EQ(faults(p),
-            "solid.load.pull: load 'pull' acts on elastic regions and on rigid bodies: make it of two");
-  p = plate_and_bar();
-  p.clamps.push_back({"top", {Vec(0, 0.05), Vec(1, 1)}});
   EXPECT_EQ(
       faults(p),
-      "solid.clamp.top: clamp 'top' holds no particle of the solid\n"
-      "solid.clamp.top: clamp 'top' holds 32 particles of rigid bodies, which [solid.body.mounting] holds");
+      "solid.load.\"pull\".box: load 'pull' acts on elastic regions and on rigid bodies: make it of two");
+  p = plate_and_bar();
+  p.clamps.push_back({"top", {Vec(0, 0.05), Vec(1, 1)}});
+  EXPECT_EQ(faults(p),
+            "solid.clamp.\"top\".box: clamp 'top' holds no particle of the solid\n"
+            "solid.clamp.\"top\".box: clamp 'top' holds 32 particles of rigid bodies, which "
+            "[solid.body.mounting] holds");
   p = plate_and_bar();
   p.loads[0].box = {Vec(0.2, 0.2), Vec(1, 1)};
   p.observers[1].stress = true;
   EXPECT_EQ(faults(p),
-            "solid.observer.corner: observer 'corner': there is no stress in a rigid body\n"
-            "solid.load.pull: load 'pull' acts on no particle of the solid");
+            "solid.observer.\"corner\".stress: observer 'corner': there is no stress in a rigid body\n"
+            "solid.load.\"pull\".box: load 'pull' acts on no particle of the solid");
 }
 
 TEST(MixedSolid, TellsOfPartsThatCannotBeFilled) {

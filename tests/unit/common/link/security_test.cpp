@@ -91,6 +91,9 @@ TEST_F(Identities, AreInAFolderThatTheirOwnerAloneChanges) {
               ElementsAre("mine: can be changed by others (mode 0777); 'chmod go-w' keeps it yours"));
   fs::permissions(mine_, fs::perms(0755));
   EXPECT_THAT(faults_of("fluid"), ElementsAre());
+  fs::permissions(mine_ / "ca.pem", fs::perms(0666));
+  EXPECT_THAT(faults_of("fluid"),
+              ElementsAre("ca.pem: can be changed by others (mode 0666); 'chmod go-w' keeps it yours"));
 }
 
 TEST_F(Identities, MayBeThoseOfTheOwnPartAlone) {

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "common/error/failure.hpp"
+#include "common/error/machine.hpp"
 
 namespace toryu {
 namespace {
@@ -93,6 +94,32 @@ TEST_F(CheckpointFiles, DamageIsToldOfWithTheWayAroundIt) {
   EXPECT_THAT([&] { read_newest(); }, ThrowsMessage<BadInput>(HasSubstr("case.toml: error: is damaged: ")));
   fs::remove_all(second);
   EXPECT_NO_THROW(read_newest());
+}
+
+/// As an archive does, which throws an exception of its own where its stream takes no more.
+TEST_F(CheckpointFiles, APartOnAFullDiskNamesItAndTheReason) {
+  const fs::path folder = open_checkpoint(out_);
+  fs::create_symlink("/dev/full", folder / "fluid.state.part");
+  const std::string state(100000, 'x');
+  EXPECT_THAT(
+      [&] {
+        write_part(folder, "fluid", {"fluid_solver"}, [&](std::ostream& stream) {
+          if (!stream.write(state.data(), static_cast<std::streamsize>(state.size())))
+            throw std::logic_error("the stream takes no more");
+        });
+      },
+      testing::ThrowsMessage<MachineFailure>(
+          testing::AllOf(testing::HasSubstr("fluid.state"), testing::HasSubstr("No space left"))));
+}
+
+/// What of it has no bytes, as a list that is empty, adds nothing to the sum.
+TEST_F(CheckpointFiles, APartMayHoldValuesOfNoBytes) {
+  const fs::path folder = open_checkpoint(out_);
+  write_part(folder, "fluid", {"fluid_solver"},
+             [](std::ostream& stream) { stream.write("ab", 2).write(nullptr, 0).write("c", 1); });
+  std::string found;
+  read_part(folder, "fluid", {"fluid_solver"}, [&](std::istream& stream) { stream >> found; });
+  EXPECT_EQ(found, "abc");
 }
 
 TEST_F(CheckpointFiles, APartOfAnotherTextOfAProgramIsRefused) {
