@@ -298,21 +298,13 @@ void FluidModel::count_forces(double dt) {
 
 double FluidModel::power_of(const Vec& change, double dt) const {
   const bool kicks = parameters_.integrator == Integrator::symplectic;  // by the mean of before and after
-  Particles of_all;
-  if (ranks_) {
-    of_all.count = ranks_->size_of_whole();
-    of_all.m = ranks_->of_whole(state_.fluid.m);
-    for (int a = 0; a < dim; ++a) {
-      of_all.v[a] = ranks_->of_whole(state_.fluid.v[a]);
-      of_all.a[a] = ranks_->of_whole(state_.fluid.a[a]);
-    }
-  }
-  const Particles& fluid = ranks_ ? of_all : state_.fluid;
-  double sum = 0;
+  const Particles& fluid = state_.fluid;
+  Field powers(fluid.m.size(), 0.0);
   for (std::size_t i = 0; i < fluid.count; ++i)
     if (fluid.is_inside(i))
-      sum += fluid.m[i] * change.dot(at(fluid.v, i) + (kicks ? 0.5 * dt : 0.0) * at(fluid.a, i));
-  return sum;
+      powers[i] = fluid.m[i] * change.dot(at(fluid.v, i) + (kicks ? 0.5 * dt : 0.0) * at(fluid.a, i));
+  if (ranks_) powers = ranks_->of_whole(powers);
+  return std::accumulate(powers.begin(), powers.end(), 0.0);
 }
 
 }  // namespace toryu::fluid

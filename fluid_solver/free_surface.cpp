@@ -27,12 +27,17 @@ Lanes none_near(const VecLanes& x_i, const Sources& sources, std::span<const Shi
   return none;
 }
 
+/// One cluster at least: a field without values counts as absent.
+std::size_t room_of(const Particles& fluid) {
+  return padded(std::max<std::size_t>(fluid.count, 1));
+}
+
 }  // namespace
 
 void FreeSurface::find_off_surface(Particles& fluid, const ClusterList& neighbours,
                                    const std::vector<Boundary>& boundaries, const Kernel& kernel) {
   at_surface_.resize(fluid.rho.size());  // images, where there are some, too
-  fluid.off_surface.resize(padded(fluid.count));
+  fluid.off_surface.resize(room_of(fluid));
   kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c) {
@@ -67,7 +72,7 @@ bool is_closed(const Particles& fluid) {
 
 void find_off_surface_and_walls(Particles& fluid, const std::vector<Boundary>& boundaries,
                                 const Kernel& kernel) {
-  fluid.off_surface_and_walls.resize(padded(fluid.count));
+  fluid.off_surface_and_walls.resize(room_of(fluid));
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t c = 0; c < fluid.clusters(); ++c) {
     Lanes deep = load(fluid.off_surface, c * lane_count);

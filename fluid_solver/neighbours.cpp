@@ -17,15 +17,13 @@ std::vector<std::uint32_t> sort(Particles& f, const StripOrder& strips) {
   return order;
 }
 
-/// The largest of all ranks. Each by itself: a sum of the largest is another where they are apart.
-double largest_of_all(double value, const Ranks* ranks) {
-  return ranks ? ranks->largest(value) : value;
-}
-
-/// How far a particle may go in the next `dt` [s].
-double farthest_step(const Particles& fluid, double dt, const Ranks* ranks) {
-  return dt * (largest_of_all(largest_norm(fluid.v, fluid.count), ranks) +
-               dt * largest_of_all(largest_norm(fluid.a, fluid.count), ranks));
+/// How far a particle may be from where it was when it had gone `moved` [m], after the next `dt` [s]. Of all
+/// ranks each by itself: a sum of the largest is another where they are apart.
+double farthest(double moved, const Particles& fluid, double dt, const Ranks* ranks) {
+  std::array<double, 3> largest{moved, largest_norm(fluid.v, fluid.count),
+                                largest_norm(fluid.a, fluid.count)};
+  if (ranks) ranks->take_largest(largest);
+  return largest[0] + dt * (largest[1] + dt * largest[2]);
 }
 double farthest_step(const Boundary& boundary, double dt) {
   return dt * (largest_norm(boundary.v, boundary.count) +
@@ -40,8 +38,7 @@ constexpr double smallest_skin = 0.02;
 bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
                            const Ranks* ranks) const {
   if (state_.builds == 0) return true;
-  const double moved_fluid = largest_of_all(largest_distance(fluid.x, state_.fluid, fluid.count), ranks) +
-                             farthest_step(fluid, dt, ranks);
+  const double moved_fluid = farthest(largest_distance(fluid.x, state_.fluid, fluid.count), fluid, dt, ranks);
   double moved = moved_fluid;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].moves())
@@ -52,7 +49,7 @@ bool Neighbours::exhausted(const Particles& fluid, const std::vector<Boundary>& 
 
 double Neighbours::best_skin(const Particles& fluid, const std::vector<Boundary>& boundaries, double dt,
                              const Ranks* ranks) const {
-  double step = farthest_step(fluid, dt, ranks);
+  double step = farthest(0, fluid, dt, ranks);
   for (const Boundary& boundary : boundaries)
     if (boundary.moves()) step = std::max(step, farthest_step(boundary, dt));
   const double best = std::sqrt(support_ * 2 * step);

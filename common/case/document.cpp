@@ -94,6 +94,15 @@ std::optional<std::size_t> item_index(const toml::array& array, const std::strin
   return std::nullopt;
 }
 
+/// Where a case that builds on the one of `place`, or an override, changed something of a value in braces.
+toml::source_region place_of_change(const toml::node& value, const toml::source_region& place) {
+  const toml::table* braces = value.as_table();
+  if (!braces || !braces->is_inline() || !place.path) return place;
+  for (const auto& [key, inner] : *braces)
+    if (key.source().path && *key.source().path != *place.path) return key.source();
+  return place;
+}
+
 toml::source_region place_of(const toml::table& table, const std::string& path,
                              const toml::source_region& otherwise) {
   toml::source_region place = otherwise;
@@ -101,19 +110,19 @@ toml::source_region place_of(const toml::table& table, const std::string& path,
   for (const auto& part : split_path(path)) {
     if (const toml::table* inner = node->as_table()) {
       const auto entry = inner->find(part);
-      if (entry == inner->end()) break;
+      if (entry == inner->end()) return place;
       place = entry->first.source();
       node = &entry->second;
     } else if (const toml::array* items = node->as_array()) {
       const auto index = item_index(*items, part);
-      if (!index) break;
+      if (!index) return place;
       node = items->get(*index);
       if (node->source().path) place = node->source();
     } else {
-      break;
+      return place;
     }
   }
-  return place;
+  return place_of_change(*node, place);
 }
 
 std::string json_text(const toml::node& node) {

@@ -26,8 +26,8 @@ std::string override_place(const std::string& text);
 /// A fault at a place of the file (line and column) or of an override (none).
 InputError fault_at(const toml::source_region& place, const std::string& message);
 
-/// Where `path` ("region.1.box") was written; if it goes deeper than `table`, the deepest place on the way;
-/// `otherwise` if nothing of it is there.
+/// Where `path` ("region.1.box") was written, or what it holds in braces was changed; if it goes deeper than
+/// `table`, the deepest place on the way; `otherwise` if nothing of it is there.
 toml::source_region place_of(const toml::table& table, const std::string& path,
                              const toml::source_region& otherwise);
 

@@ -217,12 +217,13 @@ Expiry check_identity(const Network& network, const std::string& part) {
 }
 
 void check_expiry(const Expiry& expiry) {
-  if (std::time(nullptr) <= expiry.time) return;
+  constexpr std::time_t last_words = 2;  // [s] in which the others are told
+  if (std::time(nullptr) < expiry.time - last_words) return;
   std::tm parts{};
   gmtime_r(&expiry.time, &parts);
   throw BadInput(
       {{.place = "--secure " + expiry.file,
-        .message = fmt::format("expired on {}, in mid-run: no message passes any more; './run.sh "
+        .message = fmt::format("expires on {}, in mid-run: no message passes from then on; './run.sh "
                                "--make-identities' makes new ones, and --restart goes on from the newest "
                                "checkpoint",
                                time_text(parts))}});

@@ -18,7 +18,7 @@ struct Expiry {
   std::string file = {};
   std::time_t time = std::numeric_limits<std::time_t>::max();
 };
-/// Throws BadInput if that is past.
+/// Throws BadInput if that is past or so near that only the last words still pass.
 void check_expiry(const Expiry& expiry);
 
 /// Throws BadInput with all that is wrong with the identity of `part` ("coupler", "fluid" or "solid") in the

@@ -69,7 +69,7 @@ class Summed : public std::ostream {
       size += static_cast<std::size_t>(count);
       if (!to) return count;
       const std::streamsize passed = to->sputn(bytes, count);
-      if (passed != count) error = errno;
+      if (passed != count) error = errno != 0 ? errno : EIO;
       return passed;
     }
     int_type overflow(int_type byte) override {

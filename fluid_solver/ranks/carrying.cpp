@@ -108,7 +108,12 @@ Joined join(Particles& fluid, VecField* beside, const std::vector<std::uint32_t>
   for_each_carried(fluid, take);
   for (int a = 0; beside && a < dim; ++a) take((*beside)[a]);
   std::fill(fluid.m.begin() + static_cast<std::ptrdiff_t>(fluid.count), fluid.m.end(), 0.0);  // idle lanes
-  resize_present_fields(fluid, size);
+  for_each_field(fluid, [&](auto& field) {  // anew, or they would keep the room of the whole fluid
+    if (field.kind != FieldKind::state)
+      for_each_component(field, [&](Field& component) {
+        if (!component.empty()) component = Field(size);
+      });
+  });
   return joined;
 }
 

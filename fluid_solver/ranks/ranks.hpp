@@ -4,6 +4,8 @@
 /// sums round as they do there.
 #pragma once
 
+#include <span>
+
 #include "common/sph/cluster_list.hpp"
 #include "fluid_solver/particles.hpp"
 
@@ -26,8 +28,12 @@ struct Swept {
 class Ranks {
  public:
   virtual ~Ranks() = default;
-  /// Of the values of all processes.
-  virtual double largest(double value) const = 0;
+  /// Each becomes the largest of all processes.
+  virtual void take_largest(std::span<double> values) const = 0;
+  double largest(double value) const {
+    take_largest({&value, 1});
+    return value;
+  }
   /// Of the values of the whole fluid; of ghosts they need not be known.
   virtual double largest(const Field& values) const = 0;
 

@@ -73,6 +73,7 @@ ZoltanRanks::ZoltanRanks(MPI_Comm communicator) : communicator_(communicator) {
   check(Zoltan_Initialize(0, nullptr, &version), "Zoltan does not start");
   MPI_Comm_rank(communicator_, &rank_);
   MPI_Comm_size(communicator_, &size_);
+  parts_.resize(static_cast<std::size_t>(size_));
   zoltan_.reset(Zoltan_Create(communicator_));
   for (const auto& [name, value] : {std::pair{"DEBUG_LEVEL", "0"},  // before it says what it does
                                     {"LB_METHOD", "RCB"},
@@ -83,10 +84,9 @@ ZoltanRanks::ZoltanRanks(MPI_Comm communicator) : communicator_(communicator) {
     check(Zoltan_Set_Param(zoltan_.get(), name, value), name);
 }
 
-double ZoltanRanks::largest(double value) const {
-  double found = value;
-  MPI_Allreduce(&value, &found, 1, MPI_DOUBLE, MPI_MAX, communicator_);
-  return found;
+void ZoltanRanks::take_largest(std::span<double> values) const {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                communicator_);
 }
 
 double ZoltanRanks::largest(const Field& values) const {
@@ -122,53 +122,54 @@ void ZoltanRanks::balance(const Particles& fluid) {
   double low[3], high[3];
   check(Zoltan_RCB_Box(zoltan, rank_, &axes, &low[0], &low[1], &low[2], &high[0], &high[1], &high[2]),
         "a part without a box");
-  part_ = {{low[0], low[1]}, {high[0], high[1]}};
+  const std::array<double, 2 * dim> here{low[0], low[1], high[0], high[1]};
+  std::vector<double> all(here.size() * parts_.size());
+  MPI_Allgather(here.data(), 2 * dim, MPI_DOUBLE, all.data(), 2 * dim, MPI_DOUBLE, communicator_);
+  for (std::size_t r = 0; r < parts_.size(); ++r) {
+    const double* box = &all[r * here.size()];
+    parts_[r] = {{box[0], box[1]}, {box[2], box[3]}};
+  }
 }
 
 int ZoltanRanks::owner_of(const Vec& x) const {
   if (size_ == 1) return 0;  // Zoltan keeps no cuts for one
-  if (((x - part_.min).array() > 0).all() && ((part_.max - x).array() > 0).all()) return rank_;
+  const Box& own = parts_[static_cast<std::size_t>(rank_)];
+  if (((x - own.min).array() > 0).all() && ((own.max - x).array() > 0).all()) return rank_;
   double point[3] = {x[0], x[1], 0};
   int owner = 0, part = 0;
   check(Zoltan_LB_Point_PP_Assign(zoltan_.get(), point, &owner, &part), "a place without an owner");
   return owner;
 }
 
-/// A box around the particles of each rank; an empty one where there are none.
-std::vector<Box> ZoltanRanks::boxes_of_parts(const Particles& fluid) const {
+/// Around the own particles; an empty one where there are none.
+Box ZoltanRanks::box_of_own(const Particles& fluid) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Box own{Vec::Constant(infinity), Vec::Constant(-infinity)};
   for (const auto i : own_) {
     own.min = own.min.cwiseMin(at(fluid.x, i));
     own.max = own.max.cwiseMax(at(fluid.x, i));
   }
-  const std::array<double, 2 * dim> here{own.min[0], own.min[1], own.max[0], own.max[1]};
-  std::vector<double> all(here.size() * static_cast<std::size_t>(size_));
-  MPI_Allgather(here.data(), 2 * dim, MPI_DOUBLE, all.data(), 2 * dim, MPI_DOUBLE, communicator_);
-  std::vector<Box> boxes;
-  for (std::size_t k = 0; k < all.size(); k += here.size())
-    boxes.push_back({{all[k], all[k + 1]}, {all[k + 2], all[k + 3]}});
-  return boxes;
+  return own;
 }
 
 /// Own particles that others have as ghosts, by rank: those nearer than `depth` to its part, or with an image
-/// there.
+/// there. Walls of the part may stand where it has no particle of its own.
 std::vector<std::vector<std::uint32_t>> ZoltanRanks::ghosts_of_others(const Particles& fluid, double depth,
                                                                       const std::vector<Vec>& shifts) const {
-  const std::vector<Box> boxes = boxes_of_parts(fluid);
-  const Box& own = boxes[static_cast<std::size_t>(rank_)];
+  const Box own = box_of_own(fluid);
   struct Near {
     std::size_t rank;
     Box box;  ///< in which particles are ghosts there
   };
   std::vector<Near> nears;
-  for (std::size_t r = 0; r < boxes.size(); ++r)
+  for (std::size_t r = 0; r < parts_.size(); ++r)
     for (const Vec& shift : shifts) {
-      const Box box{boxes[r].min - shift - Vec::Constant(depth), boxes[r].max - shift + Vec::Constant(depth)};
+      const Box box{parts_[r].min - shift - Vec::Constant(depth),
+                    parts_[r].max - shift + Vec::Constant(depth)};
       const bool meet = ((box.max - own.min).array() >= 0).all() && ((own.max - box.min).array() >= 0).all();
       if (meet && r != static_cast<std::size_t>(rank_)) nears.push_back({r, box});
     }
-  std::vector<std::vector<std::uint32_t>> found(boxes.size());
+  std::vector<std::vector<std::uint32_t>> found(parts_.size());
   for (const auto i : own_) {
     const Vec x = at(fluid.x, i);
     for (const auto& [rank, box] : nears)

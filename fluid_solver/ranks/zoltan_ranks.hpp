@@ -35,7 +35,8 @@ class ZoltanRanks final : public Ranks, private Division {
  public:
   explicit ZoltanRanks(MPI_Comm communicator);
 
-  double largest(double value) const override;
+  using Ranks::largest;
+  void take_largest(std::span<double> values) const override;
   double largest(const Field& values) const override;
   void begin(const Particles& fluid, const std::vector<Boundary>& boundaries) override;
   void divide(Particles& fluid, double depth, const std::vector<Vec>& shifts, VecField* beside) override;
@@ -79,7 +80,7 @@ class ZoltanRanks final : public Ranks, private Division {
     void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
   };
   int owner_of(const Vec& x) const;
-  std::vector<Box> boxes_of_parts(const Particles& fluid) const;
+  Box box_of_own(const Particles& fluid) const;
   std::vector<std::vector<std::uint32_t>> ghosts_of_others(const Particles& fluid, double depth,
                                                            const std::vector<Vec>& shifts) const;
   Joined exchange(Particles& fluid, VecField* beside, const std::vector<std::uint32_t>& kept,
@@ -95,7 +96,7 @@ class ZoltanRanks final : public Ranks, private Division {
   int rank_ = 0, size_ = 1;
   std::unique_ptr<Zoltan_Struct, Destroy> zoltan_;
   long balancings_ = 0;
-  Box part_ = {};  ///< inside which this rank owns all places [m]
+  std::vector<Box> parts_;  ///< by rank: inside which it owns all places [m]
   Division saved_ = {};
 };
 

@@ -63,11 +63,12 @@ struct Difference {
 }  // namespace
 
 void make_gradients_consistent(RatesOf wanted, double mu, Particles& fluid, const ClusterList& neighbours,
-                               const Kernel& kernel) {
+                               const Kernel& kernel, const std::vector<std::uint32_t>* some) {
+  const std::size_t count = some ? some->size() : fluid.clusters();
   kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
-    for (std::size_t c = 0; c < fluid.clusters(); ++c) {
-      const std::size_t first = c * lane_count;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t c = some ? (*some)[k] : k, first = c * lane_count;
       const Lanes rho = load(fluid.rho, first), deep = load(fluid.off_surface_and_walls, first);
       if (sum_of(deep) == 0) continue;
       GradientSums sums = sums_of(fluid, mu, W, first, neighbours.near(c));

@@ -21,8 +21,9 @@
 namespace toryu::fluid {
 
 /// Puts them into the wanted rates a, drho of `fluid`, which hold (18) and (22). Needs
-/// `fluid.off_surface_and_walls`. `mu` [Pa s] is the viscosity of a Newtonian medium, else 0.
+/// `fluid.off_surface_and_walls`. `mu` [Pa s] is the viscosity of a Newtonian medium, else 0. Of `some`
+/// clusters alone, if they are given.
 void make_gradients_consistent(RatesOf wanted, double mu, Particles& fluid, const ClusterList& neighbours,
-                               const Kernel& kernel);
+                               const Kernel& kernel, const std::vector<std::uint32_t>* some = nullptr);
 
 }  // namespace toryu::fluid

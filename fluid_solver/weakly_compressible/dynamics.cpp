@@ -212,7 +212,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
   medium_.kernel.visit([&](const auto& W) { sweeps().rates(W, wanted, fluid, neighbours, boundaries, own); });
   if (parameters_.consistent_gradients)
     make_gradients_consistent(wanted, viscosity_varies() ? 0.0 : viscosity_at_rest(), fluid, neighbours,
-                              medium_.kernel);
+                              medium_.kernel, own);
   if (velocity)
     medium_.kernel.visit([&](const auto& W) {
       add_further_forces(W, parameters_, medium_, fluid, neighbours, boundaries, own);

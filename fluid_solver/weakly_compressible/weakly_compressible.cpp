@@ -142,7 +142,9 @@ std::string_view WeaklyCompressible::time_step_rule() const {
 
 std::vector<Power> WeaklyCompressible::powers() {
   const ClusterList& neighbours = state_.neighbours.of_fluid();
-  if (neighbours.clusters() == 0) return dynamics_.powers(state_.fluid, neighbours, state_.boundaries);
+  // Of a part there may be no particle; whether there were lists yet is alike on all ranks.
+  const bool listed = ranks_ ? state_.neighbours.builds() > 0 : neighbours.clusters() > 0;
+  if (!listed) return dynamics_.powers(state_.fluid, neighbours, state_.boundaries);
   // Pressures of the last evaluation are half a step older than the velocities. Where both swing, as sound
   // does, their product would be wrong by the step, always to the same side.
   Particles& fluid = state_.fluid;

@@ -41,8 +41,8 @@ class SecureCase(ProcessCase):
             run.start(role, extra=[*PATIENCE, *(self.secure(name) if name else [])])
         return run
 
-    def assert_refused(self, run, role, reason):
-        code, text = run.ending_of(role, LIMIT)
+    def assert_refused(self, run, role, reason, limit=LIMIT):
+        code, text = run.ending_of(role, limit)
         self.assertEqual(code, BAD_INPUT, f"{role}: {text}")
         self.assertRegex(text, reason, role)
         self.assertNotIn("Traceback", text)
@@ -117,15 +117,19 @@ class Refusal(SecureCase):
         run.wait_until_running(beyond=before + 10)
         self.assert_refused(run, "stranger", ASKED)
 
-
     def test_of_identities_that_expire_in_mid_run_is_told_by_all(self):
         made = identities.permissions
-        with mock.patch.object(identities, "permissions", lambda part, _: made(part, LIFE / 86400)):
-            identities.make(self.folder / "short")
-        run = self.run_of_three().start_all(self.secure("short")).wait_until_running()
-        for role in ROLES:
-            self.assert_refused(run, role, f"--secure {self.folder}/short/{role}.p7s: error: expired on .* UTC, in mid-run: no "
-                                "message passes any more")
+        for name, longer in (("short", ()), ("of_one", ("coupler", "solid"))):
+            lives = {role: LIFE * (2 if role in longer else 1) / 86400 for role in ROLES}
+            with mock.patch.object(identities, "permissions", lambda part, now, _: made(part, now, lives[part])):
+                identities.make(self.folder / name)
+        runs = {name: self.run_of_three().start_all(self.secure(name)) for name in ("short", "of_one")}
+        for name, run in runs.items():
+            for role in ROLES:
+                with self.subTest(name=name, role=role):
+                    files = f"{self.folder}/{name}/{'fluid' if name == 'of_one' else '(coupler|fluid|solid)'}.p7s"
+                    self.assert_refused(run, role, f"--secure {files}: error: expires on .* UTC, in mid-run: no message passes "
+                                        "from then on", limit=LIFE + LIMIT)
 
 
 class Launcher(SecureCase):

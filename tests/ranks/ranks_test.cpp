@@ -38,6 +38,16 @@ std::vector<std::vector<double>> states(Particles fluid) {
   return by_number;
 }
 
+/// The pressure that the fluid gives the particles of the walls.
+void expect_the_same_at_walls(const FluidModel& found, const FluidModel& expected) {
+  ASSERT_EQ(found.boundaries().size(), expected.boundaries().size());
+  for (std::size_t b = 0; b < expected.boundaries().size(); ++b) {
+    const Boundary &wall = found.boundaries()[b], &wanted = expected.boundaries()[b];
+    for (std::size_t w = 0; w < wanted.count; ++w)
+      EXPECT_EQ(wall.p[w], wanted.p[w]) << w << " of " << wanted.name << " at y = " << wanted.x[1][w];
+  }
+}
+
 Seen expect_the_same(const std::string& name, const std::vector<std::string>& overrides) {
   const FluidCase the_case(name, overrides);
   WeaklyCompressible whole = the_case.solver(), part = the_case.solver();
@@ -64,6 +74,7 @@ Seen expect_the_same(const std::string& name, const std::vector<std::string>& ov
     std::size_t others = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) others += i >= found.size() || found[i] != expected[i];
     EXPECT_EQ(others, 0u) << "particles in another state, of " << expected.size();
+    expect_the_same_at_walls(all, whole);
     std::printf(
         "%s on %d ranks: %zu particles, %ld list builds, %ld balancings, rank 0 holds %zu and owns %zu\n",
         name.c_str(), ranks.size(), expected.size(), seen.builds, seen.balancings, seen.most_held,
@@ -90,6 +101,54 @@ TEST(FluidOverRanks, DiffusesItsDensityPlainly) {
 TEST(FluidOverRanks, IsViscous) {
   expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.laminar_viscosity.dynamic_viscosity=1.0",
                                 "fluid.wall_model.slip=\"no_slip\""});
+}
+
+/// A cut through a high column may lie just above a low one, whose water reaches walls of the upper part.
+TEST(FluidOverRanks, ActsOnWallsOfPartsThatHaveNoFluidThere) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  for (const std::string top : {"0.0314", "0.0343", "0.0371", "0.0400"}) {
+    const FluidCase the_case(
+        "dam_break",
+        {"fluid.spacing=0.0028575", "fluid.hydrostatic_start=false",
+         "wall=[{name=\"floor\",box={min=[-0.02,-0.02],max=[0.13,0.0]}},{name=\"left\",box={min=[-0.02,0.0],"
+         "max=[0.0,0.2]}},{name=\"right\",box={min=[0.0986,0.0],max=[0.1186,0.2]}}]",
+         "fluid.region=[{name=\"high\",box={min=[0.0,0.0],max=[0.0286,0.12]}},"
+         "{name=\"low\",box={min=[0.07,0.0],max=[0.0986," +
+             top + "]}}]"});
+    WeaklyCompressible whole = the_case.solver(), part = the_case.solver(), all = the_case.solver();
+    ZoltanRanks ranks(MPI_COMM_WORLD);
+    part.spread_over(ranks);
+    for (int n = 0; n < 40; ++n) {
+      const double dt = whole.time_step_limit();
+      whole.advance(dt);
+      part.advance(dt);
+      part.collect(rank == 0 ? &all : nullptr, true);
+      if (rank == 0) expect_the_same_at_walls(all, whole);
+    }
+  }
+}
+
+TEST(FluidOverRanks, MayHaveRanksWithoutParticles) {
+  const FluidCase the_case(
+      "dam_break", {"fluid.spacing=0.0028575", "fluid.hydrostatic_start=false", "fluid.particle_shifting={}",
+                    "fluid.region=[{name=\"left\",box={min=[0.0,0.0],max=[0.0028575,0.0028575]}},"
+                    "{name=\"right\",box={min=[0.8001,0.1],max=[0.8029575,0.1028575]}}]"});
+  WeaklyCompressible whole = the_case.solver(), part = the_case.solver();
+  ZoltanRanks ranks(MPI_COMM_WORLD);
+  part.spread_over(ranks);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  for (int n = 0; n < 20; ++n) {
+    const double dt = whole.time_step_limit();
+    EXPECT_EQ(part.time_step_limit(), dt);
+    whole.advance(dt);
+    part.advance(dt);
+    const auto wanted = whole.look().powers, found = part.look().powers;
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t k = 0; rank == 0 && k < wanted.size(); ++k)
+      EXPECT_EQ(found[k].value, wanted[k].value) << wanted[k].term;
+  }
 }
 
 TEST(FluidOverRanks, IsAtRestInATank) {

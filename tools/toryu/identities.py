@@ -71,8 +71,7 @@ def topics_of(part):
     return tuple({name: None for names in FROM_COUPLER.values() for name in names}), sum(TO_COUPLER.values(), ())
 
 
-def permissions(part, days):
-    now = datetime.datetime.now(datetime.timezone.utc).replace(microsecond=0, tzinfo=None)
+def permissions(part, now, days):
     publish, subscribe = ("<topics>" + "".join(f"<topic>toryu/{name}</topic>" for name in names) + "</topics>"
                           for names in topics_of(part))
     return PERMISSIONS.format(part=part, publish=publish, subscribe=subscribe,
@@ -117,6 +116,7 @@ def make(folder, encrypt=False, days=DAYS):
     identity of the run."""
     os.umask(0o077)
     key = os.memfd_create("ca.key")
+    now = datetime.datetime.now(datetime.timezone.utc).replace(microsecond=0, tzinfo=None)  # all expire at once
     with filled_at_once(folder) as made:
         authority = made / "ca.pem"
 
@@ -131,7 +131,7 @@ def make(folder, encrypt=False, days=DAYS):
             openssl("req", *NEW_KEY, "-keyout", made / f"{part}.key", "-out", request, "-subj", f"/CN={part}")
             openssl("x509", "-req", "-in", request, "-CA", authority, "-CAkey", named(key), "-sha256", "-days", days, "-set_serial",
                     int.from_bytes(secrets.token_bytes(8), "big"), "-out", made / f"{part}.pem", key=key)
-            sign(permissions(part, days), f"{part}.p7s")
+            sign(permissions(part, now, days), f"{part}.p7s")
             request.unlink()
     os.close(key)
 
