@@ -145,7 +145,7 @@ TEST_F(Identities, HavePermissionsOfTheirPartAndTime) {
   ASSERT_EQ(std::system(fmt::format("PYTHONPATH={}/tools /usr/bin/python3 -c 'import pathlib\n"
                                     "from toryu import identities\n"
                                     "made = identities.permissions\n"
-                                    "identities.permissions = lambda part, days: made(part, -0.5)\n"
+                                    "identities.permissions = lambda part, now, days: made(part, now, -0.5)\n"
                                     "identities.make(pathlib.Path(\"{}\"))'",
                                     SOURCE_FOLDER, late.string())
                             .c_str()),
