@@ -15,7 +15,7 @@ from toryu import PROGRAMS, counted, program
 from toryu.installation import COMMAND
 from toryu.processes import BAD_INPUT, BUG, DONE, PHYSICS_FAILED
 from toryu.remote import placement
-from toryu.study import (bisection, calibration, calibration_search, charts, checks, elsewhere, hosts, map_file, metrics, page,
+from toryu.study import (bisection, calibration, calibration_search, checks, elsewhere, hosts, map_file, metrics, page,
                          recession, recession_search, removal, runner, slurm, study_file, table, terms, timing, verdicts)
 from toryu.study.document import BadStudy
 from toryu.study.progress import Progress, duration
@@ -199,6 +199,8 @@ def known_runs(study, make, runs):
 
 def finish(study, records, out, kept, elapsed, versions):
     """Table, charts, page and the last words."""
+    from toryu.study import charts  # matplotlib takes longer than all that a check needs
+
     views = [view for kind in VIEWS if (view := getattr(study, kind.key))]
     if study.searched:
         study.searched.take_all_values(records)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from toryu.processes import DONE
-from toryu.study import calibration_charts, calibration_output, study_file
+from toryu.study import calibration_output, study_file
 from toryu.study.calibration_depths import Coupon, read_coupon
 from toryu.study.chart_file import conditions
 from toryu.study.document import found
@@ -94,6 +94,8 @@ class Calibration:
         return {}
 
     def charts(self, _study, _table, folder):
+        from toryu.study import calibration_charts
+
         return calibration_charts.draw(self, folder) if self.fit else []
 
     def answers(self, study, _table, out):

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
-from toryu.study import map_charts, map_results, study_file, verdicts
+from toryu.study import map_results, study_file, verdicts
 from toryu.study.document import found, is_number, one_of
 from toryu.study.formula import Formula, read_formula
 
@@ -76,6 +76,8 @@ class Map:
         return {"verdict": verdict.kind, "detected_at": verdict.detected_at}
 
     def charts(self, study, table, folder):
+        from toryu.study import map_charts
+
         return map_charts.draw(study, table, folder)
 
     def answers(self, study, table, out):

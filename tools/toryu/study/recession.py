@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from toryu.study import calibrated, recession_answer, recession_charts, recession_faults, recession_goals, study_file
+from toryu.study import calibrated, recession_answer, recession_faults, recession_goals, study_file
 from toryu.study.calibrated import Calibrated
 from toryu.study.document import found, is_number
 from toryu.study.recession_steps import March
@@ -104,6 +104,8 @@ class Recession:
         return solved.figures() if solved else {}
 
     def charts(self, study, table, folder):
+        from toryu.study import recession_charts
+
         return recession_charts.draw(self, study, folder)
 
     def relate(self, study, rows):

@@ -9,7 +9,7 @@ from toryu import results, surface
 from toryu.case import resolve
 from toryu.processes import DONE
 from toryu.report import along
-from toryu.study import calibrated, removal_charts, removed_depth
+from toryu.study import calibrated, removed_depth
 from toryu.study.answer import Answer
 from toryu.study.calibrated import Calibrated
 from toryu.study.removal_answer import Wanted, answer_of
@@ -111,6 +111,8 @@ class Removal:
         return found | ({"depth_then_error": float(error(lambda _, r: r.mean(r.after(cycles))))} if cycles else {})
 
     def charts(self, study, table, folder):
+        from toryu.study import removal_charts
+
         return removal_charts.draw(self, study, self.settings(table), folder)
 
     def answers(self, study, table, _) -> list[Answer]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from toryu import counted
 from toryu.report import tables
-from toryu.study import oscillation, page, speed_accuracy_chart
+from toryu.study import oscillation, page
 from toryu.study.answer import Answer
 from toryu.study.progress import duration
 from toryu.study.table import readable_size
@@ -192,6 +192,8 @@ def marks(chart):
 
 
 def draw(chart, study, table):
+    from toryu.study import speed_accuracy_chart
+
     factor, unit = readable_size(table.units[chart.time], table.column(chart.time))
     lines = lines_of(chart, study, table)
     return speed_accuracy_chart.draw(chart, lines, front([p for line in lines for p in line.points]), factor,

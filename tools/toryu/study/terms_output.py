@@ -6,12 +6,13 @@ import math
 
 from toryu.program import whole_file
 from toryu.report import data, tables
-from toryu.study import drawing
 from toryu.study.answer import Answer
 from toryu.study.terms_effects import FREE, LEFT_OUT, NEEDED
 
 
 def charts(study, effects, folder):
+    from toryu.study import drawing
+
     made, (left, right) = drawing.figure(2, height=1.2 + 0.26 * max(len(effects), 4))
     names = [effect.name for effect in effects]
     thickness = 0.8 / len(study.terms.quantities)
