@@ -56,15 +56,26 @@ void Pistons::move_at(const Vector& u) {
   }
 }
 
-double Pistons::unbalanced_force(Eigen::Index k, double u) const {
+double Pistons::force_on(Eigen::Index k) const {
   const double F = -at(k).boundary->force_on_fluid.force().dot(axis(k));
-  return (motion(k).mass * (motion(k).speed - u) + dt_ * (at(k).area * at(k).pressure + F)) / at(k).row_mass;
+  return at(k).area * at(k).pressure + F;
+}
+
+double Pistons::unbalanced_force(Eigen::Index k, double u) const {
+  return (motion(k).mass * (motion(k).speed - u) + dt_ * force_on(k)) / at(k).row_mass;
 }
 
 Pistons::Vector Pistons::unbalance(const Vector& u) const {
   Vector r(count());
   for (Eigen::Index k = 0; k < count(); ++k)
     r[k] = at(k).bound ? *at(k).bound - u[k] : unbalanced_force(k, u[k]);
+  return r;
+}
+
+Pistons::Vector Pistons::driving() const {
+  Vector r(count());
+  for (Eigen::Index k = 0; k < count(); ++k)
+    r[k] = at(k).bound ? *at(k).bound : dt_ * force_on(k) / at(k).row_mass;
   return r;
 }
 

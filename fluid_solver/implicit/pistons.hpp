@@ -46,6 +46,9 @@ class Pistons {
   /// u^n + dt (A (p - q) + F)/M - u, over m/M, of what the last evaluation did [m/s]; of one that a stop
   /// holds how far it is off its bound.
   Vector unbalance(const Vector& u) const;
+  /// Of the same, at rest, what press and medium do, dt (A (p - q) + F)/m: the momentum that a piston brings
+  /// drives nothing [m/s].
+  Vector driving() const;
 
   /// After an evaluation at 1 Pa everywhere: the areas. Until then they are those of the faces. Throws
   /// PhysicsFailure where one is not near that of the face: with the medium on both sides, on the other, or
@@ -77,6 +80,8 @@ class Pistons {
   };
   const Piston& at(Eigen::Index k) const { return all_[static_cast<std::size_t>(k)]; }
   PressedMotion& motion(Eigen::Index k) const { return std::get<PressedMotion>(at(k).boundary->motion); }
+  /// A (p - q) + F of the last evaluation [N/m].
+  double force_on(Eigen::Index k) const;
   /// M u^n + dt (A (p - q) + F) - M u, over m [m/s].
   double unbalanced_force(Eigen::Index k, double u) const;
 

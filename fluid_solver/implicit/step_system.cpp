@@ -220,6 +220,12 @@ StepSystem::Vector StepSystem::unbalance(const Vector& v, Viscosity viscosity) {
   return r;
 }
 
+StepSystem::Vector StepSystem::driving() {
+  Vector r = unbalance(Vector::Zero(v_n_.size()), Viscosity::kept);
+  r.tail(pistons_.count()) = pistons_.driving();
+  return r;
+}
+
 StepSystem::Vector StepSystem::unbalance_between_stops(Vector& v) {
   Vector u = v.tail(pistons_.count());
   pistons_.release(u);
