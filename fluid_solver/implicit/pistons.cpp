@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/error/failure.hpp"
 #include "fluid_solver/held_pressure.hpp"
+#include "fluid_solver/press_area.hpp"
 
 namespace toryu::fluid {
-
-namespace {
-
-/// Of the area that the medium meets to that of the face: corners take a tenth of a narrow one.
-constexpr double largest_misfit = 0.5;
-
-}  // namespace
 
 Pistons::Pistons(std::vector<Boundary>& boundaries, const Parameters& parameters,
                  const EquationOfState& state, double dt)
@@ -79,16 +72,10 @@ Pistons::Vector Pistons::driving() const {
   return r;
 }
 
-void Pistons::take_areas() {
+void Pistons::take_areas(const Particles& fluid, const Kernel& kernel) {
   for (Piston& piston : all_) {
-    const auto& pressed = std::get<PressedMotion>(piston.boundary->motion);
-    piston.area = piston.boundary->force_on_fluid.force().dot(pressed.press.axis());
-    if (!(std::abs(piston.area / pressed.area - 1) < largest_misfit))
-      throw PhysicsFailure(fmt::format(
-          "wall '{}' at t = {:.6g} s: along its press the medium meets it over {:.3g} m, and its face has "
-          "{:.3g} "
-          "m: implicit steps press a wall that has the medium before its face, and on no other side",
-          piston.boundary->name, pressed.time, piston.area, pressed.area));
+    piston.area = met_area(*piston.boundary, fluid, kernel);
+    require_medium_before_face(*piston.boundary, piston.area);
   }
 }
 

@@ -87,26 +87,13 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
     boundary.eta.resize(boundary.V.size());
     resize(boundary.eta_grad_v, boundary.V.size());
   }
-  if (pistons_.count() > 0) find_areas();
+  pistons_.take_areas(fluid, terms.kernel);
   if (!terms.viscosity_varies()) return;
   moments_.resize(fluid.clusters());
   terms.kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c) find_moment(W, c);
   });
-}
-
-void StepSystem::find_areas() {
-  const auto set = [](Field& p_rho2, const Field& rho) {
-    for (std::size_t i = 0; i < rho.size(); ++i) p_rho2[i] = 1 / (rho[i] * rho[i]);
-  };
-  set(fluid_.p_rho2, fluid_.rho);
-  for (Boundary& boundary : boundaries_) set(boundary.p_rho2, boundary.rho);
-  const ChosenTerms pressure_alone;
-  const PairSweeps sweeps = terms_.sweeps(pressure_alone);
-  terms_.kernel.visit(
-      [&](const auto& W) { sweeps.rates(W, RatesOf::velocity, fluid_, neighbours_, boundaries_); });
-  pistons_.take_areas();
 }
 
 StepSystem::Vector StepSystem::joined(const VecField& field, const Vector& speeds) const {

@@ -95,7 +95,6 @@ class StepSystem {
   /// Of all particles, with `speeds` behind.
   Vector joined(const VecField& field, const Vector& speeds) const;
   void move_at(const Vector& v);
-  void find_areas();
   void evaluate(Viscosity viscosity);
   template <class W>
   void find_moment(const W& kernel, std::size_t cluster);

@@ -75,23 +75,6 @@ TEST(Pistons, DriveWithTheirForceAndNotWithTheirMomentum) {
   EXPECT_DOUBLE_EQ(pistons.driving()[0], 1.6) << "held by a stop";
 }
 
-TEST(Pistons, HaveTheAreaOverWhichTheMediumMeetsThem) {
-  Pressed pressed;
-  Pistons pistons = pressed.pistons();
-  pressed.boundaries[0].force_on_fluid.by_cluster = {Vec(1, -0.2), Vec(0, -0.25)};  // at 1 Pa
-  pistons.take_areas();
-  EXPECT_NEAR(pistons.unbalance(one(0.4))[0], 0.1 * (0.45 * 15 - 0.45) / 25, 1e-15);
-}
-
-TEST(Pistons, HaveTheMediumBeforeTheirFaceAlone) {
-  Pressed pressed;
-  Pistons pistons = pressed.pistons();
-  for (const double area : {0.0, 0.2, -0.5, 0.8}) {  // on both sides or gone, leaving, behind, around
-    pressed.boundaries[0].force_on_fluid.by_cluster = {Vec(0, -area)};
-    EXPECT_THROW(pistons.take_areas(), PhysicsFailure) << area;
-  }
-}
-
 TEST(Pistons, MoveTheirParticlesAlongTheirAxis) {
   Pressed pressed;
   pressed.pistons().move_at(one(0.7));
