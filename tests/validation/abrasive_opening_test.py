@@ -127,5 +127,6 @@ class OneWayAtFullSize(OneWay):
 
 if __name__ == "__main__":
     PATHS["cases"], PATHS["bin"] = map(pathlib.Path, sys.argv[1:3])
-    chosen = ["OneWay", "OneWayBore", "OneWayAtFullSize", "PressedBore", "TwoWaySliding"] if "--long" in sys.argv else ["TwoWay", "Bore"]
+    full = ["OneWay", "OneWayBore", "OneWayAtFullSize", "PressedBore", "TwoWaySliding"]
+    chosen = full if "--long" in sys.argv else ["TwoWay", "Bore"]
     unittest.main(argv=[sys.argv[0], *chosen])
