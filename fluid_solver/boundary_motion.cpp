@@ -14,11 +14,11 @@ double PressedMotion::speed_at(double t) const {
   return stopped ? 0 : speed;
 }
 
-void PressedMotion::push(double t, double dt, const Vec& reaction, double held) {
+void PressedMotion::push(double t, double dt, const Vec& reaction, double held, double met) {
   const double before = speed_at(t);
   way = way_at(t);
   time = t;
-  speed = before + dt / mass * (area * (press.pressure_at(t, area) - held) + reaction.dot(press.axis()));
+  speed = before + dt / mass * (met * (press.pressure_at(t, area) - held) + reaction.dot(press.axis()));
   speed = speed_at(t);
   acceleration = (speed - before) / dt;
   mean_speed = 0.5 * (before + speed);

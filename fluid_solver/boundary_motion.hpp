@@ -65,9 +65,10 @@ struct PressedMotion {
       return Kinematics{start[k] + way * axis, speed * axis, acceleration * axis};
     };
   }
-  /// The press and the fluid's `reaction` [N per metre depth] act for `dt` [s] at `t`, the middle of a step.
-  /// `held` is what of the pressure the fluid does not know of [Pa].
-  void push(double t, double dt, const Vec& reaction, double held);
+  /// The press, on the area `met` [m per metre depth] over which the fluid meets it, and the fluid's
+  /// `reaction` [N per metre depth] act for `dt` [s] at `t`, the middle of a step. `held` is what of the
+  /// pressure the fluid does not know of [Pa].
+  void push(double t, double dt, const Vec& reaction, double held, double met);
   /// An implicit step (implicit/pistons.hpp) comes to its middle [s] at the speed of before, and to its end
   /// at the one that it finds, after `dt` in all [s].
   void begin_step(double middle, double end);

@@ -10,6 +10,7 @@
 #include "fluid_solver/axis_images.hpp"
 #include "fluid_solver/held_pressure.hpp"
 #include "fluid_solver/interface_contact.hpp"
+#include "fluid_solver/press_area.hpp"
 #include "fluid_solver/work_piece.hpp"
 
 namespace toryu::fluid {
@@ -277,9 +278,16 @@ void FluidModel::watch_suction(double time) {
 
 void FluidModel::push_pressed_walls(double dt) {
   const double held = kept_pressure(parameters_.enclosed_medium, state_.boundaries, equation_of_state_);
-  for (Boundary& boundary : state_.boundaries)
-    if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion))
-      pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
+  for (Boundary& boundary : state_.boundaries) {
+    auto* pressed = std::get_if<PressedMotion>(&boundary.motion);
+    if (!pressed) continue;
+    double met = pressed->area;  // beside a free surface nobody knows how much of it is dry
+    if (parameters_.enclosed_medium) {
+      met = met_area(boundary, state_.fluid, kernel_, scene_.geometry);
+      require_medium_before_face(boundary, met);
+    }
+    pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held, met);
+  }
 }
 
 void FluidModel::count_forces(double dt) {

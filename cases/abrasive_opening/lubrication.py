@@ -78,6 +78,35 @@ class Tube(Slit):
         return G * width / 4
 
 
+@dataclass
+class PressedBore(Tube):
+    """Of cases/abrasive_bore/pressed.toml: a bore between two lands of its first width, that stay, and two cylinders. The
+    medium sticks, v = (tau_w/eta) l = b tau_w, and wears by k tau_w v, so that
+
+        dR/dt = k b tau_w^2,   tau_w = G R/2,   P = G (L + (R/R_0)^4 (L_lands + 2 * 0.56 R_0))
+
+    with what the lands and the ends of a tube in a wide cylinder take, 0.56 times 2 tau_w an end (a Stokes flow on a
+    staggered grid: cases/axisymmetric_throat). Without them and for small changes it is R_0/(1 - k b P^2 R_0 t/(4 L^2))."""
+
+    length: float = 16e-3
+    lands: float = 4e-3
+    end: float = 0.56
+    wall_slip: float = 0.0
+    preston_coefficient: float = 1e-10  # k of k tau_w v
+
+    def opened_two_way(self, time, steps=1000):
+        R_0 = self.width / 2
+
+        def rate(R):
+            G = self.pressure / (self.length + (R / R_0)**4 * (self.lands + 2 * self.end * R_0))
+            return self.preston_coefficient * self.sliding * (G * R / 2)**2
+
+        R, dt = R_0, time / steps
+        for _ in range(steps):
+            R += dt * rate(R + dt / 2 * rate(R))
+        return 2 * R
+
+
 def last_shape(path, wall, length):
     """Time [s], places up to `length` [m] and depths [m] of a wall in the last row of a recession.csv."""
     with open(path, newline="", encoding="utf-8") as file:

@@ -31,8 +31,8 @@ CoarseFlow::CoarseFlow(const VecField& x, std::size_t count, double width, const
     : width_(width) {
   for (int a = 0; a < dim; ++a) {
     const auto [least, most] = bounds(x[a], count);
-    origin_[a] = least - width;  // a cell for the walls
-    cells_[a] = static_cast<Eigen::Index>((most - least) / width) + 3;
+    cells_[a] = static_cast<Eigen::Index>((most - least) / width) + 3;  // a cell and more for the walls
+    origin_[a] = 0.5 * (least + most - static_cast<double>(cells_[a]) * width);
   }
   const int across = cells_[1] <= cells_[0] ? 1 : 0;  // the shorter way first: a narrow band
   step_[across] = 1;

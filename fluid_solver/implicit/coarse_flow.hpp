@@ -14,6 +14,11 @@
 /// u)^2 for w^2 at its own particles: what the medium resists to its motion comes out, as the complement of
 /// Schur.
 ///
+/// The grid is centred on the medium: beside a symmetric flow what a step leaves unsolved is symmetric too.
+/// Particles in a shear part from each other exponentially, by e in two or three of the wall's shears; begun
+/// at the tolerance, and not at rounding, the halves of a slit 10 across differed by 2 % in their mean speed
+/// after a stroke of four widths.
+///
 /// It is symmetric and positive, of few neighbours each, and factorised by Cholesky's method in its band. It
 /// does not know of periods, where it is left out, and need not be exact: it changes the number of products,
 /// and not what a step is solved for.

@@ -98,7 +98,7 @@ void Implicit::solve(double dt) {
   StepSystem system(terms_, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, dt);
   StepSystem::Vector v = system.foreseen_velocities();
   StepSystem::Vector r = system.unbalance_between_stops(v);
-  const double driving = system.unbalance(StepSystem::Vector::Zero(v.size()), Viscosity::kept).norm();
+  const double driving = system.driving().norm();
   const double tolerated = std::max(solver_.tolerance * driving, system.rounding());
   Effort effort{.steps = 1};
   bool overshot = false;

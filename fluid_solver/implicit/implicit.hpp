@@ -14,6 +14,9 @@
 ///
 ///     |v^n + dt a(v) - v| <= tolerance |v^n + dt a(0)|        with eta(v), in the root mean square
 ///
+/// where of pressed walls what press and medium do counts on the right, and not their momentum: a heavy
+/// piston would loosen what is asked of the medium.
+///
 /// Far from balance a viscosity is found anew after each correction (Picard); near it the correction knows
 /// its derivative (Newton), by a difference of two evaluations (Knoll & Keyes 2004). For n = 0.4 the
 /// foresight leaves a third of the iterations, and the derivative two thirds of those (cases/abrasive_throat,

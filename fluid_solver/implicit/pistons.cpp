@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/error/failure.hpp"
 #include "fluid_solver/held_pressure.hpp"
+#include "fluid_solver/press_area.hpp"
 
 namespace toryu::fluid {
-
-namespace {
-
-/// Of the area that the medium meets to that of the face: corners take a tenth of a narrow one.
-constexpr double largest_misfit = 0.5;
-
-}  // namespace
 
 Pistons::Pistons(std::vector<Boundary>& boundaries, const Parameters& parameters,
                  const EquationOfState& state, double dt)
@@ -56,9 +49,13 @@ void Pistons::move_at(const Vector& u) {
   }
 }
 
-double Pistons::unbalanced_force(Eigen::Index k, double u) const {
+double Pistons::force_on(Eigen::Index k) const {
   const double F = -at(k).boundary->force_on_fluid.force().dot(axis(k));
-  return (motion(k).mass * (motion(k).speed - u) + dt_ * (at(k).area * at(k).pressure + F)) / at(k).row_mass;
+  return at(k).area * at(k).pressure + F;
+}
+
+double Pistons::unbalanced_force(Eigen::Index k, double u) const {
+  return (motion(k).mass * (motion(k).speed - u) + dt_ * force_on(k)) / at(k).row_mass;
 }
 
 Pistons::Vector Pistons::unbalance(const Vector& u) const {
@@ -68,16 +65,17 @@ Pistons::Vector Pistons::unbalance(const Vector& u) const {
   return r;
 }
 
-void Pistons::take_areas() {
+Pistons::Vector Pistons::driving() const {
+  Vector r(count());
+  for (Eigen::Index k = 0; k < count(); ++k)
+    r[k] = at(k).bound ? *at(k).bound : dt_ * force_on(k) / at(k).row_mass;
+  return r;
+}
+
+void Pistons::take_areas(const Particles& fluid, const Kernel& kernel) {
   for (Piston& piston : all_) {
-    const auto& pressed = std::get<PressedMotion>(piston.boundary->motion);
-    piston.area = piston.boundary->force_on_fluid.force().dot(pressed.press.axis());
-    if (!(std::abs(piston.area / pressed.area - 1) < largest_misfit))
-      throw PhysicsFailure(fmt::format(
-          "wall '{}' at t = {:.6g} s: along its press the medium meets it over {:.3g} m, and its face has "
-          "{:.3g} "
-          "m: implicit steps press a wall that has the medium before its face, and on no other side",
-          piston.boundary->name, pressed.time, piston.area, pressed.area));
+    piston.area = met_area(*piston.boundary, fluid, kernel);
+    require_medium_before_face(*piston.boundary, piston.area);
   }
 }
 

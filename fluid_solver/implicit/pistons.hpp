@@ -5,12 +5,9 @@
 ///     M_k (u_k - u_k^n)/dt = A_k (p_k - q) + F_k,   u_least <= u_k <= u_most,
 ///
 /// q being what of the pressure the medium does not know (held_pressure.hpp), and A_k the area over which the
-/// medium meets the piston: its force at 1 Pa everywhere, by the sums that give F_k. It is the face's but for
-/// the corners, where particles of the walls beside it bear a share, 8 % of a face of 10 particles (Wendland
-/// C2, h/d_0 = 2), and for the order of the particles: by the face's own the medium would be held at a
-/// pressure that is as much too high. In long steps the inertia is nothing beside the forces, and the piston
-/// goes as fast as balances them. The bounds take it as far as its stops in the half of the step that is
-/// left: where it meets one and is pushed on, the stop bears the rest of the force, and the row says u_k =
+/// medium meets the piston (press_area.hpp). In long steps the inertia is nothing beside the forces, and the
+/// piston goes as fast as balances them. The bounds take it as far as its stops in the half of the step that
+/// is left: where it meets one and is pushed on, the stop bears the rest of the force, and the row says u_k =
 /// its bound (an active set by projection, Bertsekas 1982).
 ///
 /// A row stands over the mass m_k = rho_0 A_k d_0 of the row of particles before the face, so that an
@@ -46,11 +43,13 @@ class Pistons {
   /// u^n + dt (A (p - q) + F)/M - u, over m/M, of what the last evaluation did [m/s]; of one that a stop
   /// holds how far it is off its bound.
   Vector unbalance(const Vector& u) const;
+  /// Of the same, at rest, what press and medium do, dt (A (p - q) + F)/m: the momentum that a piston brings
+  /// drives nothing [m/s].
+  Vector driving() const;
 
-  /// After an evaluation at 1 Pa everywhere: the areas. Until then they are those of the faces. Throws
-  /// PhysicsFailure where one is not near that of the face: with the medium on both sides, on the other, or
-  /// gone.
-  void take_areas();
+  /// The areas, by `fluid` and by walls whose densities are known. Until then they are those of the faces.
+  /// Throws PhysicsFailure where one is not near that of the face.
+  void take_areas(const Particles& fluid, const Kernel& kernel);
 
   /// Takes `u` back between the bounds, and lets all go.
   void release(Vector& u);
@@ -77,6 +76,8 @@ class Pistons {
   };
   const Piston& at(Eigen::Index k) const { return all_[static_cast<std::size_t>(k)]; }
   PressedMotion& motion(Eigen::Index k) const { return std::get<PressedMotion>(at(k).boundary->motion); }
+  /// A (p - q) + F of the last evaluation [N/m].
+  double force_on(Eigen::Index k) const;
   /// M u^n + dt (A (p - q) + F) - M u, over m [m/s].
   double unbalanced_force(Eigen::Index k, double u) const;
 

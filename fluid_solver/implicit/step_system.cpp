@@ -87,26 +87,13 @@ StepSystem::StepSystem(const ImplicitTerms& terms, Particles& fluid, const Clust
     boundary.eta.resize(boundary.V.size());
     resize(boundary.eta_grad_v, boundary.V.size());
   }
-  if (pistons_.count() > 0) find_areas();
+  pistons_.take_areas(fluid, terms.kernel);
   if (!terms.viscosity_varies()) return;
   moments_.resize(fluid.clusters());
   terms.kernel.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 8)
     for (std::size_t c = 0; c < fluid.clusters(); ++c) find_moment(W, c);
   });
-}
-
-void StepSystem::find_areas() {
-  const auto set = [](Field& p_rho2, const Field& rho) {
-    for (std::size_t i = 0; i < rho.size(); ++i) p_rho2[i] = 1 / (rho[i] * rho[i]);
-  };
-  set(fluid_.p_rho2, fluid_.rho);
-  for (Boundary& boundary : boundaries_) set(boundary.p_rho2, boundary.rho);
-  const ChosenTerms pressure_alone;
-  const PairSweeps sweeps = terms_.sweeps(pressure_alone);
-  terms_.kernel.visit(
-      [&](const auto& W) { sweeps.rates(W, RatesOf::velocity, fluid_, neighbours_, boundaries_); });
-  pistons_.take_areas();
 }
 
 StepSystem::Vector StepSystem::joined(const VecField& field, const Vector& speeds) const {
@@ -217,6 +204,12 @@ StepSystem::Vector StepSystem::unbalance(const Vector& v, Viscosity viscosity) {
   evaluate(viscosity);
   Vector r = v_n_ + dt_ * joined(fluid_.a, Vector::Zero(pistons_.count())) - v;
   r.tail(pistons_.count()) = pistons_.unbalance(v.tail(pistons_.count()));
+  return r;
+}
+
+StepSystem::Vector StepSystem::driving() {
+  Vector r = unbalance(Vector::Zero(v_n_.size()), Viscosity::kept);
+  r.tail(pistons_.count()) = pistons_.driving();
   return r;
 }
 

@@ -76,8 +76,11 @@ class StepSystem {
   /// v^n + dt a(v) - v [m/s]: the unbalanced force, over m/dt. Leaves p, drho and a of `fluid` and what the
   /// boundaries do to it.
   Vector unbalance(const Vector& v, Viscosity viscosity);
-  /// The same with a renewed viscosity, of pistons no faster than their stops allow: takes `v` back to that,
-  /// and finds out whom a stop holds.
+  /// The same at rest, with the viscosity as it is, without the momentum of pistons: the force that drives
+  /// the medium.
+  Vector driving();
+  /// The unbalance with a renewed viscosity, of pistons no faster than their stops allow: takes `v` back to
+  /// that, and finds out whom a stop holds.
   Vector unbalance_between_stops(Vector& v);
   /// The blocks of the matrix 1 - dt da/dv on its diagonal, those of the walls' extrapolation left out.
   std::vector<Block> diagonal() const;
@@ -92,7 +95,6 @@ class StepSystem {
   /// Of all particles, with `speeds` behind.
   Vector joined(const VecField& field, const Vector& speeds) const;
   void move_at(const Vector& v);
-  void find_areas();
   void evaluate(Viscosity viscosity);
   template <class W>
   void find_moment(const W& kernel, std::size_t cluster);

@@ -76,6 +76,27 @@ class Bore(unittest.TestCase):
         self.assertAlmostEqual(float(study.last["flow[m3/s]"]) / flow, 1, delta=0.02)
 
 
+class PressedBore(unittest.TestCase):
+    def test_between_two_presses_its_radius_grows_as_its_pressure_drop_says(self):
+        """Within 1 % of the opening, by the drop between the cylinders, which the presses hold within 1.5 %."""
+        study = Study("pressed_two_way.toml", case="abrasive_bore", wall="bore")
+        self.assertLessEqual(len(study.rows), 10)
+        self.assertEqual(study.time, 1100)
+        drops = [float(row["drop"]) for row in study.rows]
+        for drop in drops:
+            self.assertAlmostEqual(drop / 3e6, 1, delta=0.015)
+        bore = lubrication.PressedBore(pressure=np.mean(drops))
+        opened = (bore.opened_two_way(1100) - bore.width) / 2
+        self.assertGreater(opened, 1.5e-4)
+        middle = (study.place > 4e-3) & (study.place < 16e-3)
+        self.assertLess(np.abs(study.depth[middle] / opened - 1).max(), 0.01)
+        self.assertAlmostEqual(study.depth.mean() / opened, 1, delta=0.01)
+        self.assertLess(abs(float(study.last["balance_error"])), 1e-9)
+        off = np.pi * ((1e-3 + study.depth)**2 - 1e-6).mean() * bore.length
+        self.assertAlmostEqual(float(study.last["removed_volume[m3]"]) / off, 1, delta=1e-4)
+        self.assertAlmostEqual(float(study.last["removed_mass[kg]"]) / (7800 * off), 1, delta=1e-4)
+
+
 class OneWay(unittest.TestCase):
     def check(self, study, shape, mean, slit=None):
         """`shape`: largest difference over the mean depth, the ends apart, where the wall bends."""
@@ -106,5 +127,6 @@ class OneWayAtFullSize(OneWay):
 
 if __name__ == "__main__":
     PATHS["cases"], PATHS["bin"] = map(pathlib.Path, sys.argv[1:3])
-    chosen = ["OneWay", "OneWayBore", "OneWayAtFullSize", "TwoWaySliding"] if "--long" in sys.argv else ["TwoWay", "Bore"]
+    full = ["OneWay", "OneWayBore", "OneWayAtFullSize", "PressedBore", "TwoWaySliding"]
+    chosen = full if "--long" in sys.argv else ["TwoWay", "Bore"]
     unittest.main(argv=[sys.argv[0], *chosen])

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "fluid_solver/implicit/implicit.hpp"
+#include "tests/one_thread.hpp"
+#include "tests/unit/fluid_solver/scenes.hpp"
+
 namespace toryu::fluid {
 namespace {
 
@@ -102,6 +106,78 @@ TEST(CoarseFlow, MovesAPistonWithTheMediumThatItHolds) {
     EXPECT_NEAR(v[i], -v[2 * count], 1e-4);
     EXPECT_NEAR(v[count + i], 0, 1e-4);
   }
+}
+
+/// Row i of the lattice beside the image of row 6 - i, whatever the cells: 0.6 m are 2.4 of them.
+TEST(CoarseFlow, IsItsOwnImage) {
+  Lattice lattice;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = i / across, image = 6 - row;
+    lattice.x[0][i] = 3 + 0.1 * static_cast<double>(i % across);
+    lattice.m[i] = 0.01 + 0.001 * static_cast<double>(std::min(row, image));
+  }
+  CoarseFlow flow = lattice.flow(0.02, 0.5);
+  flow.hold(Vec(3, -1.05), 0.1);
+  flow.hold(Vec(3, -0.35), 0.1);
+  flow.factorise();
+  CoarseFlow::Vector r(2 * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index row = i / across, image = 6 - row;
+    r[i] = std::sin(static_cast<double>(i % across)) + static_cast<double>(row * image);
+    r[count + i] = static_cast<double>((row - image) * (i % across));
+  }
+  const auto found = flow.correction(lattice.x, lattice.m, r);
+  EXPECT_GT(found.norm(), 0.1 * r.norm());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index image = (6 - i / across) * across + i % across;
+    EXPECT_NEAR(found[i], found[image], 1e-12 * found.norm());
+    EXPECT_NEAR(found[count + i], -found[count + image], 1e-12 * found.norm());
+  }
+}
+
+/// A no-slip slit 0.5 m wide about y = 0.25 m, whose pistons move as prescribed.
+Setting driven_slit() {
+  const Motion motion{.velocity = {{0.0, 0.0, 0.0}, {0.05, 0.3, 0.0}}};
+  Setting s = empty_space();
+  s.parameters.artificial_viscosity.reset();
+  s.parameters.density_diffusion.reset();
+  s.parameters.model = Model::implicit;
+  s.parameters.laminar_viscosity = LaminarViscosity{2000};
+  s.parameters.kernel = KernelForm::wendland_c2;
+  s.parameters.smoothing_ratio = 2;
+  s.parameters.background_pressure = BackgroundPressure{1e5};
+  s.parameters.regions = {{"medium", {Vec(0, 0), Vec(1, 0.5)}, Vec::Zero()}};
+  s.scene.walls = {{"lower", {Vec(-0.3, -0.2), Vec(1.5, 0)}, {}},
+                   {"upper", {Vec(-0.3, 0.5), Vec(1.5, 0.7)}, {}},
+                   {"left", {Vec(-0.2, 0), Vec(0, 0.5)}, motion},
+                   {"right", {Vec(1, 0), Vec(1.2, 0.5)}, motion}};
+  return s;
+}
+
+// What the tolerance leaves unsolved must not tell the halves of a slit apart: particles in a shear part from
+// each other exponentially, and do so from any difference.
+TEST(CoarseFlow, LeavesTheHalvesOfASlitAlike) {
+  const Setting s = driven_slit();
+  Implicit model(s.parameters, s.scene);
+  const Particles& f = model.particles();
+  const auto by_number = [&](const VecField& field) {
+    std::vector<Vec> values(f.count);
+    for (std::size_t k = 0; k < f.count; ++k) values[f.id[k]] = at(field, k);
+    return values;
+  };
+  const auto start = by_number(f.x);
+  for (int n = 0; n < 10; ++n) model.advance(0.02);
+  const auto x = by_number(f.x);
+  const auto image = [](const Vec& place) { return Vec(place[0], 0.5 - place[1]); };
+  double largest = 0, moved = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      if ((image(start[i]) - start[j]).norm() > 1e-9) continue;
+      largest = std::max(largest, (image(x[i]) - x[j]).norm());
+      moved = std::max(moved, (x[i] - start[i]).norm());
+    }
+  EXPECT_GT(moved, 0.05);
+  EXPECT_LT(largest, 1e-12);
 }
 
 }  // namespace

@@ -60,21 +60,19 @@ TEST(Pistons, HaveTheRowOfTheirForcesByHand) {
   EXPECT_NEAR(pistons.unbalance(one(0.7))[0], (4 * (0.4 - 0.7) + 0.1 * 4.5) / 25, 1e-15);
 }
 
-TEST(Pistons, HaveTheAreaOverWhichTheMediumMeetsThem) {
-  Pressed pressed;
-  Pistons pistons = pressed.pistons();
-  pressed.boundaries[0].force_on_fluid.by_cluster = {Vec(1, -0.2), Vec(0, -0.25)};  // at 1 Pa
-  pistons.take_areas();
-  EXPECT_NEAR(pistons.unbalance(one(0.4))[0], 0.1 * (0.45 * 15 - 0.45) / 25, 1e-15);
-}
-
-TEST(Pistons, HaveTheMediumBeforeTheirFaceAlone) {
-  Pressed pressed;
-  Pistons pistons = pressed.pistons();
-  for (const double area : {0.0, 0.2, -0.5, 0.8}) {  // on both sides or gone, leaving, behind, around
-    pressed.boundaries[0].force_on_fluid.by_cluster = {Vec(0, -area)};
-    EXPECT_THROW(pistons.take_areas(), PhysicsFailure) << area;
+TEST(Pistons, DriveWithTheirForceAndNotWithTheirMomentum) {
+  for (const double mass : {0.0, 4.0, 1e6}) {
+    Pressed pressed;
+    pressed.motion().mass = mass;
+    EXPECT_NEAR(pressed.pistons().driving()[0], 0.1 * 4.5 / 25, 1e-15) << mass;
   }
+  Pressed pressed;
+  Pistons pistons = pressed.pistons();
+  Vector u = one(9);
+  pistons.release(u);
+  pressed.boundaries[0].force_on_fluid.by_cluster = {Vec(0, 100)};
+  pistons.hold_at_stops(u);
+  EXPECT_DOUBLE_EQ(pistons.driving()[0], 1.6) << "held by a stop";
 }
 
 TEST(Pistons, MoveTheirParticlesAlongTheirAxis) {
@@ -229,6 +227,48 @@ TEST(ImplicitPress, StopsAtTheStopAndComesBack) {
   EXPECT_EQ(furthest, 0.031);
   EXPECT_TRUE(stood);
   EXPECT_LT(motion_of(model, "left").way, 0.03) << "the other presses it back";
+}
+
+// In steady flow a heavy piston asks the same of the medium as one without mass: to the same accuracy, with
+// as many products.
+TEST(ImplicitPress, KeepsTheToleranceOfTheMediumHoweverHeavyThePiston) {
+  Setting s = between_pistons(press(2e4, 2e4, Direction::plus_x), press(1e4, 1e4, Direction::minus_x));
+  s.parameters.wall_model.slip = WallSlip::no_slip;
+  std::stringstream steady;
+  {
+    Implicit model(s.parameters, s.scene);
+    for (int n = 0; n < 10; ++n) model.advance(0.01);
+    model.write_state(steady);
+  }
+  struct Flow {
+    double products, u;
+    std::vector<double> v;
+  };
+  const auto run = [&](double mass, double tolerance) {
+    Setting here = s;
+    set_masses(here, mass);
+    here.parameters.implicit->tolerance = tolerance;
+    Implicit model(here.parameters, here.scene);
+    std::stringstream from(steady.str());
+    model.read_state(from);
+    for (int n = 0; n < 10; ++n) model.advance(0.01);
+    const Particles& f = model.particles();
+    Flow flow{model.figures()[0].second, motion_of(model, "left").speed, std::vector<double>(f.count)};
+    for (std::size_t i = 0; i < f.count; ++i) flow.v[f.id[i]] = f.v[0][i];
+    return flow;
+  };
+  const auto error = [](const Flow& flow, const Flow& exact) {
+    double sum = 0;
+    for (std::size_t i = 0; i < flow.v.size(); ++i) sum += std::pow(flow.v[i] - exact.v[i], 2);
+    return std::sqrt(sum / static_cast<double>(flow.v.size())) / std::abs(exact.u);
+  };
+  const Flow light = run(1e-9, 1e-3), heavy = run(1e6, 1e-3);
+  const double of_light = error(light, run(1e-9, 1e-8)), of_heavy = error(heavy, run(1e6, 1e-8));
+  RecordProperty("products", fmt::format("{} {}", light.products, heavy.products));
+  RecordProperty("errors", fmt::format("{} {}", of_light, of_heavy));
+  EXPECT_GT(light.u, 1e-3);
+  EXPECT_GE(heavy.products, 0.5 * light.products);
+  EXPECT_LE(of_heavy, 2 * of_light);
 }
 
 // What the press gives is what the medium takes up but for the heat; what is left falls with the step.

@@ -34,6 +34,7 @@ TEST(ImplicitTwin, HasTheOwnDensityAndTheSameCompression) {
   pressed.walls.resize(1);
   pressed.walls[0].press.emplace();
   EXPECT_EQ(implicit_twin(p, pressed)->implicit->tolerance, 1e-3);
+  EXPECT_NEAR(implicit_twin(p, pressed)->background_pressure->pressure, 0.8 * 2.4e6, 1);
   p.friction = Friction{};
   EXPECT_FALSE(implicit_twin(p, {}));
 }

@@ -40,7 +40,7 @@ TEST(Press, HasTheAreaAcrossItsDirectionAndSweepsOverItsTravel) {
 TEST(PressedMotion, IsPushedByPressAndReaction) {
   PressedMotion moved = piston();
   // downwards 0.5 m (20 Pa - 4 Pa) - 3 N: 5 N on 4 kg for 0.1 s
-  moved.push(1.0, 0.1, Vec(7, 3), 4);
+  moved.push(1.0, 0.1, Vec(7, 3), 4, 0.5);
   EXPECT_DOUBLE_EQ(moved.speed, 0.125);
   EXPECT_DOUBLE_EQ(moved.mean_speed, 0.0625);
   const Kinematics later = moved.at(1.4)(0);
@@ -54,10 +54,10 @@ TEST(PressedMotion, IsHeldByItsStopsAndLetGo) {
   moved.speed = 1;
   EXPECT_DOUBLE_EQ(moved.way_at(0.5), 0.2);
   EXPECT_EQ(moved.speed_at(0.5), 0);
-  moved.push(0.5, 0.1, Vec(0, 0), 0);  // on against the stop
+  moved.push(0.5, 0.1, Vec(0, 0), 0, 0.5);  // on against the stop
   EXPECT_DOUBLE_EQ(moved.way, 0.2);
   EXPECT_EQ(moved.speed, 0);
-  moved.push(0.6, 0.1, Vec(0, 48), 0);  // 8 N - 48 N
+  moved.push(0.6, 0.1, Vec(0, 48), 0, 0.5);  // 8 N - 48 N
   EXPECT_DOUBLE_EQ(moved.speed, -1);
   EXPECT_DOUBLE_EQ(moved.way_at(0.7), 0.1);
   EXPECT_DOUBLE_EQ(moved.way_at(2), -0.1);
