@@ -75,8 +75,20 @@ class FluidModel : public Solver {
   /// it. Forces, impulses, loads and looks are those of the whole on rank 0; what else is summed over
   /// particles is of the part.
   void spread_over(Ranks& ranks);
+  /// What the parts of this fluid have to know before the first step, beside its particles.
+  struct Begun {
+    Extremes largest = {};
+    double start_volume = 0, potential_of_moves = 0;
+    Neighbours::Begun lists = {};
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, Begun& begun) {
+    auto& [largest, start_volume, potential_of_moves, lists] = begun;
+    archive(largest, start_volume, potential_of_moves, lists);
+  }
+  Begun begun() const;
   /// The same of a model that has walls alone; on rank 0 it is given the `fluid` of another.
-  void spread_over(Ranks& ranks, const Extremes& largest, Particles fluid);
+  void spread_over(Ranks& ranks, const Begun& begun, Particles fluid);
   /// Of a fluid that is spread, called on all ranks: on rank 0 `whole` gets what is reported, or `all` that
   /// one process has, but for its records, and its lists of neighbours (`list_anew`). Elsewhere `whole` is
   /// null.
@@ -109,7 +121,7 @@ class FluidModel : public Solver {
   double elastic_energy() const;  ///< of compression [J per metre]
   double mass() const;            ///< [kg per metre]
   /// Mean density by the room that the particles have, whatever their own say [kg/m3].
-  double density_of_packing() const;
+  virtual double density_of_packing() const;
   Vec momentum() const;
   /// What the press adds to the pressure of an enclosed medium [Pa].
   double pressure_offset() const;
@@ -189,7 +201,8 @@ class FluidModel : public Solver {
   State state_;
   FreeSurface free_surface_;
   Timers timers_;
-  Ranks* ranks_ = nullptr;  ///< over which the fluid is spread
+  Ranks* ranks_ = nullptr;   ///< over which the fluid is spread
+  double start_volume_ = 0;  ///< sum_i m_i/rho_i, where it is held [m2; about an axis m3]
 
  private:
   int reaches_of_ghosts() const;

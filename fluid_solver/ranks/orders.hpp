@@ -14,7 +14,7 @@ namespace toryu::fluid {
 
 enum class Action {
   fill,          ///< read the case and fill the walls of its scene
-  hand_out,      ///< the fluid, whose extremes come with it
+  hand_out,      ///< the fluid; what it has begun with comes with it
   read_state,    ///< of a checkpoint, which comes with it
   attach,        ///< the interface that comes with it
   begin_window,  ///< of `value` [s], with the motion that comes with it
@@ -22,6 +22,7 @@ enum class Action {
   check,         ///< at the time `value` [s]
   look,          ///< at powers and at who is in walls
   collect,       ///< of the whole what is reported, or with a `value` all of its state
+  pack,          ///< find how densely particles are packed
   take_load,
   save,
   restore,

@@ -12,7 +12,7 @@ template <class Term>
 constexpr bool goes_over_ranks =
     is_one_of<Term, BackgroundPressure, CentralForce, DensityDiffusion, ParticleShifting, TensileControl,
               ConsistentGradients, ArtificialViscosity, LaminarViscosity, PowerLaw, HerschelBulkley, Carreau,
-              SlipLaw, WallRepulsion, SurfaceTension>;
+              SlipLaw, WallRepulsion, SurfaceTension, HeldVolume>;
 
 }  // namespace
 

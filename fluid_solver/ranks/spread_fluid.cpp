@@ -59,8 +59,8 @@ void SpreadFluid::together(const Order& order, const std::function<void()>& shar
 void SpreadFluid::hand_out() {
   if (handed_out_) return;
   handed_out_ = true;
-  together({.action = Action::hand_out, .with = packed(state_.largest)},
-           [&] { part_.spread_over(ranks_of_parts_, state_.largest, std::move(state_.fluid)); });
+  together({.action = Action::hand_out, .with = packed(begun())},
+           [&] { part_.spread_over(ranks_of_parts_, begun(), std::move(state_.fluid)); });
   forget();
 }
 
@@ -126,6 +126,13 @@ Look SpreadFluid::look() {
   hand_out();
   together({.action = Action::look}, [&] { seen = part_.look(); });
   return seen;
+}
+
+double SpreadFluid::density_of_packing() const {
+  if (!handed_out_) return WeaklyCompressible::density_of_packing();
+  double found = 0;
+  together({.action = Action::pack}, [&] { found = part_.density_of_packing(); });
+  return found;
 }
 
 void SpreadFluid::find_off_surface() {
@@ -197,9 +204,9 @@ void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Sce
         break;
       }
       case Action::hand_out: {
-        Extremes largest;
-        unpack(order.with, largest);
-        part->spread_over(*ranks, largest, {});
+        FluidModel::Begun begun;
+        unpack(order.with, begun);
+        part->spread_over(*ranks, begun, {});
         break;
       }
       case Action::read_state: {
@@ -224,6 +231,9 @@ void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Sce
         break;
       case Action::collect:
         part->collect(nullptr, order.value > 0);
+        break;
+      case Action::pack:
+        part->density_of_packing();
         break;
       case Action::take_load:
         part->take_load();

@@ -30,6 +30,7 @@ class SpreadFluid final : public WeaklyCompressible {
   std::vector<Observation> observe() const override;
   void watch(double time) override;
   Look look() override;
+  double density_of_packing() const override;
 
   void attach(const Interface& interface, bool rigid) override;
   void begin_window(const InterfaceMotion& motion, double dt) override;

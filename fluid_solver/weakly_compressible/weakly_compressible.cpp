@@ -126,7 +126,7 @@ WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene
   dynamics_.allocate(state_.fluid);
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
-  start_volume_ = volume(state_.fluid);
+  if (parameters.held_volume) start_volume_ = volume(state_.fluid);
   state_.balance = EnergyBalance(powers());
   state_.largest.viscosity = dynamics_.viscosity_at_rest();
   note_extremes();
@@ -189,7 +189,7 @@ void WeaklyCompressible::advance(double dt) {
   else
     step_midpoint(dt);
   if (shifting_) shift(dt);
-  if (parameters_.held_volume) hold_volume(state_.fluid, start_volume_);
+  if (parameters_.held_volume) hold_volume(state_.fluid, start_volume_, ranks_);
   note_extremes();
 }
 

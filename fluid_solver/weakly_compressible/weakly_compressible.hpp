@@ -54,7 +54,6 @@ class WeaklyCompressible : public FluidModel {
   Dynamics dynamics_;
   Start start_;  ///< kept from step to step for its memory
   std::optional<Shifting> shifting_;
-  double start_volume_ = 0;  ///< sum_i m_i/rho_i
 };
 
 }  // namespace toryu::fluid

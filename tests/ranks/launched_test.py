@@ -39,6 +39,8 @@ TERMS = {
     "gravity along a period": ["poiseuille", *SHORT[:-1], "0.1"],
     "fits through faces": ["poiseuille", *SHORT, "--set", "fluid.wall_model.extrapolation=fit"],
     "slip along walls": ["poiseuille", *SHORT, "--set", "fluid.wall_slip={coefficient=0.001}"],
+    "held volume": ["lid_driven_cavity/re_400.toml", "--set", "fluid.spacing=0.05", "--set", "case.series_interval=0.05",
+                    "--end-time", "0.5"],
     "a moving wall": ["retreating_piston", *SHORT[:-1], "0.1"],
     "a disc that turns, and takes a moment": ["turning_disc", "--set", "case.series_interval=0.002", "--end-time", "0.02"],
     "a tank that turns": ["sloshing_tank", "--set", "case.series_interval=0.05", "--end-time", "0.3"],
@@ -167,9 +169,9 @@ class Alone(OverRanks):
         self.assertLessEqual(tasks[1], tasks[0])
 
     def test_refuses_what_does_not_go(self):
-        code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.held_volume={}", "--check"))
+        code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.model=implicit", "--check"))
         self.assertEqual(code, BAD_INPUT, text)
-        self.assertIn("[fluid.held_volume] does not go over ranks: start the case in one process", text)
+        self.assertIn("the implicit model does not go over ranks: start the case in one process", text)
 
     def test_refuses_no_number_and_no_fluid(self):
         for case, count, words in ((DAM, "0", "must be a number of processes, 1 or more"), (DAM, "two", "must be a number"),

@@ -1,6 +1,7 @@
 // A fluid over MPI ranks is the fluid of one process, bit for bit. Started by mpirun.
 #include <gtest/gtest.h>
 
+#include "fluid_solver/held_volume.hpp"
 #include "fluid_solver/ranks/zoltan_ranks.hpp"
 #include "tests/validation/fluid_case.hpp"
 
@@ -101,6 +102,19 @@ TEST(FluidOverRanks, DiffusesItsDensityPlainly) {
 TEST(FluidOverRanks, IsViscous) {
   expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.laminar_viscosity.dynamic_viscosity=1.0",
                                 "fluid.wall_model.slip=\"no_slip\""});
+}
+
+TEST(FluidOverRanks, HoldsItsVolume) {
+  const FluidCase the_case("lid_driven_cavity/re_400.toml", {"fluid.spacing=0.05"});
+  WeaklyCompressible whole = the_case.solver(), part = the_case.solver();
+  ZoltanRanks ranks(MPI_COMM_WORLD);
+  part.spread_over(ranks);
+  EXPECT_EQ(advance(part), advance(whole));
+  EXPECT_EQ(volume(part.particles(), &ranks), volume(whole.particles()));
+  const double found = part.density_of_packing();
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) EXPECT_EQ(found, whole.density_of_packing());
 }
 
 /// A cut through a high column may lie just above a low one, whose water reaches walls of the upper part.
