@@ -63,12 +63,15 @@ void FluidModel::write_state(std::ostream& stream) const {
   write_states(stream, state_);
 }
 
-void FluidModel::read_state(std::istream& stream) {
+void FluidModel::take_state(std::istream& stream) {
   read_states(stream, state_);
-  if (state_.open_ends) {
-    resize_present_fields(state_.fluid, padded(state_.fluid.count));
-    state_.open_ends->find(state_.fluid);
-  }
+  if (!state_.open_ends) return;
+  resize_present_fields(state_.fluid, padded(state_.fluid.count));
+  state_.open_ends->find(state_.fluid);
+}
+
+void FluidModel::read_state(std::istream& stream) {
+  take_state(stream);
   if (ranks_)
     spread_over(*ranks_);
   else
@@ -199,13 +202,17 @@ void FluidModel::refuse_in_layers(const std::vector<Vec>& points) const {
 }
 
 void FluidModel::record_surface(const std::filesystem::path& out) {
+  find_surface();
+  if (state_.surface_record) state_.surface_record->open(out);
+}
+
+void FluidModel::find_surface() {
   if (!parameters_.removal) return;
   std::optional<Sticking> sticks;
   if (parameters_.wall_model.slip == WallSlip::no_slip)
     sticks = Sticking{parameters_.spacing, [p = parameters_](double gdot) { return viscosity_of(p, gdot); }};
   state_.surface_record.emplace(*parameters_.removal, std::move(sticks), scene_.geometry);
   state_.surface_record->attach(state_.boundaries);
-  state_.surface_record->open(out);
 }
 
 Look FluidModel::look() {
@@ -250,7 +257,9 @@ void FluidModel::complete_records() {
 bool FluidModel::is_enclosed() {
   update_neighbours(0);
   find_off_surface();
-  return is_closed(state_.fluid);
+  const bool closed = is_closed(state_.fluid);
+  if (!parameters_.seeks_free_surface()) state_.fluid.off_surface = {};
+  return closed;
 }
 
 void FluidModel::watch_shear(double time) {
@@ -278,8 +287,11 @@ void FluidModel::watch_suction(double time) {
 void FluidModel::push_pressed_walls(double dt) {
   const double held = kept_pressure(parameters_.enclosed_medium, state_.boundaries, equation_of_state_);
   for (Boundary& boundary : state_.boundaries)
-    if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion))
-      pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held);
+    if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion)) {
+      Vec reaction = -boundary.force_on_fluid.force();
+      if (ranks_) ranks_->take_first({reaction.data(), dim});
+      pressed->push(state_.time + 0.5 * dt, dt, reaction, held);
+    }
 }
 
 void FluidModel::count_forces(double dt) {

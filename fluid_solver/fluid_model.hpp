@@ -69,7 +69,10 @@ class FluidModel : public Solver {
   std::size_t particle_count() const override { return state_.fluid.count; }
 
   /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.
-  void record_surface(const std::filesystem::path& out);
+  virtual void record_surface(const std::filesystem::path& out);
+  /// The same of a part of a fluid, which has no file: another model adds what each step finds.
+  void find_surface();
+  const std::vector<SurfaceContact>& surface_found() const { return surface_found_; }
 
   /// From the next step on the fluid, which rank 0 has, is spread over `ranks`: this model holds a part of
   /// it. Forces, impulses, loads and looks are those of the whole on rank 0; what else is summed over
@@ -182,6 +185,8 @@ class FluidModel : public Solver {
     if (suction_watch) archive(*suction_watch);
   }
 
+  /// What `read_state` does but for the lists.
+  void take_state(std::istream& stream);
   /// Sorts and lists anew if a step of `dt` [s] may exhaust the skin.
   void update_neighbours(double dt);
   void move_boundaries(double time);
@@ -201,7 +206,8 @@ class FluidModel : public Solver {
   State state_;
   FreeSurface free_surface_;
   Timers timers_;
-  Ranks* ranks_ = nullptr;   ///< over which the fluid is spread
+  Ranks* ranks_ = nullptr;                          ///< over which the fluid is spread
+  std::vector<SurfaceContact> surface_found_ = {};  ///< by the last step, of such a fluid
   double start_volume_ = 0;  ///< sum_i m_i/rho_i, where it is held [m2; about an axis m3]
 
  private:

@@ -182,7 +182,7 @@ Vec FluidModel::momentum() const {
 
 double FluidModel::pressure_offset() const {
   return fluid::pressure_offset(parameters_.enclosed_medium, state_.fluid, state_.boundaries,
-                                equation_of_state_);
+                                equation_of_state_, ranks_);
 }
 
 Vec FluidModel::numerical_impulse() const {

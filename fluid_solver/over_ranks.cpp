@@ -84,7 +84,8 @@ void FluidModel::collect_fluid(Particles* whole, bool all) {
     if (all)
       for_each_field(fluid, add);
     else
-      reported(fluid.x, fluid.v, fluid.rho, fluid.m, fluid.off_surface_and_walls, fluid.gdot, fluid.eta);
+      reported(fluid.x, fluid.v, fluid.rho, fluid.m, fluid.off_surface_and_walls, fluid.gdot, fluid.eta,
+               fluid.polymer_stress);
     return found;
   };
   Field number(state_.fluid.id.begin(), state_.fluid.id.end()),

@@ -16,6 +16,7 @@ enum class Action {
   fill,          ///< read the case and fill the walls of its scene
   hand_out,      ///< the fluid; what it has begun with comes with it
   read_state,    ///< of a checkpoint, which comes with it
+  find_surface,  ///< of the work pieces, where the case asks for removal
   attach,        ///< the interface that comes with it
   begin_window,  ///< of `value` [s], with the motion that comes with it
   advance,       ///< by `value` [s]

@@ -37,6 +37,8 @@ class Ranks {
   }
   /// Of the values of the whole fluid; of ghosts they need not be known.
   virtual double largest(const Field& values) const = 0;
+  /// Each becomes that of rank 0.
+  virtual void take_first(std::span<double> values) const = 0;
   /// Each becomes that of all processes.
   virtual void add_up(std::span<ExactSum> sums) const = 0;
   /// Places of the own particles.

@@ -38,6 +38,9 @@ class ZoltanRanks final : public Ranks, private Division {
   using Ranks::largest;
   void take_largest(std::span<double> values) const override;
   double largest(const Field& values) const override;
+  void take_first(std::span<double> values) const override {
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, communicator_);
+  }
   void add_up(std::span<ExactSum> sums) const override;
   const std::vector<std::uint32_t>& own() const override { return own_; }
   void begin(const Particles& fluid, const std::vector<Boundary>& boundaries) override;

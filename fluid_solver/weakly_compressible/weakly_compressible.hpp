@@ -47,7 +47,6 @@ class WeaklyCompressible : public FluidModel {
   void shift(double dt);
   void renew_density_rates();
   void share_rates();  ///< with the other ranks
-  const Swept* swept() const { return ranks_ ? &ranks_->swept() : nullptr; }
   void note_surface(double dt);
   void note_extremes();
 

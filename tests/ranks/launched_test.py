@@ -41,6 +41,17 @@ TERMS = {
     "slip along walls": ["poiseuille", *SHORT, "--set", "fluid.wall_slip={coefficient=0.001}"],
     "held volume": ["lid_driven_cavity/re_400.toml", "--set", "fluid.spacing=0.05", "--set", "case.series_interval=0.05",
                     "--end-time", "0.5"],
+    "pressed walls of an enclosed medium": [
+        "abrasive_throat/pressed.toml", "--set", "fluid.spacing=0.0004", "--set", "wall.5.press.travel=[-1e-6, 0.0]", "--set",
+        "case.series_interval=0.002", "--end-time", "0.02"],
+    "viscoelasticity": ["viscoelastic_channel", "--set", "fluid.spacing=0.1", "--set", "case.series_interval=0.2",
+                        "--end-time", "2"],
+    "viscoelasticity that shifts": ["viscoelastic_channel", "--set", "fluid.spacing=0.1", "--set", "fluid.particle_shifting={}",
+                                    "--set", "fluid.integrator=midpoint", "--set", "case.series_interval=0.2", "--end-time", "1"],
+    "friction on work pieces and what it removes": ["abrasive_flow/rigid.toml", "--set", "case.series_interval=0.01",
+                                                    "--end-time", "0.05"],
+    "removal by slip in an enclosed medium": ["abrasive_slip", "--set", "fluid.spacing=0.0002", "--set",
+                                              "case.series_interval=0.0005", "--end-time", "0.003"],
     "a moving wall": ["retreating_piston", *SHORT[:-1], "0.1"],
     "a disc that turns, and takes a moment": ["turning_disc", "--set", "case.series_interval=0.002", "--end-time", "0.02"],
     "a tank that turns": ["sloshing_tank", "--set", "case.series_interval=0.05", "--end-time", "0.3"],
@@ -76,7 +87,7 @@ def datasets(path):
 def results(out):
     """The content of the solvers' series and of all frames; the coupler's has times of the clock."""
     return {path.name: path.read_bytes() for path in out.glob("*.csv") if path.name != "coupler.csv"} | {
-        path.name: datasets(path) for path in (out / "frames").iterdir()}
+        path.name: datasets(path) for path in [*(out / "frames").iterdir(), *out.glob("surface.h5")]}
 
 
 def ranks_of(out):
