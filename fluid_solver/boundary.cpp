@@ -35,7 +35,10 @@ void Boundary::place(const std::vector<Vec>& positions, const std::vector<double
   count = positions.size();
   id.resize(count);
   std::iota(id.begin(), id.end(), 0u);
-  resize_fields(*this, room_of(count, geometry));
+  const std::size_t size = room_of(count, geometry);
+  resize_fields(*this, size);
+  if (moves()) resize(acceleration, size);
+  if (may_turn()) resize(force, size);
   for (std::size_t k = 0; k < count; ++k) {
     set(x, k, positions[k]);
     V[k] = volumes[k];

@@ -99,7 +99,8 @@ struct Boundary {
   std::vector<std::uint32_t> id;  ///< number at the start: of a wall particle, or the interface's own order
 
   Declared<VecField> x{"position", "m", FieldKind::state}, v{"velocity", "m/s", FieldKind::state};
-  Declared<VecField> acceleration{"acceleration", "m/s2", FieldKind::state};
+  /// Where it moves.
+  Declared<VecField> acceleration{"acceleration", "m/s2", FieldKind::state, Presence::on_demand};
   Declared<Field> V{"volume", "m2", FieldKind::state};
   Declared<Field> m{"mass", "kg/m", FieldKind::state};  ///< of fluid in its place
   Declared<Field> rho{"density", "kg/m3", FieldKind::state};
@@ -129,7 +130,7 @@ struct Boundary {
   /// Where the medium is viscoelastic.
   Declared<Symmetric<Field>> polymer_stress{"polymer_stress", "Pa", FieldKind::derived, Presence::on_demand};
   /// What the fluid does to the particle, where asked for.
-  Declared<VecField> force{"force", "N/m", FieldKind::derived};
+  Declared<VecField> force{"force", "N/m", FieldKind::derived, Presence::on_demand};
   // where there is friction, of a work piece alone
   Declared<Field> friction_length{"friction_length", "m", FieldKind::derived,
                                   Presence::on_demand};  ///< d_s of (33), see terms/friction.hpp
@@ -207,6 +208,7 @@ struct Boundary {
 
 template <class Of>
 void Boundary::move_to(Of&& kinematics) {
+  resize(acceleration, x[0].size());
   for (std::size_t k = 0; k < count; ++k) {
     const Kinematics now = kinematics(id[k]);
     set(x, k, now.x);

@@ -24,7 +24,7 @@ void for_each_conformation(const Viscoelasticity& medium, const Particles& fluid
 }  // namespace
 
 void allocate_polymer(const Viscoelasticity& medium, Particles& fluid) {
-  const std::size_t size = fluid.rho.size();  // of a part of a fluid without particles too
+  const std::size_t size = padded(std::max<std::size_t>(fluid.count, 1));  // without values: absent
   for (std::size_t k = 0; k < medium.modes.size(); ++k)
     for (auto* field : {&fluid.log_conformation[k], &fluid.log_conformation_rate[k]}) resize(*field, size);
   resize(fluid.polymer_stress, size);

@@ -153,7 +153,7 @@ class Alone(OverRanks):
         checkpoints = ["--set", "case.checkpoint_interval=0.02"]
         expected = self.done("whole", DAM, *checkpoints)
         half = [*DAM[:-1], "0.02"]
-        for first, then in (("2", "3"), ("3", "1"), ("1", "2")):
+        for first, then in (("2", "3"), ("3", "1"), ("1", "2"), ("4", "2")):
             out = self.folder / f"from_{first}"
             for case, more in ((half, []), (DAM, ["--restart"])):
                 code, text = end_of(launch(out, case, *checkpoints, "--ranks", then if more else first, *more))
@@ -183,6 +183,11 @@ class Alone(OverRanks):
         code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.model=implicit", "--check"))
         self.assertEqual(code, BAD_INPUT, text)
         self.assertIn("the implicit model does not go over ranks: start the case in one process", text)
+
+    def test_refuses_removal_where_the_medium_sticks(self):
+        code, text = end_of(launch(self.folder / "run", ["parallel_slits"], "--ranks", "2", "--check"))
+        self.assertEqual(code, BAD_INPUT, text)
+        self.assertIn("[fluid.removal] of a medium that sticks to its walls does not go over ranks", text)
 
     def test_refuses_no_number_and_no_fluid(self):
         for case, count, words in ((DAM, "0", "must be a number of processes, 1 or more"), (DAM, "two", "must be a number"),
@@ -229,8 +234,15 @@ class Coupled(OverRanks):
             if scheme == "serial_implicit":
                 case[-3] = "0.004"
             expected = self.done(f"{scheme}_one", case)
-            for count in "23":
+            for count in "234":
                 self.expect_the_same(self.done(f"{scheme}_{count}", case, "--ranks", count), expected)
+
+    def test_rubs_on_the_solid_as_one_process_does(self):
+        case = ["abrasive_flow", "--set", "case.series_interval=0.01", "--end-time", "0.03"]
+        expected = self.done("one", case)
+        self.assertIn("surface.h5", expected)
+        for count in "24":
+            self.expect_the_same(self.done(count, case, "--ranks", count), expected)
 
 
 if __name__ == "__main__":
