@@ -19,21 +19,15 @@ Vec ForceOnFluid::friction() const {
   return sum;
 }
 
-void ForceOnFluid::add(std::size_t cluster, const Lanes& m, const VecLanes& by_boundary) {
-  if (!of_part) {
-    by_cluster[cluster] += lane_sums(m, by_boundary);
-    return;
-  }
-  VecLanes sum = load(by_particle, cluster * lane_count);
-  for (int a = 0; a < dim; ++a) sum[a] += by_boundary[a];
-  store(sum, by_particle, cluster * lane_count);
+void ForceOnFluid::make_room(std::size_t clusters, bool further) {
+  if (!of_part) return by_cluster.resize(clusters);
+  resize(by_particle, clusters * lane_count);
+  if (further) resize(further_by_particle, clusters * lane_count);
 }
 
-void ForceOnFluid::make_room(std::size_t clusters) {
-  if (of_part)
-    resize(by_particle, clusters * lane_count);
-  else
-    by_cluster.resize(clusters);
+void ForceOnFluid::forget_friction(std::size_t clusters) {
+  if (!of_part) return friction_by_cluster.assign(clusters, Vec::Zero());
+  for (Field& component : friction_by_particle) component.assign(clusters * lane_count, 0.0);
 }
 
 void Boundary::place(const std::vector<Vec>& positions, const std::vector<double>& volumes,
@@ -41,7 +35,10 @@ void Boundary::place(const std::vector<Vec>& positions, const std::vector<double
   count = positions.size();
   id.resize(count);
   std::iota(id.begin(), id.end(), 0u);
-  resize_fields(*this, room_of(count, geometry));
+  const std::size_t size = room_of(count, geometry);
+  resize_fields(*this, size);
+  if (moves()) resize(acceleration, size);
+  if (may_turn()) resize(force, size);
   for (std::size_t k = 0; k < count; ++k) {
     set(x, k, positions[k]);
     V[k] = volumes[k];
@@ -100,7 +97,10 @@ void Boundary::keep(const std::vector<std::uint32_t>& kept) {
 
 void Boundary::take_all_but_lists(const Boundary& other) {
   ClusterList for_wall = std::move(list_for_wall), for_fluid = std::move(list_for_fluid);
+  const auto* pressed = std::get_if<PressedMotion>(&motion);
+  const bool told = pressed && pressed->at_stop;
   *this = other;
+  if (auto* now = std::get_if<PressedMotion>(&motion)) now->at_stop = told;
   list_for_wall = std::move(for_wall);
   list_for_fluid = std::move(for_fluid);
 }

@@ -26,14 +26,15 @@ inline Vec lane_sums(const Lanes& m, const VecLanes& v) {
 struct ForceOnFluid {
   std::vector<Vec> by_cluster;           ///< force on each cluster of the fluid [N per metre depth]
   std::vector<Vec> friction_by_cluster;  ///< the same of the friction alone; empty where there is none
-  /// Where the fluid is spread over ranks, whose clusters are others than those of the whole: the force over
-  /// the mass of each particle, in their place [m/s2]. Rank 0 makes those of the whole of them.
-  VecField by_particle = {};
+  /// Where the fluid is spread over ranks, whose clusters are others than those of the whole, in their place:
+  /// the force over the mass of each particle by the pairs that are swept at once, and by a further one
+  /// [m/s2]; that of the friction [N per metre depth]. Rank 0 makes those of the whole of them.
+  VecField by_particle = {}, further_by_particle = {}, friction_by_particle = {};
   bool of_part = false;  ///< whether it is
   Vec friction() const;
   Vec force() const;  ///< the sum of both
-  /// For what is done to so many clusters of the fluid.
-  void make_room(std::size_t clusters);
+  /// For what is done to so many clusters of the fluid, by a `further` force too.
+  void make_room(std::size_t clusters, bool further);
   /// What is done to a cluster of masses `m`, by its accelerations [m/s2].
   void set(std::size_t cluster, const Lanes& m, const VecLanes& by_boundary) {
     if (of_part)
@@ -41,7 +42,22 @@ struct ForceOnFluid {
     else
       by_cluster[cluster] = lane_sums(m, by_boundary);
   }
-  void add(std::size_t cluster, const Lanes& m, const VecLanes& by_boundary);
+  /// The same of a further one, of which there is at most one.
+  void add(std::size_t cluster, const Lanes& m, const VecLanes& by_boundary) {
+    if (of_part)
+      store(by_boundary, further_by_particle, cluster * lane_count);
+    else
+      by_cluster[cluster] += lane_sums(m, by_boundary);
+  }
+  /// Those of friction [N per metre depth].
+  void set_friction(std::size_t cluster, const VecLanes& forces) {
+    if (of_part)
+      store(forces, friction_by_particle, cluster * lane_count);
+    else
+      friction_by_cluster[cluster] = lane_sums(1.0, forces);
+  }
+  /// Nothing rubs on any of so many clusters.
+  void forget_friction(std::size_t clusters);
   /// What the last evaluation did to a cluster. What it did to particles out of reach nobody asks for.
   void forget(std::size_t cluster) {
     if (!of_part) by_cluster[cluster].setZero();
@@ -83,7 +99,8 @@ struct Boundary {
   std::vector<std::uint32_t> id;  ///< number at the start: of a wall particle, or the interface's own order
 
   Declared<VecField> x{"position", "m", FieldKind::state}, v{"velocity", "m/s", FieldKind::state};
-  Declared<VecField> acceleration{"acceleration", "m/s2", FieldKind::state};
+  /// Where it moves.
+  Declared<VecField> acceleration{"acceleration", "m/s2", FieldKind::state, Presence::on_demand};
   Declared<Field> V{"volume", "m2", FieldKind::state};
   Declared<Field> m{"mass", "kg/m", FieldKind::state};  ///< of fluid in its place
   Declared<Field> rho{"density", "kg/m3", FieldKind::state};
@@ -113,7 +130,7 @@ struct Boundary {
   /// Where the medium is viscoelastic.
   Declared<Symmetric<Field>> polymer_stress{"polymer_stress", "Pa", FieldKind::derived, Presence::on_demand};
   /// What the fluid does to the particle, where asked for.
-  Declared<VecField> force{"force", "N/m", FieldKind::derived};
+  Declared<VecField> force{"force", "N/m", FieldKind::derived, Presence::on_demand};
   // where there is friction, of a work piece alone
   Declared<Field> friction_length{"friction_length", "m", FieldKind::derived,
                                   Presence::on_demand};  ///< d_s of (33), see terms/friction.hpp
@@ -168,7 +185,8 @@ struct Boundary {
   bool covers(const Vec& point, double spacing, const std::vector<Vec>& shifts = {Vec::Zero()}) const;
   /// Takes away all particles but those at `kept`, which rises.
   void keep(const std::vector<std::uint32_t>& kept);
-  /// Becomes `other` but for its lists: another part of the same fluid is near it.
+  /// Becomes `other` but for its lists, as another part of the same fluid is near it, and for what was told
+  /// of it.
   void take_all_but_lists(const Boundary& other);
   /// Puts the particles in strip order again after they moved.
   void sort();
@@ -190,6 +208,7 @@ struct Boundary {
 
 template <class Of>
 void Boundary::move_to(Of&& kinematics) {
+  resize(acceleration, x[0].size());
   for (std::size_t k = 0; k < count; ++k) {
     const Kinematics now = kinematics(id[k]);
     set(x, k, now.x);

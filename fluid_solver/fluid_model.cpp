@@ -64,12 +64,15 @@ void FluidModel::write_state(std::ostream& stream) const {
   write_states(stream, state_);
 }
 
-void FluidModel::read_state(std::istream& stream) {
+void FluidModel::take_state(std::istream& stream) {
   read_states(stream, state_);
-  if (state_.open_ends) {
-    resize_present_fields(state_.fluid, padded(state_.fluid.count));
-    state_.open_ends->find(state_.fluid);
-  }
+  if (!state_.open_ends) return;
+  resize_present_fields(state_.fluid, padded(state_.fluid.count));
+  state_.open_ends->find(state_.fluid);
+}
+
+void FluidModel::read_state(std::istream& stream) {
+  take_state(stream);
   if (ranks_)
     spread_over(*ranks_);
   else
@@ -200,13 +203,17 @@ void FluidModel::refuse_in_layers(const std::vector<Vec>& points) const {
 }
 
 void FluidModel::record_surface(const std::filesystem::path& out) {
+  find_surface();
+  if (state_.surface_record) state_.surface_record->open(out);
+}
+
+void FluidModel::find_surface() {
   if (!parameters_.removal) return;
   std::optional<Sticking> sticks;
   if (parameters_.wall_model.slip == WallSlip::no_slip)
     sticks = Sticking{parameters_.spacing, [p = parameters_](double gdot) { return viscosity_of(p, gdot); }};
   state_.surface_record.emplace(*parameters_.removal, std::move(sticks), scene_.geometry);
   state_.surface_record->attach(state_.boundaries);
-  state_.surface_record->open(out);
 }
 
 Look FluidModel::look() {
@@ -251,7 +258,9 @@ void FluidModel::complete_records() {
 bool FluidModel::is_enclosed() {
   update_neighbours(0);
   find_off_surface();
-  return is_closed(state_.fluid);
+  const bool closed = is_closed(state_.fluid);
+  if (!parameters_.seeks_free_surface()) state_.fluid.off_surface = {};
+  return closed;
 }
 
 void FluidModel::watch_shear(double time) {
@@ -278,15 +287,20 @@ void FluidModel::watch_suction(double time) {
 
 void FluidModel::push_pressed_walls(double dt) {
   const double held = kept_pressure(parameters_.enclosed_medium, state_.boundaries, equation_of_state_);
-  for (Boundary& boundary : state_.boundaries) {
+  for (std::size_t b = 0; b < state_.boundaries.size(); ++b) {
+    Boundary& boundary = state_.boundaries[b];
     auto* pressed = std::get_if<PressedMotion>(&boundary.motion);
     if (!pressed) continue;
+    const bool enclosed = parameters_.enclosed_medium.has_value();
+    Vec reaction = -boundary.force_on_fluid.force();
     double met = pressed->area;  // beside a free surface nobody knows how much of it is dry
-    if (parameters_.enclosed_medium) {
-      met = met_area(boundary, state_.fluid, kernel_, scene_.geometry);
-      require_medium_before_face(boundary, met);
+    if (enclosed) met = met_area(boundary, state_.fluid, kernel_, scene_.geometry, b, ranks_);
+    if (ranks_) {
+      ranks_->take_first({reaction.data(), dim});
+      ranks_->take_first({&met, 1});
     }
-    pressed->push(state_.time + 0.5 * dt, dt, -boundary.force_on_fluid.force(), held, met);
+    if (enclosed) require_medium_before_face(boundary, met);
+    pressed->push(state_.time + 0.5 * dt, dt, reaction, held, met);
   }
 }
 

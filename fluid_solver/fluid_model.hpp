@@ -69,14 +69,29 @@ class FluidModel : public Solver {
   std::size_t particle_count() const override { return state_.fluid.count; }
 
   /// Where the case asks for removal: begins `out`/surface.h5. To be called when all work pieces are there.
-  void record_surface(const std::filesystem::path& out);
+  virtual void record_surface(const std::filesystem::path& out);
+  /// The same of a part of a fluid, which has no file: another model adds what each step finds.
+  void find_surface();
+  const std::vector<SurfaceContact>& surface_found() const { return surface_found_; }
 
   /// From the next step on the fluid, which rank 0 has, is spread over `ranks`: this model holds a part of
   /// it. Forces, impulses, loads and looks are those of the whole on rank 0; what else is summed over
   /// particles is of the part.
   void spread_over(Ranks& ranks);
+  /// What the parts of this fluid have to know before the first step, beside its particles.
+  struct Begun {
+    Extremes largest = {};
+    double start_volume = 0, potential_of_moves = 0;
+    Neighbours::Begun lists = {};
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, Begun& begun) {
+    auto& [largest, start_volume, potential_of_moves, lists] = begun;
+    archive(largest, start_volume, potential_of_moves, lists);
+  }
+  Begun begun() const;
   /// The same of a model that has walls alone; on rank 0 it is given the `fluid` of another.
-  void spread_over(Ranks& ranks, const Extremes& largest, Particles fluid);
+  void spread_over(Ranks& ranks, const Begun& begun, Particles fluid);
   /// Of a fluid that is spread, called on all ranks: on rank 0 `whole` gets what is reported, or `all` that
   /// one process has, but for its records, and its lists of neighbours (`list_anew`). Elsewhere `whole` is
   /// null.
@@ -109,7 +124,7 @@ class FluidModel : public Solver {
   double elastic_energy() const;  ///< of compression [J per metre]
   double mass() const;            ///< [kg per metre]
   /// Mean density by the room that the particles have, whatever their own say [kg/m3].
-  double density_of_packing() const;
+  virtual double density_of_packing() const;
   Vec momentum() const;
   /// What the press adds to the pressure of an enclosed medium [Pa].
   double pressure_offset() const;
@@ -170,6 +185,8 @@ class FluidModel : public Solver {
     if (suction_watch) archive(*suction_watch);
   }
 
+  /// What `read_state` does but for the lists.
+  void take_state(std::istream& stream);
   /// Sorts and lists anew if a step of `dt` [s] may exhaust the skin.
   void update_neighbours(double dt);
   void move_boundaries(double time);
@@ -189,7 +206,9 @@ class FluidModel : public Solver {
   State state_;
   FreeSurface free_surface_;
   Timers timers_;
-  Ranks* ranks_ = nullptr;  ///< over which the fluid is spread
+  Ranks* ranks_ = nullptr;                          ///< over which the fluid is spread
+  std::vector<SurfaceContact> surface_found_ = {};  ///< by the last step, of such a fluid
+  double start_volume_ = 0;  ///< sum_i m_i/rho_i, where it is held [m2; about an axis m3]
 
  private:
   int reaches_of_ghosts() const;

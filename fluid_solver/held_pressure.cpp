@@ -17,15 +17,14 @@ double kept_pressure(const std::optional<EnclosedMedium>& medium, const std::vec
 }
 
 double pressure_offset(const std::optional<EnclosedMedium>& medium, const Particles& fluid,
-                       const std::vector<Boundary>& boundaries, const EquationOfState& state) {
+                       const std::vector<Boundary>& boundaries, const EquationOfState& state,
+                       const Ranks* ranks) {
   if (!medium) return 0;
   if (medium->mean_pressure == 0) return kept_pressure(medium, boundaries, state);
-  double volume = 0, sum = 0;
-  for (std::size_t i = 0; i < fluid.count; ++i) {
+  const auto [volume, sum] = exact_sums<2>(fluid, ranks, [&](std::size_t i) {
     const double V_i = fluid.m[i] / fluid.rho[i];
-    volume += V_i;
-    sum += V_i * state.pressure(fluid.rho[i]);
-  }
+    return std::array{V_i, V_i * state.pressure(fluid.rho[i])};
+  });
   return medium->mean_pressure - sum / volume;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 #include "fluid_solver/terms/enclosed_medium.hpp"
 #include "fluid_solver/terms/equation_of_state.hpp"
 
@@ -13,8 +14,10 @@ namespace toryu::fluid {
 double kept_pressure(const std::optional<EnclosedMedium>& medium, const std::vector<Boundary>& boundaries,
                      const EquationOfState& state);
 
-/// What contact adds to the pressure of each particle; 0 if the medium is not enclosed [Pa].
+/// What contact adds to the pressure of each particle; 0 if the medium is not enclosed [Pa]. To the last bit
+/// the same over any number of ranks.
 double pressure_offset(const std::optional<EnclosedMedium>& medium, const Particles& fluid,
-                       const std::vector<Boundary>& boundaries, const EquationOfState& state);
+                       const std::vector<Boundary>& boundaries, const EquationOfState& state,
+                       const Ranks* ranks = nullptr);
 
 }  // namespace toryu::fluid

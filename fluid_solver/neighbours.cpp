@@ -81,6 +81,15 @@ void Neighbours::rebuild(const Particles& fluid, std::vector<Boundary>& boundari
   if (state_.builds > 0) build_lists(fluid.count, boundaries);
 }
 
+void Neighbours::begin_with(const Begun& begun, const Particles& fluid,
+                            const std::vector<Boundary>& boundaries) {
+  state_.skin = begun.skin, state_.builds = begun.builds;
+  state_.fluid = fluid.x;
+  state_.boundaries.resize(boundaries.size());
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+    if (boundaries[b].moves()) state_.boundaries[b] = boundaries[b].x;
+}
+
 void Neighbours::divide(Particles& fluid, std::vector<Boundary>& boundaries, Ranks& ranks) {
   if (state_.builds == 0) return;
   for (int a = 0; a < dim; ++a) fluid.x[a].swap(state_.fluid[a]);  // they were divided there
@@ -120,7 +129,7 @@ void Neighbours::collect(const Neighbours& part, const Ranks& ranks, Neighbours*
   const VecField& x = part.state_.fluid;
   if (!whole) return ranks.collect({&x[0], &x[1]}, {});
   VecField all = std::move(whole->state_.fluid);
-  resize(all, ranks.size_of_whole());
+  resize(all, padded(ranks.count_of_whole()));
   ranks.collect({&x[0], &x[1]}, {&all[0], &all[1]});
   whole->state_ = {std::move(all), part.state_.boundaries, part.state_.skin, part.state_.builds};
 }

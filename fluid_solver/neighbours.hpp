@@ -39,6 +39,18 @@ class Neighbours {
   void rebuild(const Particles& fluid, std::vector<Boundary>& boundaries);
   /// Divides a fluid over `ranks` that every process has from a checkpoint, with the lists that it says.
   void divide(Particles& fluid, std::vector<Boundary>& boundaries, Ranks& ranks);
+  /// Lists of a fluid that has not moved since they were built, as others of the same fluid know of them.
+  struct Begun {
+    double skin = 0;
+    long builds = 0;
+  };
+  template <class Archive>
+  friend void serialize(Archive& archive, Begun& begun) {
+    auto& [skin, builds] = begun;
+    archive(skin, builds);
+  }
+  Begun begun() const { return {state_.skin, state_.builds}; }
+  void begin_with(const Begun& begun, const Particles& fluid, const std::vector<Boundary>& boundaries);
   /// Frees what takes memory, of a fluid that nobody needs for now.
   void forget(std::vector<Boundary>& boundaries);
   /// How many reaches deep the ghosts of a fluid over ranks are.

@@ -125,9 +125,9 @@ double FluidModel::mean_density() const {
 }
 
 double FluidModel::density_of_packing() const {
-  const double share =
-      packing(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_, parameters_.density);
-  return parameters_.density * (std::isnan(share) ? 1 : share);
+  if (state_.neighbours.builds() == 0) return parameters_.density;
+  return parameters_.density * packing(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, kernel_,
+                                       parameters_.density, ranks_);
 }
 
 double FluidModel::energy_gained() const {
@@ -182,7 +182,7 @@ Vec FluidModel::momentum() const {
 
 double FluidModel::pressure_offset() const {
   return fluid::pressure_offset(parameters_.enclosed_medium, state_.fluid, state_.boundaries,
-                                equation_of_state_);
+                                equation_of_state_, ranks_);
 }
 
 Vec FluidModel::numerical_impulse() const {

@@ -23,9 +23,16 @@ void FluidModel::spread_over(Ranks& ranks) {
   state_.neighbours.divide(state_.fluid, state_.boundaries, ranks);
 }
 
-void FluidModel::spread_over(Ranks& ranks, const Extremes& largest, Particles fluid) {
+FluidModel::Begun FluidModel::begun() const {
+  return {state_.largest, start_volume_, state_.potential_of_moves, state_.neighbours.begun()};
+}
+
+void FluidModel::spread_over(Ranks& ranks, const Begun& begun, Particles fluid) {
   if (fluid.count > 0) state_.fluid = std::move(fluid);
-  state_.largest = largest;
+  state_.largest = begun.largest;
+  start_volume_ = begun.start_volume;
+  state_.potential_of_moves = begun.potential_of_moves;
+  if (begun.lists.builds > 0) state_.neighbours.begin_with(begun.lists, state_.fluid, state_.boundaries);
   spread_over(ranks);
 }
 
@@ -77,10 +84,12 @@ void FluidModel::collect_fluid(Particles* whole, bool all) {
     if (all)
       for_each_field(fluid, add);
     else
-      reported(fluid.x, fluid.v, fluid.rho, fluid.m, fluid.off_surface_and_walls, fluid.gdot, fluid.eta);
+      reported(fluid.x, fluid.v, fluid.rho, fluid.m, fluid.off_surface_and_walls, fluid.gdot, fluid.eta,
+               fluid.polymer_stress);
     return found;
   };
-  Field number(state_.fluid.id.begin(), state_.fluid.id.end()), number_in_whole(ranks_->size_of_whole());
+  Field number(state_.fluid.id.begin(), state_.fluid.id.end()),
+      number_in_whole(padded(ranks_->count_of_whole()));
   std::vector<const Field*> of_part{&number};
   std::vector<Field*> of_whole;
   if (whole) of_whole.push_back(&number_in_whole);

@@ -17,12 +17,14 @@
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
-/// [m], about an axis [m2], of `piston`, which is pressed.
+/// [m], about an axis [m2], of `piston`, which is pressed and is boundary `b`. Over ranks, of the whole fluid
+/// on rank 0.
 double met_area(const Boundary& piston, const Particles& fluid, const Kernel& kernel,
-                Geometry geometry = Geometry::plane);
+                Geometry geometry = Geometry::plane, std::size_t b = 0, const Ranks* ranks = nullptr);
 
 /// Throws PhysicsFailure where the medium `met` [m] the piston over an area that is not near that of its
 /// face: it is on both sides, on the other, or gone.

@@ -160,6 +160,13 @@ void SurfaceRecord::attach(const std::vector<Boundary>& boundaries) {
 
 void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles& fluid, double p_offset,
                         const ClusterList& neighbours, const Kernel& kernel, double dt) {
+  add(find(boundaries, fluid, p_offset, neighbours, kernel), dt);
+}
+
+std::vector<SurfaceContact> SurfaceRecord::find(const std::vector<Boundary>& boundaries,
+                                                const Particles& fluid, double p_offset,
+                                                const ClusterList& neighbours, const Kernel& kernel) const {
+  std::vector<SurfaceContact> found(size());
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const Boundary& body = boundaries[b];
     if (first_[b].empty()) continue;
@@ -168,41 +175,84 @@ void SurfaceRecord::add(const std::vector<Boundary>& boundaries, const Particles
       double sum = 0;
       for (std::size_t s = first; s < end; ++s) sum += area(s);
       for (std::size_t s = first; s < end; ++s)
-        add_point(s, body, k, sum, fluid, p_offset, neighbours, kernel, dt);
+        found[s] = find_at(s, body, k, sum, fluid, p_offset, neighbours, kernel);
     }
   }
-  state_.since_row += dt;
+  return found;
 }
 
-void SurfaceRecord::add_point(std::size_t s, const Boundary& body, std::size_t k, double area,
-                              const Particles& fluid, double p_offset, const ClusterList& neighbours,
-                              const Kernel& kernel, double dt) {
+SurfaceContact SurfaceRecord::find_at(std::size_t s, const Boundary& body, std::size_t k, double area,
+                                      const Particles& fluid, double p_offset, const ClusterList& neighbours,
+                                      const Kernel& kernel) const {
   const Vec n_s = body.turned(Eigen::Map<const Vec>(&normal_[dim * s]));
   const Contact contact =
       contact_of(body, k, alone_[s] ? Vec(Vec::Zero()) : Vec(n_s), fluid, p_offset, kernel);
-  if (contact.there) state_.wetted[s] = 1;
-  double sliding = 0, shear = 0;
+  SurfaceContact found{.there = contact.there, .pressure = contact.pressure};
   if (body.is_slippery()) {
-    if (contact.there) sliding = at(body.slip_velocity, k).norm(), shear = body.shear_stress[k];
+    if (contact.there) found.sliding = at(body.slip_velocity, k).norm(), found.shear = body.shear_stress[k];
   } else if (sticks_) {
     const double gdot = shear_rate_at(body, k, {at(body.x, k), at(body.v, k), n_s, sticks_->spacing}, fluid,
                                       neighbours, kernel);
-    sliding = removal_.grain_length * gdot;
-    shear = sticks_->viscosity(gdot) * gdot;
+    found.sliding = removal_.grain_length * gdot;
+    found.shear = sticks_->viscosity(gdot) * gdot;
   } else {
-    sliding = (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
+    found.sliding = (contact.velocity - n_s.dot(contact.velocity) * n_s).norm();
   }
-  const bool rubbed = !body.friction_force[0].empty();
-  const Vec tau = rubbed ? Vec(at(body.friction_force, k) / area) : Vec(Vec::Zero());
-  shear += tau.norm();
-  state_.pressure[s] += contact.pressure * dt;
-  state_.speed[s] += sliding * dt;
-  state_.shear[s] += shear * dt;
-  state_.sliding_pressure[s] += contact.pressure * sliding * dt;
-  state_.shear_work[s] += shear * sliding * dt;
-  if (!rubbed) return;
-  Eigen::Map<Vec>(&state_.traction[dim * s]) += body.turned_back(tau) * dt;
-  state_.friction_work[s] += tau.dot(contact.velocity) * dt;
+  if (body.friction_force[0].empty()) return found;
+  const Vec tau = at(body.friction_force, k) / area;
+  found.shear += tau.norm();
+  found.traction = body.turned_back(tau);
+  found.friction_power = tau.dot(contact.velocity);
+  return found;
+}
+
+void SurfaceRecord::collect(std::vector<SurfaceContact>& found, const std::vector<Boundary>& boundaries,
+                            const Ranks& ranks) const {
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    if (first_[b].empty()) continue;
+    const Boundary& body = boundaries[b];
+    bool any = true;
+    for (std::size_t n = 0; any; ++n) {  // the n-th point of each particle
+      std::array<Field, 5 + dim> values;
+      std::vector<Field*> fields;
+      for (Field& field : values) field.resize(padded(body.count)), fields.push_back(&field);
+      const auto over_points = [&](auto&& visit) {
+        any = false;
+        for (std::size_t k = 0; k < body.count; ++k)
+          if (const std::size_t s = first_[b][body.id[k]] + n; s < first_[b][body.id[k] + 1])
+            visit(k, found[s]), any = true;
+      };
+      over_points([&](std::size_t k, const SurfaceContact& now) {
+        const double all[] = {now.there ? 1.0 : 0.0, now.pressure,    now.sliding,       now.shear,
+                              now.traction[0],       now.traction[1], now.friction_power};
+        for (std::size_t c = 0; c < values.size(); ++c) values[c][k] = all[c];
+      });
+      if (any) ranks.collect_at(b, fields);
+      over_points([&](std::size_t k, SurfaceContact& now) {
+        now = {.there = values[0][k] == 1,
+               .pressure = values[1][k],
+               .sliding = values[2][k],
+               .shear = values[3][k],
+               .traction = {values[4][k], values[5][k]},
+               .friction_power = values[6][k]};
+      });
+    }
+  }
+}
+
+void SurfaceRecord::add(const std::vector<SurfaceContact>& found, double dt) {
+  for (std::size_t s = 0; s < size(); ++s) {
+    const SurfaceContact& now = found[s];
+    if (now.there) state_.wetted[s] = 1;
+    state_.pressure[s] += now.pressure * dt;
+    state_.speed[s] += now.sliding * dt;
+    state_.shear[s] += now.shear * dt;
+    state_.sliding_pressure[s] += now.pressure * now.sliding * dt;
+    state_.shear_work[s] += now.shear * now.sliding * dt;
+    Eigen::Map<Vec>(&state_.traction[dim * s]) += now.traction * dt;
+    state_.friction_work[s] += now.friction_power * dt;
+  }
+  state_.since_row += dt;
 }
 
 void SurfaceRecord::open(const std::filesystem::path& out) {

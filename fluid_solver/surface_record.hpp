@@ -32,6 +32,7 @@
 #include "common/run/solver.hpp"
 #include "fluid_solver/boundary.hpp"
 #include "fluid_solver/parameters.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 
 namespace toryu::fluid {
 
@@ -39,6 +40,14 @@ namespace toryu::fluid {
 struct Sticking {
   double spacing;                           ///< [m]
   std::function<double(double)> viscosity;  ///< [Pa s], of a shear rate [1/s]
+};
+
+/// What the medium does in a moment at a point of the surface.
+struct SurfaceContact {
+  bool there = false;
+  double pressure = 0, sliding = 0, shear = 0;  ///< p_s [Pa], v_s [m/s], tau_s [Pa]
+  Vec traction = Vec::Zero();                   ///< of friction, as the body was turned at the start [Pa]
+  double friction_power = 0;                    ///< [W/m2]
 };
 
 class SurfaceRecord {
@@ -54,6 +63,14 @@ class SurfaceRecord {
   /// friction forces of its last evaluation.
   void add(const std::vector<Boundary>& boundaries, const Particles& fluid, double p_offset,
            const ClusterList& neighbours, const Kernel& kernel, double dt);
+  /// What such a step adds: at each point, and the sums of it.
+  std::vector<SurfaceContact> find(const std::vector<Boundary>& boundaries, const Particles& fluid,
+                                   double p_offset, const ClusterList& neighbours,
+                                   const Kernel& kernel) const;
+  void add(const std::vector<SurfaceContact>& found, double dt);
+  /// On rank 0 `found` becomes what the ranks have found that have all of the fluid near a point.
+  void collect(std::vector<SurfaceContact>& found, const std::vector<Boundary>& boundaries,
+               const Ranks& ranks) const;
   /// Makes `out`/surface.h5.
   void open(const std::filesystem::path& out);
   /// Appends a row: means since the last one, and the sums so far.
@@ -68,9 +85,10 @@ class SurfaceRecord {
   std::vector<Observation> observe() const;
 
  private:
-  /// Adds the step to point s, of particle k of `body`, whose points have `area` together.
-  void add_point(std::size_t s, const Boundary& body, std::size_t k, double area, const Particles& fluid,
-                 double p_offset, const ClusterList& neighbours, const Kernel& kernel, double dt);
+  /// At point s, of particle k of `body`, whose points have `area` together.
+  SurfaceContact find_at(std::size_t s, const Boundary& body, std::size_t k, double area,
+                         const Particles& fluid, double p_offset, const ClusterList& neighbours,
+                         const Kernel& kernel) const;
   /// Depth removed so far from surface particle k, by the law that counts [m].
   double depth(std::size_t k) const { return laws_.front().rate * integral_of(laws_.front())[k]; }
   const std::vector<double>& integral_of(const DepthLaw& law) const {

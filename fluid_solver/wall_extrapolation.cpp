@@ -163,7 +163,8 @@ void extrapolate_to_cluster(Boundary& boundary, const Particles& fluid, const W&
                     }
                   });
   const Lanes share = inverse(max(sum_W, smallest_sum));
-  const VecLanes a_w = load(boundary.acceleration, first), v_w = load(boundary.v, first);
+  const VecLanes a_w = boundary.acceleration[0].empty() ? zero_vector() : load(boundary.acceleration, first);
+  const VecLanes v_w = load(boundary.v, first);
   Lanes p_w = sum_p;
   for (int a = 0; a < dim; ++a) {
     p_w += (gravity[a] - a_w[a]) * sum_rho_x[a];

@@ -49,14 +49,26 @@ std::vector<Field> BesideWalls::collect(std::size_t b, const std::vector<const F
   return whole;
 }
 
+/// Cluster by cluster, with a factor `m` of each particle if there is one.
+std::vector<Vec> BesideWalls::sums(std::size_t b, const VecField& values, const Field* m) const {
+  const auto whole = collect(b, {&values[0], &values[1]});
+  std::vector<Vec> by_cluster;
+  for (std::size_t first = 0; first < beside_[b].lanes; first += lane_count)
+    by_cluster.push_back(
+        lane_sums(m ? load(*m, first) : Lanes(1.0), VecLanes{load(whole[0], first), load(whole[1], first)}));
+  return by_cluster;
+}
+
 void BesideWalls::collect_forces(std::vector<Boundary>& boundaries) const {
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     ForceOnFluid& force = boundaries[b].force_on_fluid;
-    const auto whole = collect(b, {&force.by_particle[0], &force.by_particle[1]});
-    force.by_cluster.clear();
-    for (std::size_t first = 0; first < beside_[b].lanes; first += lane_count)
-      force.by_cluster.push_back(
-          lane_sums(load(whole[2], first), VecLanes{load(whole[0], first), load(whole[1], first)}));
+    force.by_cluster = sums(b, force.by_particle, &beside_[b].m);
+    if (!force.further_by_particle[0].empty()) {
+      const auto further = sums(b, force.further_by_particle, &beside_[b].m);
+      for (std::size_t c = 0; c < further.size(); ++c) force.by_cluster[c] += further[c];
+    }
+    if (!force.friction_by_particle[0].empty())
+      force.friction_by_cluster = sums(b, force.friction_by_particle, nullptr);
   }
 }
 

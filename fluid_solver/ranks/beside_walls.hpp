@@ -25,6 +25,7 @@ class BesideWalls {
     std::size_t lanes = 0;  ///< of the whole clusters, on rank 0
     Field m = {};           ///< of the particles in them [kg/m]
   };
+  std::vector<Vec> sums(std::size_t b, const VecField& values, const Field* m) const;
   std::vector<Beside> beside_ = {};
 };
 

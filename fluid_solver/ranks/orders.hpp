@@ -14,14 +14,16 @@ namespace toryu::fluid {
 
 enum class Action {
   fill,          ///< read the case and fill the walls of its scene
-  hand_out,      ///< the fluid, whose extremes come with it
+  hand_out,      ///< the fluid; what it has begun with comes with it
   read_state,    ///< of a checkpoint, which comes with it
+  find_surface,  ///< of the work pieces, where the case asks for removal
   attach,        ///< the interface that comes with it
   begin_window,  ///< of `value` [s], with the motion that comes with it
   advance,       ///< by `value` [s]
   check,         ///< at the time `value` [s]
   look,          ///< at powers and at who is in walls
   collect,       ///< of the whole what is reported, or with a `value` all of its state
+  pack,          ///< find how densely particles are packed
   take_load,
   save,
   restore,

@@ -1,7 +1,5 @@
 #include "fluid_solver/ranks/rank_faults.hpp"
 
-#include <fmt/format.h>
-
 namespace toryu::fluid {
 
 namespace {
@@ -12,7 +10,8 @@ template <class Term>
 constexpr bool goes_over_ranks =
     is_one_of<Term, BackgroundPressure, CentralForce, DensityDiffusion, ParticleShifting, TensileControl,
               ConsistentGradients, ArtificialViscosity, LaminarViscosity, PowerLaw, HerschelBulkley, Carreau,
-              SlipLaw, WallRepulsion, SurfaceTension>;
+              SlipLaw, WallRepulsion, SurfaceTension, HeldVolume, EnclosedMedium, Viscoelasticity, Friction,
+              Removal>;
 
 }  // namespace
 
@@ -27,13 +26,11 @@ std::vector<StartFault> rank_faults(const Parameters& p, const Scene& scene) {
              std::string("[fluid.") + Term::section + "] does");
   });
   refuse(p.model != Model::weakly_compressible, "fluid.model", "the implicit model does");
+  if (p.wall_model.slip == WallSlip::no_slip && !p.wall_slip)
+    refuse(p.removal.has_value(), "fluid.removal",
+           "[fluid.removal] of a medium that sticks to its walls does");
   refuse(p.has_open_ends(), "fluid", "inlets and outlets do");
   refuse(scene.geometry != Geometry::plane, "case.geometry", "a flow about an axis does");
-  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-    const Wall& wall = scene.walls[w];
-    refuse(wall.press.has_value(), fmt::format("wall.{}.press", w),
-           fmt::format("the wall '{}', which is pressed, does", wall.name));
-  }
   return faults;
 }
 

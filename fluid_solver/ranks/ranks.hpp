@@ -7,6 +7,7 @@
 #include <span>
 
 #include "common/sph/cluster_list.hpp"
+#include "common/sph/exact_sum.hpp"
 #include "fluid_solver/particles.hpp"
 
 namespace toryu::fluid {
@@ -36,6 +37,12 @@ class Ranks {
   }
   /// Of the values of the whole fluid; of ghosts they need not be known.
   virtual double largest(const Field& values) const = 0;
+  /// Each becomes that of rank 0.
+  virtual void take_first(std::span<double> values) const = 0;
+  /// Each becomes that of all processes.
+  virtual void add_up(std::span<ExactSum> sums) const = 0;
+  /// Places of the own particles.
+  virtual const std::vector<std::uint32_t>& own() const = 0;
 
   // where lists of neighbours are built
   /// Rank 0 has all of the fluid, without lists; what others hold nobody asks for.
@@ -63,8 +70,8 @@ class Ranks {
   virtual void share(const std::vector<Field*>& fields) const = 0;
   virtual const Renewal& beside_interface() const = 0;
   virtual const Swept& swept() const = 0;
-  /// Of the fields of the whole fluid, with padding, on rank 0; 0 elsewhere. And its mass [kg/m].
-  virtual std::size_t size_of_whole() const = 0;
+  /// Of the particles of the whole fluid on rank 0; 0 elsewhere. And its mass [kg/m].
+  virtual std::size_t count_of_whole() const = 0;
   virtual double mass() const = 0;
   /// On rank 0 `force_on_fluid` of each boundary becomes that on the whole fluid.
   virtual void collect_forces(std::vector<Boundary>& boundaries) const = 0;
@@ -78,10 +85,26 @@ class Ranks {
   virtual void collect(const std::vector<const Field*>& part, const std::vector<Field*>& whole) const = 0;
   /// Those of one field on rank 0; none elsewhere.
   Field of_whole(const Field& part) const {
-    Field whole(size_of_whole(), 0.0);
+    Field whole(padded(count_of_whole()), 0.0);
     collect({&part}, {&whole});
     return whole;
   }
 };
+
+/// Sums over the whole fluid of the values that `of_particle(i)` gives, bit for bit the same over any number
+/// of processes.
+template <std::size_t count, class Of>
+std::array<double, count> exact_sums(const Particles& fluid, const Ranks* ranks, Of&& of_particle) {
+  std::array<ExactSum, count> sums;
+  const std::size_t particles = ranks ? ranks->own().size() : fluid.count;
+  for (std::size_t k = 0; k < particles; ++k) {
+    const std::array<double, count> parts = of_particle(ranks ? ranks->own()[k] : k);
+    for (std::size_t n = 0; n < count; ++n) sums[n].add(parts[n]);
+  }
+  if (ranks) ranks->add_up(sums);
+  std::array<double, count> values;
+  for (std::size_t n = 0; n < count; ++n) values[n] = sums[n].value();
+  return values;
+}
 
 }  // namespace toryu::fluid

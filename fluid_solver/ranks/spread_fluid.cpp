@@ -58,10 +58,15 @@ void SpreadFluid::together(const Order& order, const std::function<void()>& shar
 
 void SpreadFluid::hand_out() {
   if (handed_out_) return;
-  handed_out_ = true;
-  together({.action = Action::hand_out, .with = packed(state_.largest)},
-           [&] { part_.spread_over(ranks_of_parts_, state_.largest, std::move(state_.fluid)); });
+  spread(std::move(state_.fluid), begun());
   forget();
+}
+
+/// Makes parts of the `fluid`; those of a checkpoint are read after that.
+void SpreadFluid::spread(Particles fluid, const Begun& begun) {
+  handed_out_ = true;
+  together({.action = Action::hand_out, .with = packed(begun)},
+           [&] { part_.spread_over(ranks_of_parts_, begun, std::move(fluid)); });
 }
 
 void SpreadFluid::collect(Known wanted) const {
@@ -89,6 +94,7 @@ void SpreadFluid::advance(double dt) {
   forget();
   together({.action = Action::advance, .value = dt}, [&] { part_.advance(dt); });
   ++state_.steps_since_look;
+  if (state_.surface_record) state_.surface_record->add(part_.surface_found(), dt);
 }
 
 void SpreadFluid::check(double time) const {
@@ -128,6 +134,13 @@ Look SpreadFluid::look() {
   return seen;
 }
 
+double SpreadFluid::density_of_packing() const {
+  if (!handed_out_) return WeaklyCompressible::density_of_packing();
+  double found = 0;
+  together({.action = Action::pack}, [&] { found = part_.density_of_packing(); });
+  return found;
+}
+
 void SpreadFluid::find_off_surface() {
   collect(Known::all);
   list_anew();
@@ -156,9 +169,16 @@ void SpreadFluid::write_state(std::ostream& stream) const {
 void SpreadFluid::read_state(std::istream& stream) {
   const std::string state(std::istreambuf_iterator<char>(stream), {});
   std::istringstream of_part(state, std::ios::binary), of_whole(state, std::ios::binary);
-  WeaklyCompressible::read_state(of_whole);
-  hand_out();
+  take_state(of_whole);
+  if (!handed_out_) spread({}, {.largest = state_.largest, .start_volume = start_volume_});
+  known_ = Known::all;
+  forget();
   together({.action = Action::read_state, .with = state}, [&] { part_.read_state(of_part); });
+}
+
+void SpreadFluid::record_surface(const std::filesystem::path& out) {
+  WeaklyCompressible::record_surface(out);
+  together({.action = Action::find_surface}, [&] { part_.find_surface(); });
 }
 
 /// As `read_state`.
@@ -197,9 +217,9 @@ void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Sce
         break;
       }
       case Action::hand_out: {
-        Extremes largest;
-        unpack(order.with, largest);
-        part->spread_over(*ranks, largest, {});
+        FluidModel::Begun begun;
+        unpack(order.with, begun);
+        part->spread_over(*ranks, begun, {});
         break;
       }
       case Action::read_state: {
@@ -207,6 +227,9 @@ void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Sce
         part->read_state(state);
         break;
       }
+      case Action::find_surface:
+        part->find_surface();
+        break;
       case Action::attach:
         attach_packed(order.with, *part);
         break;
@@ -224,6 +247,9 @@ void follow(MPI_Comm communicator, const std::function<std::pair<Parameters, Sce
         break;
       case Action::collect:
         part->collect(nullptr, order.value > 0);
+        break;
+      case Action::pack:
+        part->density_of_packing();
         break;
       case Action::take_load:
         part->take_load();

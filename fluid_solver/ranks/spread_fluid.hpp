@@ -30,7 +30,9 @@ class SpreadFluid final : public WeaklyCompressible {
   std::vector<Observation> observe() const override;
   void watch(double time) override;
   Look look() override;
+  double density_of_packing() const override;
 
+  void record_surface(const std::filesystem::path& out) override;
   void attach(const Interface& interface, bool rigid) override;
   void begin_window(const InterfaceMotion& motion, double dt) override;
   InterfaceLoad take_load() override;
@@ -41,6 +43,7 @@ class SpreadFluid final : public WeaklyCompressible {
   void together(const Order& order, const std::function<void()>& share) const;
   void find_off_surface() override;
   void hand_out();
+  void spread(Particles fluid, const Begun& begun);
   /// What is known here of the whole as it is now.
   enum class Known { nothing, reported, all };
   void collect(Known wanted) const;

@@ -95,6 +95,16 @@ double ZoltanRanks::largest(const Field& values) const {
   return largest(found);
 }
 
+void ZoltanRanks::add_up(std::span<ExactSum> sums) const {
+  std::vector<ExactSum> all(sums.size() * parts_.size());
+  const int bytes = static_cast<int>(sums.size_bytes());
+  MPI_Allgather(sums.data(), bytes, MPI_BYTE, all.data(), bytes, MPI_BYTE, communicator_);
+  for (std::size_t n = 0; n < sums.size(); ++n) {
+    sums[n] = {};
+    for (std::size_t k = n; k < all.size(); k += sums.size()) sums[n].add(all[k]);
+  }
+}
+
 bool ZoltanRanks::is_balanced() const {
   const auto own = static_cast<double>(own_.size());
   double sum = 0;
@@ -317,8 +327,8 @@ void ZoltanRanks::note_own(const Particles& fluid) {
   places.reserve(own_.size());
   for (const auto i : own_) places.push_back(place_in_whole_[i]);
   whole_ = Gatherer(communicator_, own_, places);
-  size_of_whole_ = padded(whole_.places().size());
-  Field masses(size_of_whole_, 0.0);
+  count_of_whole_ = whole_.places().size();
+  Field masses(padded(count_of_whole_), 0.0);
   whole_.gather({&fluid.m}, {&masses});
   mass_ = std::reduce(masses.begin(), masses.end());
 }

@@ -23,7 +23,7 @@ struct Division {
   /// Places, by rank: of own particles of which it has ghosts, and of ghosts that it owns.
   std::vector<std::vector<std::uint32_t>> ghosts_there_ = {}, ghosts_here_ = {};
   Gatherer whole_ = {};  ///< of the own particles
-  std::size_t size_of_whole_ = 0;
+  std::size_t count_of_whole_ = 0;
   double mass_ = 0;  ///< of the whole fluid [kg/m]
   BesideWalls beside_walls_ = {};
   Renewal renewal_ = {};
@@ -38,6 +38,11 @@ class ZoltanRanks final : public Ranks, private Division {
   using Ranks::largest;
   void take_largest(std::span<double> values) const override;
   double largest(const Field& values) const override;
+  void take_first(std::span<double> values) const override {
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, communicator_);
+  }
+  void add_up(std::span<ExactSum> sums) const override;
+  const std::vector<std::uint32_t>& own() const override { return own_; }
   void begin(const Particles& fluid, const std::vector<Boundary>& boundaries) override;
   void divide(Particles& fluid, double depth, const std::vector<Vec>& shifts, VecField* beside) override;
   void follow(const std::vector<std::uint32_t>& order) override;
@@ -52,7 +57,7 @@ class ZoltanRanks final : public Ranks, private Division {
   void save() override { saved_ = *this; }
   void restore() override { static_cast<Division&>(*this) = saved_; }
   void share(const std::vector<Field*>& fields) const override;
-  std::size_t size_of_whole() const override { return size_of_whole_; }
+  std::size_t count_of_whole() const override { return count_of_whole_; }
   double mass() const override { return mass_; }
   void collect_forces(std::vector<Boundary>& boundaries) const override {
     beside_walls_.collect_forces(boundaries);

@@ -147,21 +147,27 @@ void Dynamics::polymer_stresses(Particles& fluid, std::vector<Boundary>& boundar
 }
 
 void Dynamics::log_conformation_rates(Particles& fluid, const ClusterList& neighbours,
-                                      const std::vector<Boundary>& boundaries) const {
+                                      const std::vector<Boundary>& boundaries,
+                                      const std::vector<std::uint32_t>* some) const {
+  const std::size_t count = some ? some->size() : fluid.clusters();
   medium_.kernel.visit([&](const auto& W) {
 #pragma omp for schedule(dynamic, 8)
-    for (std::size_t c = 0; c < fluid.clusters(); ++c)
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t c = some ? (*some)[k] : k;
       find_log_conformation_rate(*parameters_.viscoelasticity,
                                  velocity_gradient(W, fluid, neighbours, boundaries, viscous_walls(), c),
                                  fluid, c);
+    }
   });
 }
 
 void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                        std::vector<Boundary>& boundaries, Timers& timers, const Swept* swept) const {
+                        std::vector<Boundary>& boundaries, Timers& timers, const Ranks* ranks) const {
+  const Swept* swept = ranks ? &ranks->swept() : nullptr;
   const auto* own = swept ? &swept->own : nullptr;
   const bool density = wanted != RatesOf::velocity, velocity = wanted != RatesOf::density;
-  for (auto& boundary : boundaries) boundary.force_on_fluid.make_room(fluid.clusters());
+  const bool polymer = parameters_.viscoelasticity.has_value();
+  for (auto& boundary : boundaries) boundary.force_on_fluid.make_room(fluid.clusters(), polymer);
   if (viscosity_varies())
     for (auto& boundary : boundaries) {
       boundary.eta.resize(boundary.V.size());
@@ -172,12 +178,11 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
       resize(boundary.slip_velocity, boundary.V.size());
       boundary.shear_stress.resize(boundary.V.size());
     }
-  const bool polymer = parameters_.viscoelasticity.has_value();
   if (polymer)
     for (auto& boundary : boundaries) resize(boundary.polymer_stress, boundary.V.size());
   {
     const auto timer = timers.measure("pressure, walls and density gradient");
-    const double p_offset = parameters_.wall_slip ? pressure_offset(fluid, boundaries) : 0.0;
+    const double p_offset = parameters_.wall_slip ? pressure_offset(fluid, boundaries, ranks) : 0.0;
 #pragma omp parallel
     {
       pressures(fluid);
@@ -205,7 +210,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
 #pragma omp parallel
     {
       if (velocity) polymer_stresses(fluid, boundaries);
-      if (density) log_conformation_rates(fluid, neighbours, boundaries);
+      if (density) log_conformation_rates(fluid, neighbours, boundaries, own);
     }
   }
   const auto timer = timers.measure("rates");
@@ -217,7 +222,7 @@ void Dynamics::evaluate(RatesOf wanted, Particles& fluid, const ClusterList& nei
     medium_.kernel.visit([&](const auto& W) {
       add_further_forces(W, parameters_, medium_, fluid, neighbours, boundaries, own);
     });
-  if (velocity && friction_) brake_by_friction(fluid, boundaries);
+  if (velocity && friction_) brake_by_friction(fluid, boundaries, ranks);
 }
 
 void Dynamics::renew_density_rates(Particles& fluid, const ClusterList& neighbours,
@@ -227,12 +232,13 @@ void Dynamics::renew_density_rates(Particles& fluid, const ClusterList& neighbou
       [&](const auto& W) { sweeps().rates(W, RatesOf::density, fluid, neighbours, boundaries, &clusters); });
 }
 
-void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const {
-  const double p_offset = pressure_offset(fluid, boundaries);
+void Dynamics::brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries,
+                                 const Ranks* ranks) const {
+  const double p_offset = pressure_offset(fluid, boundaries, ranks);
   for (Boundary& boundary : boundaries)
     if (boundary.is_work_piece()) {
       friction_->measure_contact(boundary, fluid);
-      friction_->brake_fluid(fluid, p_offset, boundary, boundary.force_on_fluid.friction_by_cluster);
+      friction_->brake_fluid(fluid, p_offset, boundary);
     }
 }
 
@@ -245,8 +251,9 @@ double Dynamics::moment_beside_pairs(const Particles& fluid, const std::vector<B
          wetted_surface_moment(wall, fluid, medium_.kernel, b, ranks);
 }
 
-double Dynamics::pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const {
-  return fluid::pressure_offset(parameters_.enclosed_medium, fluid, boundaries, state_);
+double Dynamics::pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                                 const Ranks* ranks) const {
+  return fluid::pressure_offset(parameters_.enclosed_medium, fluid, boundaries, state_, ranks);
 }
 
 void Dynamics::react(const Particles& fluid, double pressure_offset, Boundary& boundary) const {

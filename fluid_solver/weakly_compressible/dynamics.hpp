@@ -27,10 +27,10 @@ class Dynamics {
   void allocate(Particles& fluid) const;
 
   /// Fills p, V, the boundaries' extrapolated values and the wanted rates a, drho of `fluid` from its state,
-  /// and what each boundary did to the fluid where the velocity's rate is wanted. Of a part of a fluid the
-  /// rates of what is `swept` alone.
+  /// and what each boundary did to the fluid where the velocity's rate is wanted. Of a part of a fluid over
+  /// `ranks` the rates of what they sweep alone.
   void evaluate(RatesOf wanted, Particles& fluid, const ClusterList& neighbours,
-                std::vector<Boundary>& boundaries, Timers& timers, const Swept* swept = nullptr) const;
+                std::vector<Boundary>& boundaries, Timers& timers, const Ranks* ranks = nullptr) const;
 
   /// Finds drho anew for `clusters` of the fluid, after velocities have changed beside the interface. The
   /// rest of the last evaluation of drho must stand.
@@ -44,7 +44,8 @@ class Dynamics {
   void react_by_friction(const Particles& fluid, double pressure_offset, Boundary& work_piece) const;
 
   /// Of a medium that is held at a mean pressure: what contact adds to p [Pa].
-  double pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries) const;
+  double pressure_offset(const Particles& fluid, const std::vector<Boundary>& boundaries,
+                         const Ranks* ranks) const;
   /// Of wall `b`, which turns: the moment on the fluid that the pair forces of a laminar viscosity leave out
   /// (wall_turning.hpp). It gives the fluid as much as its viscosity takes in addition [N.m per metre depth].
   double moment_beside_pairs(const Particles& fluid, const std::vector<Boundary>& boundaries, std::size_t b,
@@ -77,8 +78,9 @@ class Dynamics {
   void viscosities(Particles& fluid, const ClusterList& neighbours, std::vector<Boundary>& boundaries) const;
   void polymer_stresses(Particles& fluid, std::vector<Boundary>& boundaries) const;
   void log_conformation_rates(Particles& fluid, const ClusterList& neighbours,
-                              const std::vector<Boundary>& boundaries) const;
-  void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries) const;
+                              const std::vector<Boundary>& boundaries,
+                              const std::vector<std::uint32_t>* some) const;
+  void brake_by_friction(Particles& fluid, std::vector<Boundary>& boundaries, const Ranks* ranks) const;
   bool axisymmetric() const { return geometry_ == Geometry::axisymmetric; }
   bool viscous_walls() const { return parameters_.wall_model.slip == WallSlip::no_slip; }
   bool renormalised_diffusion() const {

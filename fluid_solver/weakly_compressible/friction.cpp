@@ -50,20 +50,18 @@ void WorkPieceFriction::measure_contact(Boundary& work_piece, const Particles& f
   if (geometry_ == Geometry::axisymmetric) mirror(d);
 }
 
-void WorkPieceFriction::brake_fluid(Particles& fluid, double p_offset, const Boundary& work_piece,
-                                    std::vector<Vec>& by_cluster) const {
-  by_cluster.assign(fluid.clusters(), Vec::Zero());
+void WorkPieceFriction::brake_fluid(Particles& fluid, double p_offset, Boundary& work_piece) const {
+  work_piece.force_on_fluid.forget_friction(fluid.clusters());
   const auto& active = work_piece.list_for_fluid.active();
   kernel_.visit([&](const auto& W) {
 #pragma omp parallel for schedule(dynamic, 4)
-    for (std::size_t k = 0; k < active.size(); ++k)
-      by_cluster[active[k]] = brake_cluster(W, fluid, p_offset, work_piece, active[k]);
+    for (std::size_t k = 0; k < active.size(); ++k) brake_cluster(W, fluid, p_offset, work_piece, active[k]);
   });
 }
 
 template <class W>
-Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, double p_offset,
-                                     const Boundary& work_piece, std::size_t cluster) const {
+void WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, double p_offset,
+                                      Boundary& work_piece, std::size_t cluster) const {
   const std::size_t first = cluster * lane_count;
   const VecLanes v_f = load(fluid.v, first);
   const Lanes p_f = load(fluid.p, first) + p_offset, V_f = volumes(fluid, first);
@@ -77,12 +75,8 @@ Vec WorkPieceFriction::brake_cluster(const W& kernel, Particles& fluid, double p
                     for (int a = 0; a < dim; ++a) sum[a] -= on_s[a];
                   });
   const Lanes inverse_rho = inverse(load(fluid.rho, first));
-  Vec force;
-  for (int a = 0; a < dim; ++a) {
-    store(load(fluid.a[a], first) + sum[a] * inverse_rho, fluid.a[a], first);
-    force[a] = sum_of(V_f * sum[a]);  // V_f = 0 in idle lanes
-  }
-  return force;
+  for (int a = 0; a < dim; ++a) store(load(fluid.a[a], first) + sum[a] * inverse_rho, fluid.a[a], first);
+  work_piece.force_on_fluid.set_friction(cluster, product(V_f, sum));  // V_f = 0 in idle lanes
 }
 
 void WorkPieceFriction::drag_work_piece(Boundary& work_piece, const Particles& fluid, double p_offset) const {
@@ -112,20 +106,25 @@ void WorkPieceFriction::drag_cluster(const W& kernel, Boundary& work_piece, cons
 }
 
 double WorkPieceFriction::power(const Particles& fluid, double p_offset,
-                                const std::vector<Boundary>& boundaries) const {
+                                const std::vector<Boundary>& boundaries, const Ranks* ranks) const {
   double sum = 0;
   kernel_.visit([&](const auto& W) {
-    for (const Boundary& boundary : boundaries)
-      if (boundary.is_work_piece())
-        for (const auto c : boundary.list_for_fluid.active())
-          sum += power_of_cluster(W, fluid, p_offset, boundary, c);
+    for (const Boundary& boundary : boundaries) {
+      if (!boundary.is_work_piece()) continue;
+      Field powers(padded(fluid.count));
+      for (const auto c : boundary.list_for_fluid.active())
+        store(power_of_cluster(W, fluid, p_offset, boundary, c), powers, c * lane_count);
+      if (ranks) powers = ranks->of_whole(powers);
+      for (std::size_t first = 0; first < powers.size(); first += lane_count)
+        sum += sum_of(load(powers, first));
+    }
   });
   return sum;
 }
 
 template <class W>
-double WorkPieceFriction::power_of_cluster(const W& kernel, const Particles& fluid, double p_offset,
-                                           const Boundary& work_piece, std::size_t cluster) const {
+Lanes WorkPieceFriction::power_of_cluster(const W& kernel, const Particles& fluid, double p_offset,
+                                          const Boundary& work_piece, std::size_t cluster) const {
   const std::size_t first = cluster * lane_count;
   const VecLanes v_f = load(fluid.v, first);
   const Lanes p_f = load(fluid.p, first) + p_offset;
@@ -136,7 +135,7 @@ double WorkPieceFriction::power_of_cluster(const W& kernel, const Particles& flu
                     const VecLanes v_fs = difference(v_f, v_s, s);
                     sum += dot(term_.per_volume(kernel, work_piece.friction_length[s], p_f, n.r, v_fs), v_fs);
                   });
-  return sum_of(volumes(fluid, first) * sum);  // V_f = 0 in idle lanes
+  return volumes(fluid, first) * sum;  // V_f = 0 in idle lanes
 }
 
 double WorkPieceFriction::rate(double p, double rho) const {

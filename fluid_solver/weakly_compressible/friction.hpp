@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fluid_solver/boundary.hpp"
+#include "fluid_solver/ranks/ranks.hpp"
 #include "fluid_solver/terms/friction.hpp"
 
 namespace toryu::fluid {
@@ -14,15 +15,16 @@ class WorkPieceFriction {
 
   /// Fills `work_piece.friction_length`, the d_s, for the fluid's places and volumes.
   void measure_contact(Boundary& work_piece, const Particles& fluid) const;
-  /// Adds to the acceleration of the fluid, whose pressure is `p_offset` [Pa] higher than its p; returns the
-  /// force on each cluster of it in `by_cluster`.
-  void brake_fluid(Particles& fluid, double p_offset, const Boundary& work_piece,
-                   std::vector<Vec>& by_cluster) const;
+  /// Adds to the acceleration of the fluid, whose pressure is `p_offset` [Pa] higher than its p, and tells
+  /// the work piece what it does to the fluid.
+  void brake_fluid(Particles& fluid, double p_offset, Boundary& work_piece) const;
   /// Fills `work_piece.friction_force`, the exact reaction.
   void drag_work_piece(Boundary& work_piece, const Particles& fluid, double p_offset) const;
 
-  /// What friction takes from the fluid's energy, sum F_fs . v_fs [W per metre depth].
-  double power(const Particles& fluid, double p_offset, const std::vector<Boundary>& boundaries) const;
+  /// What friction takes from the fluid's energy, sum F_fs . v_fs [W per metre depth]. Of a part of a fluid
+  /// over `ranks`, on rank 0, from that of the whole.
+  double power(const Particles& fluid, double p_offset, const std::vector<Boundary>& boundaries,
+               const Ranks* ranks) const;
 
   /// The fastest rate [1/s] at which friction brakes fluid of density `rho` under the pressure `p`: that of
   /// the linear drag at rest, on the row next to a plane interface.
@@ -30,11 +32,11 @@ class WorkPieceFriction {
 
  private:
   template <class W>
-  Vec brake_cluster(const W& kernel, Particles& fluid, double p_offset, const Boundary& work_piece,
-                    std::size_t cluster) const;
+  void brake_cluster(const W& kernel, Particles& fluid, double p_offset, Boundary& work_piece,
+                     std::size_t cluster) const;
   template <class W>
-  double power_of_cluster(const W& kernel, const Particles& fluid, double p_offset,
-                          const Boundary& work_piece, std::size_t cluster) const;
+  Lanes power_of_cluster(const W& kernel, const Particles& fluid, double p_offset, const Boundary& work_piece,
+                         std::size_t cluster) const;
   template <class W>
   void drag_cluster(const W& kernel, Boundary& work_piece, const Particles& fluid, double p_offset,
                     std::size_t cluster) const;

@@ -185,7 +185,7 @@ void PairSweeps::rates_about_axis(const W& kernel, RatesOf wanted, Particles& fl
 
 template <class W>
 void PairSweeps::reaction(const W& kernel, const Particles& fluid, Boundary& boundary) const {
-  for (auto& component : boundary.force) std::fill(component.begin(), component.end(), 0.0);
+  for (auto& component : boundary.force) component.assign(boundary.V.size(), 0.0);
   const auto& active = boundary.list_for_wall.active();
   std::visit(
       [&](const auto&... term) {

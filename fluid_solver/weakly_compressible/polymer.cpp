@@ -24,7 +24,7 @@ void for_each_conformation(const Viscoelasticity& medium, const Particles& fluid
 }  // namespace
 
 void allocate_polymer(const Viscoelasticity& medium, Particles& fluid) {
-  const std::size_t size = padded(fluid.count);
+  const std::size_t size = padded(std::max<std::size_t>(fluid.count, 1));  // without values: absent
   for (std::size_t k = 0; k < medium.modes.size(); ++k)
     for (auto* field : {&fluid.log_conformation[k], &fluid.log_conformation_rate[k]}) resize(*field, size);
   resize(fluid.polymer_stress, size);
@@ -73,11 +73,20 @@ double polymer_energy(const Viscoelasticity& medium, const Particles& fluid) {
   return sum;
 }
 
-double dissipated_power(const Viscoelasticity& medium, const Particles& fluid) {
-  double sum = 0;
+double dissipated_power(const Viscoelasticity& medium, const Particles& fluid, const Ranks* ranks) {
+  const auto of_whole = [&](Field values) { return ranks ? ranks->of_whole(values) : std::move(values); };
+  std::vector<Field> dissipations(medium.modes.size(), Field(padded(fluid.count)));
+  Field V(padded(fluid.count));
+  for (std::size_t i = 0; i < fluid.count; ++i) V[i] = fluid.m[i] / fluid.rho[i];
   for_each_conformation(medium, fluid, [&](const PolymerMode& mode, const Conformation& A, std::size_t i) {
-    sum += fluid.m[i] / fluid.rho[i] * A.dissipation(mode);
+    dissipations[static_cast<std::size_t>(&mode - medium.modes.data())][i] = A.dissipation(mode);
   });
+  V = of_whole(std::move(V));
+  double sum = 0;
+  for (Field& of_mode : dissipations) {
+    of_mode = of_whole(std::move(of_mode));
+    for (std::size_t i = 0; i < V.size(); ++i) sum += V[i] * of_mode[i];
+  }
   return sum;
 }
 

@@ -3,6 +3,7 @@
 /// stress where the velocity's is.
 #pragma once
 
+#include "fluid_solver/ranks/ranks.hpp"
 #include "fluid_solver/terms/velocity_gradient.hpp"
 #include "fluid_solver/terms/viscoelasticity.hpp"
 
@@ -39,8 +40,9 @@ struct PolymerExtremes {
 };
 PolymerExtremes polymer_extremes(const Viscoelasticity& medium, const Particles& fluid);
 
-/// Free energy that the polymer holds [J per metre depth], and what it loses of it [W per metre depth].
+/// Free energy that the polymer holds [J per metre depth], and what it loses of it [W per metre depth]; of a
+/// part of a fluid over `ranks`, on rank 0, that of the whole.
 double polymer_energy(const Viscoelasticity& medium, const Particles& fluid);
-double dissipated_power(const Viscoelasticity& medium, const Particles& fluid);
+double dissipated_power(const Viscoelasticity& medium, const Particles& fluid, const Ranks* ranks = nullptr);
 
 }  // namespace toryu::fluid

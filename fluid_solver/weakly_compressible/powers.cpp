@@ -231,7 +231,7 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
       found.back().value += boundaries[b].angular_velocity * moment_beside_pairs(fluid, boundaries, b, ranks);
   if (friction_)
     note(Friction::section, Taken::dissipated, [&](const auto&) {
-      return friction_->power(fluid, pressure_offset(fluid, boundaries), boundaries);
+      return friction_->power(fluid, pressure_offset(fluid, boundaries, ranks), boundaries, ranks);
     });
   std::visit(
       [&]<class Term>(const Term& term) {
@@ -244,8 +244,8 @@ std::vector<Power> Dynamics::powers(const Particles& fluid, const ClusterList& n
     if constexpr (requires { pair_force(*term, medium_); })
       if (term) {
         double dissipated = 0;
-        if constexpr (requires { dissipated_power(*term, fluid); }) {
-          dissipated = dissipated_power(*term, fluid);
+        if constexpr (requires { dissipated_power(*term, fluid, ranks); }) {
+          dissipated = dissipated_power(*term, fluid, ranks);
           note(Term::section, Taken::dissipated, [&](const auto&) { return dissipated; });
         }
         note(Term::section, Taken::stored, [&](const auto& W) {

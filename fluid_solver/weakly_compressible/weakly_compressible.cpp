@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/sph/skin.hpp"
 #include "fluid_solver/held_volume.hpp"
 #include "fluid_solver/stability_warnings.hpp"
+#include "fluid_solver/weakly_compressible/found_values.hpp"
 #include "fluid_solver/weakly_compressible/polymer.hpp"
 
 namespace toryu::fluid {
@@ -105,14 +107,6 @@ void add(Field& field, double dt, const Field& rate, std::size_t clusters) {
   for (std::size_t c = 0; c < clusters; ++c)
     store(load(field, c * lane_count) + dt * load(rate, c * lane_count), field, c * lane_count);
 }
-/// Calls visit(component) for each field of the particles that an evaluation finds.
-template <class Visit>
-void for_each_found(Particles& f, Visit&& visit) {
-  const auto walk = [&](auto&... field) { (for_each_component(field, visit), ...); };
-  walk(f.V, f.p, f.p_rho2, f.grad_rho, f.gdot, f.eta, f.eta_grad_v, f.log_conformation_rate, f.polymer_stress,
-       f.a, f.drho);
-}
-
 void add_to_log_conformation(Particles& fluid, double dt) {
   for_each_log_conformation(
       fluid, [&](Field& psi, const Field& rate, std::size_t) { add(psi, dt, rate, fluid.clusters()); });
@@ -126,7 +120,7 @@ WeaklyCompressible::WeaklyCompressible(const Parameters& parameters, const Scene
   dynamics_.allocate(state_.fluid);
   if (parameters.particle_shifting)
     shifting_.emplace(*parameters.particle_shifting, parameters.spacing, kernel_);
-  start_volume_ = volume(state_.fluid);
+  if (parameters.held_volume) start_volume_ = volume(state_.fluid);
   state_.balance = EnergyBalance(powers());
   state_.largest.viscosity = dynamics_.viscosity_at_rest();
   note_extremes();
@@ -148,15 +142,12 @@ std::vector<Power> WeaklyCompressible::powers() {
   // Pressures of the last evaluation are half a step older than the velocities. Where both swing, as sound
   // does, their product would be wrong by the step, always to the same side.
   Particles& fluid = state_.fluid;
-  start_ = {};              // its memory is needed
-  std::vector<Field> kept;  // as a step expects it
-  for_each_found(fluid, [&](Field& component) { kept.push_back(component); });
-  std::vector<Boundary> boundaries = state_.boundaries;
+  start_ = {};                                   // its memory is needed
+  FoundValues before(fluid, state_.boundaries);  // as a step expects them
   Timers not_told;
-  dynamics_.evaluate(RatesOf::both, fluid, neighbours, boundaries, not_told, swept());
-  std::vector<Power> found = dynamics_.powers(fluid, neighbours, boundaries, ranks_);
-  auto before = kept.begin();
-  for_each_found(fluid, [&](Field& component) { component.swap(*before++); });
+  dynamics_.evaluate(RatesOf::both, fluid, neighbours, state_.boundaries, not_told, ranks_);
+  std::vector<Power> found = dynamics_.powers(fluid, neighbours, state_.boundaries, ranks_);
+  before.bring_back();
   return found;
 }
 
@@ -189,22 +180,25 @@ void WeaklyCompressible::advance(double dt) {
   else
     step_midpoint(dt);
   if (shifting_) shift(dt);
-  if (parameters_.held_volume) hold_volume(state_.fluid, start_volume_);
+  if (parameters_.held_volume) hold_volume(state_.fluid, start_volume_, ranks_);
   note_extremes();
 }
 
 void WeaklyCompressible::evaluate(RatesOf wanted, double time) {
   if (scene_.gravity_change) dynamics_.set_gravity(scene_.gravity_at(time));
   if (state_.open_ends) state_.open_ends->impose(state_.fluid, time, scene_.gravity_at(time));
-  dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_, swept());
+  dynamics_.evaluate(wanted, state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, timers_, ranks_);
   share_rates();
   if (state_.open_ends)
     state_.open_ends->take_rates(state_.fluid, wanted != RatesOf::density, wanted != RatesOf::velocity);
 }
 
 void WeaklyCompressible::share_rates() {
+  if (!ranks_) return;
   Particles& fluid = state_.fluid;
-  if (ranks_) ranks_->share({&fluid.a[0], &fluid.a[1], &fluid.drho});
+  std::vector<Field*> rates{&fluid.a[0], &fluid.a[1], &fluid.drho};
+  for_each_log_conformation(fluid, [&](Field&, Field& rate, std::size_t) { rates.push_back(&rate); });
+  ranks_->share(rates);
 }
 
 void WeaklyCompressible::step_midpoint(double dt) {
@@ -286,27 +280,31 @@ void WeaklyCompressible::note_surface(double dt) {
   const auto timer = timers_.measure("surface of the work pieces");
   const double p_offset = pressure_offset();
   for (Boundary& boundary : state_.boundaries)
-    if (!boundary.is_interface()) dynamics_.react_by_friction(state_.fluid, p_offset, boundary);
-  state_.surface_record->add(state_.boundaries, state_.fluid, p_offset, state_.neighbours.of_fluid(), kernel_,
-                             dt);
+    if (!boundary.is_interface() && !boundary.turns())  // which have reacted
+      dynamics_.react_by_friction(state_.fluid, p_offset, boundary);
+  SurfaceRecord& record = *state_.surface_record;
+  auto found = record.find(state_.boundaries, state_.fluid, p_offset, state_.neighbours.of_fluid(), kernel_);
+  if (!ranks_) return record.add(found, dt);
+  record.collect(found, state_.boundaries, *ranks_);
+  surface_found_ = std::move(found);
 }
 
 void WeaklyCompressible::shift(double dt) {
   const auto timer = timers_.measure("shifting");
   shifting_->shift(state_.fluid, state_.neighbours.of_fluid(), state_.boundaries, state_.largest.speed, dt);
+  if (!ranks_) return;
   Particles& fluid = state_.fluid;
-  if (ranks_) ranks_->share({&fluid.x[0], &fluid.x[1], &fluid.v[0], &fluid.v[1], &fluid.rho});
+  std::vector<Field*> moved{&fluid.x[0], &fluid.x[1], &fluid.v[0], &fluid.v[1], &fluid.rho};
+  for_each_log_conformation(fluid, [&](Field& psi, Field&, std::size_t) { moved.push_back(&psi); });
+  ranks_->share(moved);
 }
 
 void WeaklyCompressible::note_extremes() {
   const Particles& fluid = state_.fluid;
   Extremes& largest = state_.largest;
-  largest.speed = largest_norm(fluid.v, fluid.count);
-  largest.acceleration = largest_norm(fluid.a, fluid.count);
-  if (ranks_) {
-    largest.speed = ranks_->largest(largest.speed);
-    largest.acceleration = ranks_->largest(largest.acceleration);
-  }
+  const auto of_all = [&](double value) { return ranks_ ? ranks_->largest(value) : value; };
+  largest.speed = of_all(largest_norm(fluid.v, fluid.count));
+  largest.acceleration = of_all(largest_norm(fluid.a, fluid.count));
   largest.speed_of_turning = 0;
   for (const Boundary& boundary : state_.boundaries)
     if (boundary.turns())
@@ -316,11 +314,13 @@ void WeaklyCompressible::note_extremes() {
                                : *std::max_element(fluid.eta.begin(), fluid.eta.begin() + fluid.count);
   if (const auto& medium = parameters_.viscoelasticity) {
     const PolymerExtremes extremes = polymer_extremes(*medium, fluid);
-    largest.elastic_speed = extremes.elastic_speed;
-    largest.relaxation_rate = extremes.relaxation_rate;
+    largest.elastic_speed = of_all(extremes.elastic_speed);
+    largest.relaxation_rate = of_all(extremes.relaxation_rate);
   }
   if (const auto& friction = dynamics_.friction()) {
-    const double densest = *std::max_element(fluid.rho.begin(), fluid.rho.end());
+    const auto first = fluid.rho.begin();
+    const double densest = of_all(std::accumulate(first, first + static_cast<std::ptrdiff_t>(fluid.count),
+                                                  0.0, [](double a, double b) { return std::max(a, b); }));
     largest.friction_rate =
         friction->rate(equation_of_state_.pressure(densest) + pressure_offset(), parameters_.density);
   }

@@ -47,14 +47,12 @@ class WeaklyCompressible : public FluidModel {
   void shift(double dt);
   void renew_density_rates();
   void share_rates();  ///< with the other ranks
-  const Swept* swept() const { return ranks_ ? &ranks_->swept() : nullptr; }
   void note_surface(double dt);
   void note_extremes();
 
   Dynamics dynamics_;
   Start start_;  ///< kept from step to step for its memory
   std::optional<Shifting> shifting_;
-  double start_volume_ = 0;  ///< sum_i m_i/rho_i
 };
 
 }  // namespace toryu::fluid

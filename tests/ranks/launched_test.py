@@ -39,6 +39,19 @@ TERMS = {
     "gravity along a period": ["poiseuille", *SHORT[:-1], "0.1"],
     "fits through faces": ["poiseuille", *SHORT, "--set", "fluid.wall_model.extrapolation=fit"],
     "slip along walls": ["poiseuille", *SHORT, "--set", "fluid.wall_slip={coefficient=0.001}"],
+    "held volume": ["lid_driven_cavity/re_400.toml", "--set", "fluid.spacing=0.05", "--set", "case.series_interval=0.05",
+                    "--end-time", "0.5"],
+    "pressed walls of an enclosed medium": [
+        "abrasive_throat/pressed.toml", "--set", "fluid.spacing=0.0004", "--set", "wall.5.press.travel=[-1e-6, 0.0]", "--set",
+        "case.series_interval=0.002", "--end-time", "0.02"],
+    "viscoelasticity": ["viscoelastic_channel", "--set", "fluid.spacing=0.1", "--set", "case.series_interval=0.2",
+                        "--end-time", "2"],
+    "viscoelasticity that shifts": ["viscoelastic_channel", "--set", "fluid.spacing=0.1", "--set", "fluid.particle_shifting={}",
+                                    "--set", "fluid.integrator=midpoint", "--set", "case.series_interval=0.2", "--end-time", "1"],
+    "friction on work pieces and what it removes": ["abrasive_flow/rigid.toml", "--set", "case.series_interval=0.01",
+                                                    "--end-time", "0.05"],
+    "removal by slip in an enclosed medium": ["abrasive_slip", "--set", "fluid.spacing=0.0002", "--set",
+                                              "case.series_interval=0.0005", "--end-time", "0.003"],
     "a moving wall": ["retreating_piston", *SHORT[:-1], "0.1"],
     "a disc that turns, and takes a moment": ["turning_disc", "--set", "case.series_interval=0.002", "--end-time", "0.02"],
     "a tank that turns": ["sloshing_tank", "--set", "case.series_interval=0.05", "--end-time", "0.3"],
@@ -74,7 +87,7 @@ def datasets(path):
 def results(out):
     """The content of the solvers' series and of all frames; the coupler's has times of the clock."""
     return {path.name: path.read_bytes() for path in out.glob("*.csv") if path.name != "coupler.csv"} | {
-        path.name: datasets(path) for path in (out / "frames").iterdir()}
+        path.name: datasets(path) for path in [*(out / "frames").iterdir(), *out.glob("surface.h5")]}
 
 
 def ranks_of(out):
@@ -140,7 +153,7 @@ class Alone(OverRanks):
         checkpoints = ["--set", "case.checkpoint_interval=0.02"]
         expected = self.done("whole", DAM, *checkpoints)
         half = [*DAM[:-1], "0.02"]
-        for first, then in (("2", "3"), ("3", "1"), ("1", "2")):
+        for first, then in (("2", "3"), ("3", "1"), ("1", "2"), ("4", "2")):
             out = self.folder / f"from_{first}"
             for case, more in ((half, []), (DAM, ["--restart"])):
                 code, text = end_of(launch(out, case, *checkpoints, "--ranks", then if more else first, *more))
@@ -167,9 +180,14 @@ class Alone(OverRanks):
         self.assertLessEqual(tasks[1], tasks[0])
 
     def test_refuses_what_does_not_go(self):
-        code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.held_volume={}", "--check"))
+        code, text = end_of(launch(self.folder / "run", DAM, "--ranks", "2", "--set", "fluid.model=implicit", "--check"))
         self.assertEqual(code, BAD_INPUT, text)
-        self.assertIn("[fluid.held_volume] does not go over ranks: start the case in one process", text)
+        self.assertIn("the implicit model does not go over ranks: start the case in one process", text)
+
+    def test_refuses_removal_where_the_medium_sticks(self):
+        code, text = end_of(launch(self.folder / "run", ["parallel_slits"], "--ranks", "2", "--check"))
+        self.assertEqual(code, BAD_INPUT, text)
+        self.assertIn("[fluid.removal] of a medium that sticks to its walls does not go over ranks", text)
 
     def test_refuses_no_number_and_no_fluid(self):
         for case, count, words in ((DAM, "0", "must be a number of processes, 1 or more"), (DAM, "two", "must be a number"),
@@ -216,8 +234,15 @@ class Coupled(OverRanks):
             if scheme == "serial_implicit":
                 case[-3] = "0.004"
             expected = self.done(f"{scheme}_one", case)
-            for count in "23":
+            for count in "234":
                 self.expect_the_same(self.done(f"{scheme}_{count}", case, "--ranks", count), expected)
+
+    def test_rubs_on_the_solid_as_one_process_does(self):
+        case = ["abrasive_flow", "--set", "case.series_interval=0.01", "--end-time", "0.03"]
+        expected = self.done("one", case)
+        self.assertIn("surface.h5", expected)
+        for count in "24":
+            self.expect_the_same(self.done(count, case, "--ranks", count), expected)
 
 
 if __name__ == "__main__":

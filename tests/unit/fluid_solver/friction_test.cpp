@@ -85,12 +85,10 @@ Rubbed rub(const std::vector<SurfacePoint>& piece, const std::vector<Point>& poi
   build(boundary.list_for_fluid, fluid.x, fluid.count, boundary.x, boundary.count, boundary.strips);
 
   const WorkPieceFriction term = friction(form, geometry);
-  std::vector<Vec> by_cluster;
   term.measure_contact(boundary, fluid);
-  term.brake_fluid(fluid, p_offset, boundary, by_cluster);
+  term.brake_fluid(fluid, p_offset, boundary);
   term.drag_work_piece(boundary, fluid, p_offset);
-  Rubbed rubbed{std::vector<Vec>(piece.size()), Vec::Zero(), Vec::Zero()};
-  for (const Vec& part : by_cluster) rubbed.on_fluid += part;
+  Rubbed rubbed{std::vector<Vec>(piece.size()), boundary.force_on_fluid.friction(), Vec::Zero()};
   for (std::size_t k = 0; k < fluid.count; ++k) rubbed.momentum_rate += fluid.m[k] * at(fluid.a, k);
   for (std::size_t k = 0; k < boundary.count; ++k)
     rubbed.on_piece[boundary.id[k]] = at(boundary.friction_force, k);
