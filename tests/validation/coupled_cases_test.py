@@ -112,6 +112,15 @@ class TurekHron(unittest.TestCase):
         self.assertLess(abs(forces.u_y / 8.21e-4 - 1), 0.2)  # +24 % where round walls were flat to the fluid beside them
 
 
+class SwingingTurekHron(unittest.TestCase):
+    def test_cases_are_without_errors(self):
+        for name in ("fsi2", "fsi3"):
+            with self.subTest(name), tempfile.TemporaryDirectory() as out:
+                done = launch(f"turek_hron_fsi/{name}.toml", out, "--check")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("no errors", done.stdout)
+
+
 class FloatingBox(unittest.TestCase):
     def test_a_rigid_box_floats_as_deep_as_archimedes_says(self):
         rows, figures, _ = run("floating_box", **{"case.end_time": 2, "fluid.spacing": 0.0125, "solid.spacing": 0.0125})
