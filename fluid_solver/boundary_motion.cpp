@@ -19,6 +19,7 @@ void PressedMotion::push(double t, double dt, const Vec& reaction, double held, 
   way = way_at(t);
   time = t;
   speed = before + dt / mass * (met * (press.pressure_at(t, area) - held) + reaction.dot(press.axis()));
+  pushed_on = speed != speed_at(t);
   speed = speed_at(t);
   acceleration = (speed - before) / dt;
   mean_speed = 0.5 * (before + speed);

@@ -55,9 +55,12 @@ struct PressedMotion {
   double acceleration = 0;              ///< in that push [m/s2]
   double mean_speed = 0;                ///< by which the work in that push counts [m/s]
   bool at_stop = false;                 ///< whether it has been told of that a stop holds it
+  bool pushed_on = false;               ///< against a stop, in that push
 
   double way_at(double t) const;
   double speed_at(double t) const;  ///< 0 where a stop holds it
+  /// From when on its press does not change [s].
+  double steady_from() const { return (press.force.empty() ? press.pressure : press.force).back()[0]; }
   /// Gives what particle k does at `t` [s], with the acceleration of the last push: without it the pressure
   /// that the wall takes from the fluid would lag, and a piston on water would swing ever farther.
   auto at(double t) const {
@@ -76,9 +79,9 @@ struct PressedMotion {
 };
 template <class Archive>
 void serialize(Archive& archive, PressedMotion& pressed) {
-  auto& [press, start, area, mass, time, way, speed, acceleration, mean_speed, at_stop] =
+  auto& [press, start, area, mass, time, way, speed, acceleration, mean_speed, at_stop, pushed_on] =
       pressed;  // the first ones are the case's
-  archive(time, way, speed, acceleration, mean_speed, at_stop);
+  archive(time, way, speed, acceleration, mean_speed, at_stop, pushed_on);
 }
 
 }  // namespace toryu::fluid

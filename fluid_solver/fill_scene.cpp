@@ -27,6 +27,10 @@ constexpr double nearest_bodies = 0.4;
 /// it is stable by the fluid's steps and slow by no more than some rows.
 constexpr double smoothing_lengths_of_press = 4;
 
+/// Over the mass of fluid of a smoothing length in its place: of a heavier one the speed changes by less in a
+/// step than what rounding leaves of the forces.
+constexpr double heaviest_press = 1e12;
+
 /// Moves one point after the other off its lattice at random, each time alike.
 class Disorder {
  public:
@@ -151,6 +155,12 @@ PressedMotion FluidModel::pressed(const Wall& wall, const std::vector<Vec>& poin
                  fmt::format("a press of {:g} kg/m is too light beside the fluid for steps like its: give it "
                              "{:.3g} kg/m or more, or leave 'mass' out",
                              wall.press->mass, fluid));
+  if (wall.press->mass > heaviest_press * fluid)
+    throw BadKey(
+        fmt::format("wall.{}.press.mass", &wall - scene_.walls.data()),
+        fmt::format("a press of {:g} kg/m is too heavy: what moves it is lost in rounding; give it at "
+                    "most {:.3g} kg/m, or a wall without a 'press'",
+                    wall.press->mass, heaviest_press * fluid));
   return {.press = *wall.press,
           .start = points,
           .area = area,

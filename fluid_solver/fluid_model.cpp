@@ -235,11 +235,19 @@ void FluidModel::watch_stops(double time) {
   for (Boundary& boundary : state_.boundaries)
     if (auto* pressed = std::get_if<PressedMotion>(&boundary.motion); pressed && !pressed->at_stop) {
       const double way = pressed->way_at(time);
-      pressed->at_stop = way != 0 && (way == pressed->press.travel[0] || way == pressed->press.travel[1]);
-      if (pressed->at_stop)
+      if (way != pressed->press.travel[0] && way != pressed->press.travel[1]) continue;
+      // Where it starts, a stop may hold it while its press still grows.
+      pressed->at_stop = way != 0 || (pressed->pushed_on && time >= pressed->steady_from());
+      if (!pressed->at_stop) continue;
+      if (way != 0)
         log::warn(
             "the wall '{}' has come to the end of its travel, {:g} m, at t = {:.6g} s: its stop holds it",
             boundary.name, way, time);
+      else
+        log::warn(
+            "the wall '{}' is pushed against the stop at which it starts, at t = {:.6g} s: its 'press' and "
+            "the medium push it beyond the 'travel' [{:g}, {:g}] m",
+            boundary.name, time, pressed->press.travel[0], pressed->press.travel[1]);
     }
 }
 

@@ -212,7 +212,7 @@ void check_enclosed(FluidModel& model, const fluid::Parameters& parameters) {
   if (!(parameters.enclosed_medium || parameters.held_volume || implicit) || model.is_enclosed()) return;
   if (parameters.enclosed_medium)
     throw BadKey("fluid.enclosed_medium",
-                 "the fluid has a free surface at the start, where its pressure is 0: give no mean pressure");
+                 "the fluid has a free surface at the start, where its pressure is 0: it is not enclosed");
   if (parameters.held_volume)
     throw BadKey("fluid.held_volume", "the fluid has a free surface at the start: nothing holds its volume");
   const auto [key, message] = fluid::implicit_surface_fault();
@@ -282,13 +282,16 @@ ExitCode solve(const Options& options) {
   if (options.outlook && !file.has("solid")) tell_flow(parameters, scene);
   for (const auto& [key, message] : fluid::start_faults(parameters, scene)) file.fault(key, message);
   file.throw_if_faulty();
-  const auto made = file.placed([&] { return fluid::make_spread_model(parameters, scene); });
+  const auto made = file.placed("fluid", [&] { return fluid::make_spread_model(parameters, scene); });
   FluidModel& model = *made;
   omp_set_num_threads(thread_count(options, model.particle_count(), particles_per_thread));
-  check_start(model, "[fluid]");
-  file.placed([&] { check_enclosed(model, parameters); });
+  file.placed("fluid", [&] {
+    check_start(model, "fluid");
+    check_enclosed(model, parameters);
+  });
   model.record_surface(options.out);  // which has columns
-  check_columns(model.observe(), "[fluid]");
+  check_columns(file, model.observe(), "fluid");
+  file.throw_if_faulty();
   const SeriesColumns series =
       series_columns("fluid", file.has("solid") ? model.observe_beside_solid() : model.observe());
   check_references(file, scene, series);

@@ -176,16 +176,19 @@ ExitCode solve(const Options& options) {
   file.throw_if_faulty();
   const Period period(scene);
   repeat_holes(period, parameters);
-  const std::vector<Part> parts = build_parts(
-      parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); },
-      period.shifts());
+  const std::vector<Part> parts = file.placed("solid", [&] {
+    return build_parts(
+        parameters, [&](const std::string& key, const std::string& message) { file.fault(key, message); },
+        period.shifts());
+  });
   file.throw_if_faulty();
   RunRecord::Counts counts = particle_counts(parts);
   omp_set_num_threads(
       thread_count(options, static_cast<std::size_t>(counts[0].second), particles_per_thread));
-  const auto solid = make_solid(parts, scene);
-  check_start(*solid, "[solid]");
-  check_columns(solid->observe(), "[solid]");
+  const auto solid = file.placed("solid", [&] { return make_solid(parts, scene); });
+  file.placed("solid", [&] { check_start(*solid, "solid"); });
+  check_columns(file, solid->observe(), "solid");
+  file.throw_if_faulty();
   const SeriesColumns series = series_columns("solid", solid->observe());
   check_references(file, scene, series);
   file.throw_if_faulty();

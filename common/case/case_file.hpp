@@ -61,13 +61,13 @@ class CaseFile {
   /// Adds a fault that the owner of a section found by itself, at the place of `key`: a path with items by
   /// number or name ("fluid.region.0.box").
   void fault(const std::string& key, const std::string& message);
-  /// What `make` gives; a BadKey that it throws is told at its place.
+  /// What `make`, which is of the owner of `section`, gives; a BadKey that it throws is told at its place.
   template <class Make>
-  auto placed(const Make& make) {
+  auto placed(const std::string& section, const Make& make) {
     try {
       return make();
     } catch (const BadKey& bad) {
-      fault(bad.key(), bad.message());
+      fault(bad.key().starts_with('.') ? section + bad.key() : bad.key(), bad.message());
       throw_if_faulty();
       throw;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <sstream>
 
 #include "common/case/depth.hpp"
@@ -12,12 +13,14 @@ namespace toryu {
 namespace {
 constexpr std::string_view override_option = "--set ";
 
+/// Two changes of one name stay two items, so that whoever reads the list tells of them.
 void merge_items(toml::array& base, toml::array&& changes) {
+  std::set<std::string> names;
   for (auto& item : changes) {
     toml::table& table = *item.as_table();
     const auto name = table["name"].value<std::string>();
-    const auto index = name ? item_index(base, quoted(*name)) : std::nullopt;
-    if (index)
+    const bool first = name && names.insert(*name).second;
+    if (const auto index = first ? item_index(base, quoted(*name)) : std::nullopt)
       merge_document(*base.get(*index)->as_table(), std::move(table));
     else
       base.push_back(std::move(table));

@@ -54,7 +54,8 @@ class BadInput : public std::runtime_error {
 };
 
 /// A fault of the case that code without its file finds: of the item or value at `key`, a path as
-/// CaseFile::fault takes it ("fluid.region.water"). CaseFile::placed tells it at its place.
+/// CaseFile::fault takes it ("fluid.region.water"), or one within the section of the owner, whichever that is
+/// (".spacing"). CaseFile::placed tells it at its place.
 class BadKey : public BadInput {
  public:
   BadKey(std::string key, std::string message)

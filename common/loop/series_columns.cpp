@@ -10,6 +10,31 @@
 
 namespace toryu {
 
+namespace {
+
+/// Whether `column` holds `name`, between its ends or underscores.
+bool is_column_of(const std::string& column, const std::string& name) {
+  return !name.empty() && fmt::format("_{}_", column).find(fmt::format("_{}_", name)) != std::string::npos;
+}
+
+/// The item with the longest name that `column` holds, as a path to that name; `section` if there is none.
+std::string owner_of(const std::string& column, const CaseFile& file, const std::string& section) {
+  std::string found = section;
+  std::size_t longest = 0;
+  for (const char* list : {".observer", ".region", ".body", ".inlet", ".outlet", "wall", "motion"}) {
+    const std::string items = *list == '.' ? section + list : list;
+    for (std::size_t k = 0; k < file.count(items); ++k) {
+      const auto name = file.value<std::string>(fmt::format("{}[{}].name", items, k)).value_or("");
+      if (name.size() <= longest || !is_column_of(column, name)) continue;
+      longest = name.size();
+      found = fmt::format("{}.{}.name", items, k);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
 SeriesColumns series_columns(const std::string& participant, const std::vector<Observation>& observations) {
   SeriesColumns series{participant + ".csv", {"time[s]"}};
   for (const auto& observation : observations)
@@ -17,15 +42,14 @@ SeriesColumns series_columns(const std::string& participant, const std::vector<O
   return series;
 }
 
-void check_columns(const std::vector<Observation>& observations, const std::string& section) {
+void check_columns(CaseFile& file, const std::vector<Observation>& observations, const std::string& section) {
   std::set<std::string> names;
   for (const auto& observation : observations)
     if (!names.insert(observation.name).second)
-      throw BadInput(
-          {{.place = section,
-            .message = fmt::format("two columns of the results would be named '{}': an observer, a "
-                                   "region or a wall needs another name",
-                                   observation.name)}});
+      return file.fault(owner_of(observation.name, file, section),
+                        fmt::format("two columns of the results would be named '{}': an observer, a region "
+                                    "or a wall needs another name",
+                                    observation.name));
 }
 
 void check_references(CaseFile& file, const Scene& scene, const SeriesColumns& series) {

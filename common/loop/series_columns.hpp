@@ -19,8 +19,9 @@ struct SeriesColumns {
 /// Of the series of `participant` ("fluid"), a row of which holds `observations` behind the time.
 SeriesColumns series_columns(const std::string& participant, const std::vector<Observation>& observations);
 
-/// Throws BadInput, at `section` of the case, if two of `observations` have one name.
-void check_columns(const std::vector<Observation>& observations, const std::string& section);
+/// Adds a fault of `file` if two of `observations`, of the participant with the section `section`, have one
+/// name: at the item of which that column is, an observer before others.
+void check_columns(CaseFile& file, const std::vector<Observation>& observations, const std::string& section);
 
 /// Adds a fault of `file` for each reference over a series that no program of the case writes, or over a
 /// column that `series` does not have.

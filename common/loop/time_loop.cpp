@@ -67,7 +67,7 @@ void check_start(const Solver& solver, const std::string& section) {
   try {
     solver.check(0);
   } catch (const PhysicsFailure& failure) {
-    throw BadInput({{.place = section, .message = std::string("cannot start: ") + failure.what()}});
+    throw BadKey(section, std::string("cannot start: ") + failure.what());
   }
 }
 

@@ -63,7 +63,7 @@ void take_windows(Link& link, Solver& solver, RunRecord& record, Take&& take) {
   settle();
 }
 
-/// Throws BadInput, at `section` of the case, if the state at the start is beyond the limits of physics.
+/// Throws BadKey, of `section` of the case, if the state at the start is beyond the limits of physics.
 void check_start(const Solver& solver, const std::string& section);
 
 /// Runs to the end time of the scene, from where `record` is; no messages, no other process. The time-step

@@ -111,6 +111,13 @@ std::vector<InputError> extra_faults(const CLI::App& app) {
   return unknown.empty() ? plain : unknown;
 }
 
+/// CLI11 would take the next argument for the value of "--out=".
+void refuse_empty_values(const std::vector<std::string>& arguments) {
+  for (const auto& argument : arguments)
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1)
+      throw BadInput({{.place = argument, .message = "has no value"}});
+}
+
 std::optional<int> thread_count(const std::string& text) {
   int threads = 0;
   const auto end = text.data() + text.size();
@@ -122,6 +129,7 @@ std::optional<int> thread_count(const std::string& text) {
 }  // namespace
 
 Options parse_options(const std::string& role, const std::vector<std::string>& arguments) {
+  refuse_empty_values(arguments);
   CLI::App app("", role);
   Typed typed;
   declare(app, role, typed);

@@ -120,6 +120,8 @@ class Bodies {
       }
     for (const auto* bodies : {&bodies_.swept, &bodies_.solid})
       for (const Body& body : *bodies) keep_off_itself(body, found);
+    for (const auto* bodies : {&bodies_.fluid, &bodies_.solid})
+      for (const Body& body : *bodies) keep_in_domain(body, found);
     for (const Body& region : bodies_.fluid)
       for (const auto* bodies : {&bodies_.walls, &bodies_.solid})
         for (const Body& other : *bodies)
@@ -285,6 +287,14 @@ class Bodies {
       motion = wall.motion;
     }
     return motion;
+  }
+
+  /// Whether a part of it leaves the domain, its particles show.
+  void keep_in_domain(const Body& body, Faults& faults) const {
+    const Box box = bounds_of(body.part);
+    for (int axis = 0; axis < dim && domain_.is_sound() && box.is_sound(); ++axis)
+      if (!period_.along(axis) && (box.min[axis] >= domain_.max[axis] || box.max[axis] <= domain_.min[axis]))
+        return void(faults.emplace_back(body.key, body.name + " lies outside [case.domain]"));
   }
 
   /// A wall that holds a clamp and the clamp move as one; any other must not run into it.

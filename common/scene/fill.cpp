@@ -287,10 +287,9 @@ Filling fill(const Blocks& body, double spacing, const Blocks* beside) {
 void check_size(const std::vector<Box>& boxes, double spacing) {
   const double count = particles_in(boxes, spacing);
   if (count > largest_body)
-    throw BadInput({{.place = fmt::format("spacing = {} m", spacing),
-                     .message = fmt::format("would fill a body with {:.1e} particles; at most {:.0e} are "
-                                            "possible",
-                                            count, largest_body)}});
+    throw BadKey(".spacing", fmt::format("a spacing of {} m would fill a body with {:.1e} particles; at most "
+                                         "{:.0e} are possible",
+                                         spacing, count, largest_body));
 }
 
 std::vector<Vec> fill(const std::vector<Box>& boxes, const std::vector<Box>& holes, double spacing) {

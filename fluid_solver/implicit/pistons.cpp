@@ -100,6 +100,7 @@ void Pistons::finish(const Vector& u) {
   for (Eigen::Index k = 0; k < count(); ++k) {
     PressedMotion& pressed = motion(k);
     pressed.end_step(dt_, u[k]);
+    pressed.pushed_on = at(k).bound.has_value();
     if (u[k] == at(k).least) pressed.way = pressed.press.travel[0];  // and not a rounding beside it
     if (u[k] == at(k).most) pressed.way = pressed.press.travel[1];
   }

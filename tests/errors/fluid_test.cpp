@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"MeanPressureUnderAFreeSurface", "fluid.enclosed_medium.mean_pressure=1",
               "--set fluid.enclosed_medium.mean_pressure=1: error: the fluid has a free surface at the "
               "start, where "
-              "its pressure is 0: give no mean pressure"},
+              "its pressure is 0: it is not enclosed"},
         Fault{
             "VolumeUnderAFreeSurface", "fluid.held_volume={}",
             "--set fluid.held_volume={}: error: the fluid has a free surface at the start: nothing holds its "
@@ -146,13 +146,15 @@ INSTANTIATE_TEST_SUITE_P(
               "--set fluid.wall_model.slip=slippery: error: 'slip' in [fluid.wall_model] must be one of "
               "'no_slip', 'free_slip', found 'slippery'"},
         Fault{"ColumnOfTheResults", "fluid.observer=[{name=\"kinetic_energy\",quantity=\"front_x\"}]",
-              "[fluid]: error: two columns of the results would be named 'kinetic_energy': an observer, a "
+              "--set fluid.observer=[{name=\"kinetic_energy\",quantity=\"front_x\"}]: error: two columns "
+              "of the results would be named 'kinetic_energy': an observer, a "
               "region or a wall needs another name"},
         Fault{"ColumnOfTheRemoval",
               "wall.0.work_piece=true' --set 'fluid.friction.coefficient=0.3' --set "
               "'fluid.removal.preston_coefficient=1e-9' --set "
               "'fluid.observer=[{name=\"removed_area\",quantity=\"front_x\"}]",
-              "[fluid]: error: two columns of the results would be named 'removed_area': an observer, a "
+              "--set fluid.observer=[{name=\"removed_area\",quantity=\"front_x\"}]: error: two columns "
+              "of the results would be named 'removed_area': an observer, a "
               "region or a wall needs another name"},
         Fault{"FrictionOnNothing", "fluid.friction.coefficient=0.3",
               "--set fluid.friction.coefficient=0.3: error: there is nothing to rub on: friction acts on a "
@@ -293,7 +295,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"WallWithoutParticles", "wall.left.box.max=[-0.19,1.2]",
               "--set wall.left.box.max=[-0.19,1.2]: error: wall 'left' holds no particle at this spacing"},
         Fault{"StartTooFast", "fluid.region.water.velocity=[40,0]",
-              "[fluid]: error: cannot start: fluid particle 0 at t = 0 s: speed [m/s] = 40, limit 31.3"},
+              HYDROSTATIC_TANK "/case.toml:24:2: error: cannot start: fluid particle 0 at t = 0 s: speed "
+                               "[m/s] = 40, limit 31.3"},
         Fault{"StartTooDense", "fluid.limits.largest_density_change=0.001",
               HYDROSTATIC_TANK "/case.toml:26:1: error: 'sound_speed' 31.3 m/s is too low for fluid at rest "
                                "1 m deep: its density would be "
@@ -311,9 +314,10 @@ INSTANTIATE_TEST_SUITE_P(
               "through "
               "that depth is 44.3 m/s"},
         Fault{"StartOutsideTheDomain", "fluid.region.water.box.max=[1.0,1.6]",
-              "[fluid]: error: cannot start: fluid particle 600 at t = 0 s: position (0.025, 1.525) [m], "
-              "outside by "
-              "= 0.025, limit the domain of the case"}),
+              HYDROSTATIC_TANK "/case.toml:24:2: error: cannot start: fluid particle 600 at t = 0 s: "
+                               "position (0.025, 1.525) [m], "
+                               "outside by "
+                               "= 0.025, limit the domain of the case"}),
     [](const auto& one) { return one.param.name; });
 
 TEST(FluidCheck, DoesNotLookAtTheSpaceBetweenRegionsThatAreFarApart) {

@@ -117,6 +117,11 @@ TEST_F(ExampleProgram, RefusesOneArgumentTooMany) {
   EXPECT_EQ(run("room room").error, "room: error: one argument too many; there is one CASE\n");
 }
 
+TEST_F(ExampleProgram, RefusesAnOptionWithAnEmptyValue) {
+  EXPECT_EQ(run("room --out= --check").error, "--out=: error: has no value\n");
+  EXPECT_EQ(run("room --end-time= --check").error, "--end-time=: error: has no value\n");
+}
+
 TEST_F(ExampleProgram, RefusesAnOptionWithoutValue) {
   const Ending ending = run("room --out");
   EXPECT_EQ(ending.code, 2);

@@ -34,6 +34,15 @@ TEST(SceneFaults, WallBeyondTheDomain) {
             "case.toml:10:1: error: the box of wall 'roof' is not within [case.domain]");
 }
 
+TEST(SceneFaults, RegionsOutsideTheDomain) {
+  const std::string region = "region = [{name='r', box={min=[2,1], max=[3,2]}}]\n";
+  EXPECT_EQ(CaseText(sound_scene + "[fluid]\n" + region).scene_faults(),
+            "case.toml:9:22: error: the fluid's region 'r' lies outside [case.domain]");
+  EXPECT_EQ(CaseText(sound_scene + "[solid]\n" + region).scene_faults(),
+            "case.toml:9:22: error: the solid's region 'r' lies outside [case.domain]");
+  EXPECT_EQ(CaseText(sound_scene + "[fluid]\n" + region).scene_faults({"case.periodic=\"x\""}), "");
+}
+
 TEST(SceneFaults, MotionWhoseTimesDoNotIncrease) {
   EXPECT_EQ(
       CaseText(sound_scene + "motion = { velocity = [[0, 0, 0], [1, 1, 0], [1, 2, 0]] }\n").scene_faults(),
@@ -126,7 +135,8 @@ TEST(SceneFaults, WhereSpaceRepeatsItself) {
             "case.toml:17:1: error: a wall with worn faces cannot cross a side of [case.domain]");
   EXPECT_EQ(with("[[solid.region]]", "{min=[-0.5,-1], max=[1.6,0]}"),
             "case.toml:16:1: error: the solid's region 'block' is 2.1 m long along x, in which space repeats "
-            "itself after 2 m: it overlaps itself");
+            "itself after 2 m: it overlaps itself\n"
+            "case.toml:16:1: error: the solid's region 'block' lies outside [case.domain]");
 }
 
 TEST(SceneFaults, MotionWithoutRows) {

@@ -288,11 +288,13 @@ class Python(unittest.TestCase):
             self.assert_end(run, "fluid", INTERRUPTED)
 
     def test_a_thread_that_goes_on_after_the_run_is_not_waited_for_for_ever(self):
-        thread = ("import threading; participant.PATIENCE = 1\n"
-                  "    threading.Thread(target=time.sleep, args=[1000]).start()")
+        thread = ("import threading; participant.PATIENCE, participant.QUIET = 1, 0.5\n"
+                  "    threading.Thread(target=time.sleep, args=[1000], name='logger').start()")
         with self.fluid(more=thread, end_time="0.001") as run:
             run.start_all()
-            self.assert_end(run, "fluid", DONE, "a thread of this program goes on after 1 s: it is ended")
+            self.assert_end(run, "fluid", DONE, "the run is over, and 1 thread of this program, 'logger', is waited for, for "
+                            "1 s at most; one with daemon=True ends with the run",
+                            "a thread of this program goes on after 1 s: it is ended")
 
     def wait_for(self, condition):
         end = time.monotonic() + LIMIT

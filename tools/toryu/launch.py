@@ -114,6 +114,9 @@ def programs(options, case):
     if case.kind not in PROGRAMS_OF:
         raise SystemExit(complain(f"{case.file}: error: no section [fluid] and no section [solid]: nothing to compute"))
     names = PROGRAMS_OF[case.kind]
+    for side in ("fluid", "solid"):
+        if getattr(options, side) and f"{side}_solver" not in names:
+            raise SystemExit(complain(f"--{side} {getattr(options, side)}: error: the case has no {side}"))
     elsewhere = [f"{side}_solver" for side in ("fluid", "solid")
                  if getattr(options, side) and any(text.startswith(f"{side}=") for text in options.host)]
     for name in names:

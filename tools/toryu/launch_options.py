@@ -64,6 +64,9 @@ def parse(arguments):
         if options.case is None and value and any(map(os.path.isfile, (value, os.path.join(value, "case.toml")))):
             options.case = value
             setattr(options, name, "")
+    for name in ("out", "compare", "replay", "fluid", "solid", "secure", "bin"):  # "" would be the current folder, or none
+        if "" in (value := getattr(options, name), *(value if isinstance(value, list) else ())):
+            parser.error(f"argument --{name}: has no value")
     if options.case is None and not options.watch:
         parser.error("the following arguments are required: CASE")
     if options.secure is not None:

@@ -30,13 +30,14 @@ import pathlib
 import re
 import sys
 import threading
+import time
 from dataclasses import dataclass
 
 import numpy as np
 
-from toryu import PROGRAMS
+from toryu import PROGRAMS, counted
 from toryu.own_code import mistake_of, sources
-from toryu.processes import BAD_INPUT, BUG, PATIENCE, PHYSICS_FAILED
+from toryu.processes import BAD_INPUT, BUG, PATIENCE, PHYSICS_FAILED, QUIET
 
 COLUMN = re.compile(r'([^,"\[\]]+)\[([^,"\[\]]*)\]')  # as CSV has it without quotes
 NUMBERS = (bool, int, float, complex)  # of Python, whose arithmetic is that of numpy's
@@ -145,9 +146,7 @@ class Participant:
         name = pathlib.Path(sys.argv[0]).stem
         module = compiled()
         code = module.run(name, cls.side, cls.state is not None, sources(), functools.partial(Checked, cls), sys.argv)
-        ending = threading.Timer(PATIENCE, give_up_threads, [name, code])
-        ending.daemon = True
-        ending.start()
+        threading.Thread(target=give_up_threads, args=[name, code], daemon=True).start()
         sys.exit(code)
 
 
@@ -170,9 +169,16 @@ class Solid(Participant):
 
 
 def give_up_threads(name, code):
-    """Ends Python, which waits for ever for a thread of the participant that goes on."""
-    print(f"{name}: warning: the run is over, and a thread of this program goes on after {PATIENCE:g} s: it is ended",
-          file=sys.stderr, flush=True)
+    """Tells for which threads of the participant Python waits, and ends it where they go on: it would wait for ever."""
+    def tell(what):
+        print(f"{name}: warning: the run is over, and {what}", file=sys.stderr, flush=True)
+
+    time.sleep(QUIET)
+    if going_on := [t.name for t in threading.enumerate() if not t.daemon and t is not threading.main_thread()]:
+        tell(f"{counted(len(going_on), 'thread')} of this program, {', '.join(map(repr, going_on))}, is waited for, for "
+             f"{PATIENCE:g} s at most; one with daemon=True ends with the run")
+    time.sleep(max(0, PATIENCE - QUIET))
+    tell(f"a thread of this program goes on after {PATIENCE:g} s: it is ended")
     os._exit(code)
 
 

@@ -3,6 +3,7 @@
 
 #include "fluid_solver/held_pressure.hpp"
 #include "tests/one_thread.hpp"
+#include "tests/said.hpp"
 #include "tests/unit/fluid_solver/scenes.hpp"
 
 namespace toryu::fluid {
@@ -62,6 +63,17 @@ TEST(PressedMotion, IsHeldByItsStopsAndLetGo) {
   EXPECT_DOUBLE_EQ(moved.way_at(0.7), 0.1);
   EXPECT_DOUBLE_EQ(moved.way_at(2), -0.1);
   EXPECT_EQ(moved.speed_at(2), 0);
+}
+
+TEST(PressedMotion, KnowsWhetherItIsPushedOnAgainstAStop) {
+  PressedMotion moved = piston();
+  moved.press.travel = Vec(0, 0.2);
+  EXPECT_EQ(moved.steady_from(), 2);
+  moved.push(0.5, 0.1, Vec(0, 48), 0);  // 7.5 N - 48 N, back against where it starts
+  EXPECT_EQ(moved.speed, 0);
+  EXPECT_TRUE(moved.pushed_on);
+  moved.push(0.6, 0.1, Vec(0, 0), 0);
+  EXPECT_FALSE(moved.pushed_on);
 }
 
 TEST(KeptPressure, IsTheMeanOfTheExtremesLessTheBackground) {
@@ -136,10 +148,31 @@ TEST(PressedTankRun, SwingsAboutThePressureOfThePress) {
   EXPECT_LT(last, first) << "nothing feeds the swing";
 }
 
-TEST(PressedTank, RefusesAPistonThatIsTooLight) {
+TEST(PressedTank, TellsOfAPistonThatIsPushedAgainstTheStopAtWhichItStarts) {
+  const auto told = [](const Vec& travel, double until) {
+    Setting setting = pressed_tank(-2000);
+    setting.scene.walls.back().press->travel = travel;
+    WeaklyCompressible solver = setting.solver();
+    const Said said;
+    run_until(solver, until);
+    solver.watch(solver.time());
+    solver.watch(solver.time());
+    return said.text();
+  };
+  EXPECT_EQ(told(Vec(0, 0.1), 0.05), "") << "its press still changes";
+  const std::string words = told(Vec(0, 0.1), 0.11);
+  const std::string what = "the wall 'piston' is pushed against the stop at which it starts, at t = 0.11";
+  EXPECT_EQ(words.find(what), words.rfind(what)) << "once: " << words;
+  EXPECT_NE(words.find(what), std::string::npos) << words;
+  EXPECT_EQ(told(Vec(-0.1, 0.1), 0.11), "");
+}
+
+TEST(PressedTank, RefusesAPistonThatIsTooLightOrTooHeavy) {
   Setting setting = pressed_tank(2000);
-  setting.scene.walls.back().press->mass = 1;
-  EXPECT_THROW(setting.solver(), BadInput);
+  for (const double mass : {1.0, 1e20, 1e300}) {
+    setting.scene.walls.back().press->mass = mass;
+    EXPECT_THROW(setting.solver(), BadKey) << mass;
+  }
 }
 
 }  // namespace

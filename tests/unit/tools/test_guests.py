@@ -48,6 +48,15 @@ class Guests(Launch):
             2, f"--restart: error: {self.guest} cannot write checkpoints, so it cannot go on from one\n"))
         self.assertEqual(self.pids(), [])
 
+    def test_one_that_the_case_does_not_need_is_refused(self):
+        for side in ("fluid", "solid"):
+            self.write_case(f"[{side}]\n")
+            done = self.launch("--fluid", str(self.guest), "--solid", str(self.guest))
+            other = {"fluid": "solid", "solid": "fluid"}[side]
+            self.assertEqual((done.returncode, done.stderr), (
+                2, f"--{other} {self.guest}: error: the case has no {other}\n"))
+            self.assertEqual(self.pids(), [])
+
     def test_our_own_are_not_asked(self):
         self.launch("--check")
         self.assertFalse((self.bin / "asked").exists())

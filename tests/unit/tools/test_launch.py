@@ -65,6 +65,13 @@ class WhatIsStarted(Launch):
 
 
 class BadInput(Launch):
+    def test_an_option_with_an_empty_value(self):
+        for name in ("out", "fluid", "secure"):
+            done = self.launch(f"--{name}", "")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"error: argument --{name}: has no value", done.stderr)
+        self.assertEqual(self.pids(), [])
+
     def test_the_errors_of_all_programs_are_merged_and_sorted(self):
         self.plan(coupler="check_fails 2 c.toml:20:1: error: c|c.toml:3:1: error: a",
                   fluid="check_fails 2 c.toml:3:1: error: a|c.toml:9:4: error: b|--sett: error: unknown option",

@@ -144,6 +144,17 @@ answer = { wanted_depth = 1e-6, pressure_at_most = -1 }
         self.assertEqual(self.faults(TWO_AXES.replace("[1, 2, 4]", "[1, nan]")),
                          ["window.toml:8: error: 'values' must be finite numbers, found nan"])
 
+    def test_units_that_no_table_or_chart_can_hold(self):
+        for unit in ("nonsense[m]", "a\\nb", "m,s", " "):
+            for before in ('name = "wait"', 'name = "end"'):
+                with self.subTest(unit=unit, before=before):
+                    head = ('[[axis]]\nname = "wait"\nvalues = [1, 2]\nkeys = ["coupling.wait"]\n[[metric]]\nname = "end"\n'
+                            'series = "fluid.csv:speed[m/s]"\n')
+                    fault, *_ = self.faults(head.replace(before, f'{before}\nunit = "{unit}"'))
+                    self.assertRegex(fault, r"window.toml:\d+: error: 'unit' must be a text of printable characters on one "
+                                     r"line without any of \[ \] , \", found ")
+                    self.assertTrue(fault.isprintable())
+
     def test_names_that_no_table_or_chart_can_hold(self):
         for name in ("", " ", "a\\nb", "\\u001b[31m"):
             fault, *_ = self.faults(TWO_AXES.replace('"wait"', f'"{name}"'))

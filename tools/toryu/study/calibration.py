@@ -117,7 +117,7 @@ def add_axes(table, study):
 
 def _parameter(table):
     line = table.document.line(table.path, "")
-    name, unit, keys = table.label(), table.get("unit", str, ""), table.texts("keys")
+    name, unit, keys = table.label(), table.unit(), table.texts("keys")
     if table.has("keys") and not keys:
         table.fault("'keys' needs at least one key of the case", "keys")
     bounds, log = table.numbers("bounds", 2), table.get("log", bool, False)

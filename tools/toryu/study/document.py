@@ -115,6 +115,15 @@ class Table:
             return None
         return value
 
+    def unit(self):
+        """The unit of what stands in tables and charts, behind a name as name[unit]."""
+        value = self.get("unit", str, "")
+        if value and (not is_label(value) or set(value) & set('[],"')):
+            self.fault(f"'unit' must be a text of printable characters on one line without any of [ ] , \", found "
+                       f"{value!r:.100}", "unit")
+            return ""
+        return value
+
     def texts(self, key, default=REQUIRED, allowed=None):
         """A list of texts."""
         values = self.get(key, list, default)

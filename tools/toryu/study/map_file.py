@@ -91,7 +91,7 @@ def add_axes(table, study):
         return
     inner = table.table("y")
     line = table.document.line(inner.path, "")
-    name, unit, rule = inner.label(), inner.get("unit", str, ""), study_file.read_rule(inner)
+    name, unit, rule = inner.label(), inner.unit(), study_file.read_rule(inner)
     stable, unstable = inner.get("stable", float), inner.get("unstable", float)
     resolution, grid = inner.get("resolution", float, 0.05), inner.get("grid", list, [])
     given = [v for v in (stable, unstable) if v is not None]

@@ -47,7 +47,7 @@ def read(table, study, earlier):
     given = [source for source in SOURCES if table.has(source)]
     if len(given) != 1:
         table.fault(f"{table.name} needs one of {one_of(SOURCES)}, found {one_of(given) if given else 'none'}")
-    metric = Metric(name, table.get("unit", str, ""), scale)
+    metric = Metric(name, table.unit(), scale)
     of_run = study.of_run()
     metric.run = table.get("run", str, None, allowed=of_run)
     if path := table.get("summary", str, None):

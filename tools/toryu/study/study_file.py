@@ -182,7 +182,7 @@ def _read(document, coupler, views, small):
 
 def _axis(table):
     line = table.document.line(table.path, "")
-    name, unit = table.label(), table.get("unit", str, "")
+    name, unit = table.label(), table.unit()
     value_of, given = None, []
     if table.has("choice"):
         values = [_choice(choice) for choice in table.tables("choice")]

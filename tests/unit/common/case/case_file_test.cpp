@@ -265,6 +265,16 @@ TEST(CaseFile, SaysOnlyInWhatItDiffersFromItsBase) {
   EXPECT_NE(CaseFile(text.folder(), {"medium.steps=7"}).hash(), hash);
 }
 
+TEST(CaseFile, TellsOfTwoItemsOfOneNameBesideTheirBase) {
+  const std::string item = "[[medium.region]]\nname = 'far'\nbox = {min=[1,1], max=[2,2]}\n";
+  const CaseText text("base = 'base.toml'\n" + item + item);
+  text.add("base.toml", sound_medium());
+  const std::string twice = "case.toml:6:1: error: two [[medium.region]] are named 'far'; names must differ";
+  EXPECT_EQ(text.faults(), twice);
+  text.add("base.toml", sound_medium() + item);
+  EXPECT_EQ(text.faults(), twice) << "the first is the base's item, changed";
+}
+
 TEST(CaseFile, HashTellsTextsAndOverridesApart) {
   std::string text = "[medium]\ndensity = 1\n";
   const auto hash = [](const std::string& t, const std::vector<std::string>& overrides) {

@@ -13,6 +13,7 @@
 #include "common/loop/outlook.hpp"
 #include "common/loop/series_columns.hpp"
 #include "common/run/options.hpp"
+#include "tests/errors/case_text.hpp"
 
 namespace toryu {
 namespace {
@@ -253,14 +254,32 @@ class NamedSolver : public LimitedSolver {
 };
 
 TEST(Columns, NeedNamesOfTheirOwn) {
-  EXPECT_NO_THROW(check_columns(NamedSolver({"tip_x", "tip_y", "tip"}).observe(), "[body]"));
-  try {
-    check_columns(NamedSolver({"tip_x", "tip_y", "tip_x"}).observe(), "[body]");
-    FAIL() << "two columns of one name";
-  } catch (const BadInput& error) {
-    EXPECT_EQ(error.errors()[0].place, "[body]");
-    EXPECT_THAT(error.errors()[0].message, testing::HasSubstr("would be named 'tip_x'"));
-  }
+  const CaseText text(
+      "[[wall]]\nname = 'a'\n[[body.observer]]\nname = 'tip'\n[[body.region]]\nname = 'tip'\n"
+      "[[body.region]]\nname = 'tip_of_a'\n");
+  const auto fault = [&](const std::vector<std::string>& names) -> std::string {
+    CaseFile file(text.folder(), {});
+    file.ignore_sections({"wall", "body"});
+    check_columns(file, NamedSolver(names).observe(), "body");
+    try {
+      file.throw_if_faulty();
+    } catch (const BadInput& error) {
+      const InputError& first = error.errors()[0];
+      return fmt::format("{}: {}", first.line, first.message);
+    }
+    return "";
+  };
+  const std::string what =
+      "two columns of the results would be named '{}': an observer, a region or a wall needs another name";
+  EXPECT_EQ(fault({"tip_x", "tip_y", "tip"}), "");
+  EXPECT_EQ(fault({"tip_x", "tip_y", "tip_x"}),
+            fmt::format("4: {}", fmt::format(fmt::runtime(what), "tip_x")));
+  EXPECT_EQ(fault({"force_from_a_x", "force_from_a_x"}),
+            fmt::format("2: {}", fmt::format(fmt::runtime(what), "force_from_a_x")));
+  EXPECT_EQ(fault({"tip_of_a_x", "tip_of_a_x"}),
+            fmt::format("8: {}", fmt::format(fmt::runtime(what), "tip_of_a_x")));
+  EXPECT_EQ(fault({"energy", "energy"}), fmt::format("3: {}", fmt::format(fmt::runtime(what), "energy")))
+      << "of nobody's item: the section's";
 }
 
 TEST(Outlook, TellsStepsAndTakesThem) {

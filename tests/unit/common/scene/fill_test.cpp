@@ -83,10 +83,10 @@ TEST(Fill, RefusesASpacingThatWouldTakeAllMemory) {
   try {
     fill({box(0, 0, 0.1, 0.14)}, {}, 1e-9);
     FAIL();
-  } catch (const BadInput& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "spacing = 1e-09 m: error: would fill a body with 1.4e+16 particles; at most 1e+08 are possible");
+  } catch (const BadKey& error) {
+    EXPECT_EQ(error.key(), ".spacing");
+    EXPECT_EQ(error.message(),
+              "a spacing of 1e-09 m would fill a body with 1.4e+16 particles; at most 1e+08 are possible");
   }
 }
 
