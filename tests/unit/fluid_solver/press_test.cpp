@@ -69,10 +69,10 @@ TEST(PressedMotion, KnowsWhetherItIsPushedOnAgainstAStop) {
   PressedMotion moved = piston();
   moved.press.travel = Vec(0, 0.2);
   EXPECT_EQ(moved.steady_from(), 2);
-  moved.push(0.5, 0.1, Vec(0, 48), 0);  // 7.5 N - 48 N, back against where it starts
+  moved.push(0.5, 0.1, Vec(0, 48), 0, 0.5);  // 7.5 N - 48 N, back against where it starts
   EXPECT_EQ(moved.speed, 0);
   EXPECT_TRUE(moved.pushed_on);
-  moved.push(0.6, 0.1, Vec(0, 0), 0);
+  moved.push(0.6, 0.1, Vec(0, 0), 0, 0.5);
   EXPECT_FALSE(moved.pushed_on);
 }
 
