@@ -72,8 +72,7 @@ class Watch(unittest.TestCase):
         self.base = urllib.parse.urlsplit(self.server.address).path
 
     def end(self):
-        self.server.streams = 0  # nobody takes the last page
-        self.server.opening.clear()
+        self.server.opening.clear()  # nobody takes the last page
         if not self.server.over.is_set():
             self.server.end()
 

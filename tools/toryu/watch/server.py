@@ -40,6 +40,8 @@ class Server(http.server.ThreadingHTTPServer):
         self.making = threading.Lock()  # one page at a time
         self.streams = 0
         self.opening = []  # when pages were asked for whose streams are not there yet [s]
+        self.connected = 0  # whose answer is under way
+        self.ended = 0  # streams that told the end, after which each page is asked for once more
         self.last_pages = 0  # read whole since the end
         self.connections = threading.Semaphore(MOST_CONNECTIONS)
         super().__init__((LOOPBACK, port), Handler)
@@ -53,6 +55,8 @@ class Server(http.server.ThreadingHTTPServer):
 
     def process_request(self, request, client_address):
         if self.connections.acquire(blocking=False):
+            with self.lock:
+                self.connected += 1
             return super().process_request(request, client_address)
         self.shutdown_request(request)
 
@@ -60,18 +64,25 @@ class Server(http.server.ThreadingHTTPServer):
         try:
             super().process_request_thread(request, client_address)
         finally:
+            with self.lock:
+                self.connected -= 1
             self.connections.release()
 
     def handle_error(self, request, client_address):
         """A reader that went away is no fault, and there is nobody to tell of others: the page shows what it has."""
 
+    def is_watched(self):
+        with self.lock:
+            return self.connected > 0 or self.last_pages < self.ended or bool(self.still_opening())
+
     def end(self):
         """Tells that the run is over, and closes when all who watched have the last page, or do not take it."""
-        limit = time.monotonic() + PATIENCE
         with self.lock:
-            watching = self.streams + len(self.still_opening())
             self.over.set()
-        while self.last_pages < watching and time.monotonic() < limit:
+        limit = time.monotonic() + PATIENCE
+        while self.is_watched() and time.monotonic() < limit:
+            if self.connected:  # however long an answer takes on a busy machine
+                limit = time.monotonic() + PATIENCE
             time.sleep(0.02)
         self.shutdown()
         self.server_close()
@@ -151,6 +162,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
                 self.send_header(name, value)
             self.end_headers()
             Stream(self.server, self.wfile.write, self.cursor()).run()
+            with self.server.lock:
+                self.server.ended += 1
         finally:
             with self.server.lock:
                 self.server.streams -= 1
