@@ -107,8 +107,9 @@ TEST(FluidOverRanks, FallsAsADamBreakDoes) {
     const Seen seen =
         expect_the_same("dam_break", {"fluid.spacing=0.0028575", "fluid.integrator=\"" + integrator + "\""});
     EXPECT_GT(seen.builds, 10);
-    if (seen.ranks > 1)
+    if (seen.ranks > 1) {
       EXPECT_LT(seen.most_held, seen.particles) << "a rank holds its own particles and ghosts alone";
+    }
   }
 }
 
@@ -147,7 +148,9 @@ TEST(FluidOverRanks, HoldsItsVolume) {
   const double found = part.density_of_packing();
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) EXPECT_EQ(found, whole.density_of_packing());
+  if (rank == 0) {
+    EXPECT_EQ(found, whole.density_of_packing());
+  }
 }
 
 /// A cut through a high column may lie just above a low one, whose water reaches walls of the upper part.
