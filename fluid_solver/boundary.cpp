@@ -1,5 +1,6 @@
 #include "fluid_solver/boundary.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "fluid_solver/axis_images.hpp"
@@ -21,13 +22,15 @@ Vec ForceOnFluid::friction() const {
 
 void ForceOnFluid::make_room(std::size_t clusters, bool further) {
   if (!of_part) return by_cluster.resize(clusters);
+  clusters = std::max<std::size_t>(clusters, 1);  // by whether there are any, all ranks tell what to collect
   resize(by_particle, clusters * lane_count);
   if (further) resize(further_by_particle, clusters * lane_count);
 }
 
 void ForceOnFluid::forget_friction(std::size_t clusters) {
   if (!of_part) return friction_by_cluster.assign(clusters, Vec::Zero());
-  for (Field& component : friction_by_particle) component.assign(clusters * lane_count, 0.0);
+  for (Field& component : friction_by_particle)
+    component.assign(std::max<std::size_t>(clusters, 1) * lane_count, 0.0);
 }
 
 void Boundary::place(const std::vector<Vec>& positions, const std::vector<double>& volumes,
