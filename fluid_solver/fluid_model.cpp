@@ -300,15 +300,15 @@ void FluidModel::push_pressed_walls(double dt) {
     auto* pressed = std::get_if<PressedMotion>(&boundary.motion);
     if (!pressed) continue;
     const bool enclosed = parameters_.enclosed_medium.has_value();
-    Vec reaction = -boundary.force_on_fluid.force();
-    double met = pressed->area;  // beside a free surface nobody knows how much of it is dry
-    if (enclosed) met = met_area(boundary, state_.fluid, kernel_, scene_.geometry, b, ranks_);
-    if (ranks_) {
-      ranks_->take_first({reaction.data(), dim});
-      ranks_->take_first({&met, 1});
-    }
+    const Vec force = boundary.force_on_fluid.force();
+    // Beside a free surface nobody knows how much of the face is dry.
+    const double area =
+        enclosed ? met_area(boundary, state_.fluid, kernel_, scene_.geometry, b, ranks_) : pressed->area;
+    std::array<double, 3> of_all{force[0], force[1], area};
+    if (ranks_) ranks_->take_first(of_all);
+    const auto [F_x, F_y, met] = of_all;
     if (enclosed) require_medium_before_face(boundary, met);
-    pressed->push(state_.time + 0.5 * dt, dt, reaction, held, met);
+    pressed->push(state_.time + 0.5 * dt, dt, Vec(-F_x, -F_y), held, met);
   }
 }
 

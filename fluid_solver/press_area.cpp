@@ -49,9 +49,9 @@ void require_medium_before_face(const Boundary& piston, double met) {
   const auto& pressed = std::get<PressedMotion>(piston.motion);
   if (std::abs(met / pressed.area - 1) < largest_misfit) return;
   throw PhysicsFailure(fmt::format(
-      "wall '{}' at t = {:.6g} s: along its press the medium meets it over {:.3g} m, and its face has "
-      "{:.3g} m: an enclosed medium is before the face of what presses it, and on no other side",
-      piston.name, pressed.time, met, pressed.area));
+      "wall '{}' at t = {:.6g} s: along its press the medium meets it over {:.3g} % of its face: an enclosed "
+      "medium is before the face of what presses it, and on no other side",
+      piston.name, pressed.time, 100 * met / pressed.area));
 }
 
 }  // namespace toryu::fluid

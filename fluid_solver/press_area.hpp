@@ -26,8 +26,8 @@ namespace toryu::fluid {
 double met_area(const Boundary& piston, const Particles& fluid, const Kernel& kernel,
                 Geometry geometry = Geometry::plane, std::size_t b = 0, const Ranks* ranks = nullptr);
 
-/// Throws PhysicsFailure where the medium `met` [m] the piston over an area that is not near that of its
-/// face: it is on both sides, on the other, or gone.
+/// Throws PhysicsFailure where the medium `met` the piston [m; about an axis m2] over an area that is not
+/// near that of its face: it is on both sides, on the other, or gone.
 void require_medium_before_face(const Boundary& piston, double met);
 
 }  // namespace toryu::fluid

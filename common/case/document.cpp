@@ -101,9 +101,13 @@ std::optional<std::size_t> item_index(const toml::array& array, const std::strin
 toml::source_region place_of_change(const toml::node& value, const toml::source_region& place) {
   const toml::table* braces = value.as_table();
   if (!braces || !braces->is_inline() || !place.path) return place;
-  for (const auto& [key, inner] : *braces)
-    if (key.source().path && *key.source().path != *place.path) return key.source();
-  return place;
+  toml::source_region found = place;
+  for (const auto& [key, inner] : *braces) {
+    if (!key.source().path || *key.source().path == *place.path) continue;
+    found = key.source();
+    if (found.path->starts_with(override_option)) break;  // the last word
+  }
+  return found;
 }
 
 toml::source_region place_of(const toml::table& table, const std::string& path,

@@ -17,16 +17,18 @@ bool is_column_of(const std::string& column, const std::string& name) {
   return !name.empty() && fmt::format("_{}_", column).find(fmt::format("_{}_", name)) != std::string::npos;
 }
 
-/// The item with the longest name that `column` holds, as a path to that name; `section` if there is none.
+/// The item with the longest name with which `column` begins, or that it holds, as a path to that name;
+/// `section` if there is none.
 std::string owner_of(const std::string& column, const CaseFile& file, const std::string& section) {
   std::string found = section;
-  std::size_t longest = 0;
+  std::pair<bool, std::size_t> best{};
   for (const char* list : {".observer", ".region", ".body", ".inlet", ".outlet", "wall", "motion"}) {
     const std::string items = *list == '.' ? section + list : list;
     for (std::size_t k = 0; k < file.count(items); ++k) {
       const auto name = file.value<std::string>(fmt::format("{}[{}].name", items, k)).value_or("");
-      if (name.size() <= longest || !is_column_of(column, name)) continue;
-      longest = name.size();
+      const std::pair fit{column.starts_with(name + "_"), name.size()};
+      if (!is_column_of(column, name) || fit <= best) continue;
+      best = fit;
       found = fmt::format("{}.{}.name", items, k);
     }
   }

@@ -111,11 +111,18 @@ std::vector<InputError> extra_faults(const CLI::App& app) {
   return unknown.empty() ? plain : unknown;
 }
 
-/// CLI11 would take the next argument for the value of "--out=".
+/// CLI11 would take the next argument for the value of "--out=". An empty one counts as none given: a run
+/// with
+/// "--secure ''" would not be secured.
 void refuse_empty_values(const std::vector<std::string>& arguments) {
-  for (const auto& argument : arguments)
+  const std::string* before = nullptr;
+  for (const auto& argument : arguments) {
+    if (argument.empty())
+      throw BadInput({{.place = before ? *before + " ''" : "''", .message = "has no value"}});
     if (argument.starts_with("--") && argument.find('=') == argument.size() - 1)
       throw BadInput({{.place = argument, .message = "has no value"}});
+    before = &argument;
+  }
 }
 
 std::optional<int> thread_count(const std::string& text) {

@@ -8,17 +8,17 @@
 namespace toryu {
 
 /// In whole multiples of 2^-90, at which parts are cut: exact for parts that have 53 bits above it, as those
-/// of 2^-37 = 7e-12 and more. Parts and sums are below 2^37 = 1.4e11; of others the sum is not a number.
+/// of 2^-37 = 7e-12 and more. Parts and sums on the way are below 2^37 = 1.4e11, or the sum is not a number.
 class ExactSum {
  public:
   void add(double part) {
     if (std::abs(part) < limit)
-      whole_ += static_cast<Whole>(part * scale);
+      add(static_cast<Whole>(part * scale));
     else
       lost_ = true;
   }
   void add(const ExactSum& other) {
-    whole_ += other.whole_;
+    add(other.whole_);
     lost_ |= other.lost_;
   }
   double value() const {
@@ -27,6 +27,7 @@ class ExactSum {
 
  private:
   __extension__ using Whole = __int128;
+  void add(Whole part) { lost_ |= __builtin_add_overflow(whole_, part, &whole_); }
   static constexpr double scale = 0x1p90, limit = 0x1p37;
   Whole whole_ = 0;
   bool lost_ = false;

@@ -18,6 +18,11 @@ std::string name_of(const testing::TestParamInfo<Parameter>& one) {
   return one.param.name;
 }
 
+/// A case without faults.
+inline const std::string sound_scene =
+    "[case]\ntitle = 'A'\nend_time = 1\ndomain = {min=[0,0], max=[2,2]}\n"
+    "[[wall]]\nname = 'floor'\nbox = {min=[0,0], max=[2,1]}\n";
+
 class CaseText {
  public:
   explicit CaseText(const std::string& text)

@@ -120,6 +120,8 @@ TEST_F(ExampleProgram, RefusesOneArgumentTooMany) {
 TEST_F(ExampleProgram, RefusesAnOptionWithAnEmptyValue) {
   EXPECT_EQ(run("room --out= --check").error, "--out=: error: has no value\n");
   EXPECT_EQ(run("room --end-time= --check").error, "--end-time=: error: has no value\n");
+  EXPECT_EQ(run("room --secure '' --check").error, "--secure '': error: has no value\n");
+  EXPECT_EQ(run("'' --check").error, "'': error: has no value\n");
 }
 
 TEST_F(ExampleProgram, RefusesAnOptionWithoutValue) {

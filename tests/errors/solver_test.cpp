@@ -55,6 +55,13 @@ TEST(Programs, SayTheSameOfTheCommonSections) {
               "'motion', 'reference', 'solid', 'wall'\n");
 }
 
+TEST(Programs, TellOfTwoColumnsAtWhatBeginsWithTheName) {
+  EXPECT_TRUE(check(solid,
+                    "--set solid.region.0.observed=true --set solid.observer.0.name=gate --set "
+                    "wall.0.name=displacement")
+                  .error.starts_with("--set solid.observer.0.name=gate: error: two columns"));
+}
+
 TEST(Programs, RefuseTwoColumnsOfOneName) {
   const Ending ending = check(solid, "--set solid.region.0.observed=true --set solid.observer.0.name=gate");
   EXPECT_EQ(ending.code, 2);

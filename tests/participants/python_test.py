@@ -288,7 +288,7 @@ class Python(unittest.TestCase):
             self.assert_end(run, "fluid", INTERRUPTED)
 
     def test_a_thread_that_goes_on_after_the_run_is_not_waited_for_for_ever(self):
-        thread = ("import threading; participant.PATIENCE, participant.QUIET = 1, 0.5\n"
+        thread = ("import threading; from toryu import own_code; own_code.PATIENCE, own_code.QUIET = 1, 0.5\n"
                   "    threading.Thread(target=time.sleep, args=[1000], name='logger').start()")
         with self.fluid(more=thread, end_time="0.001") as run:
             run.start_all()

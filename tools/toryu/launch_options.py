@@ -2,10 +2,10 @@
 
 import argparse
 import os
-import pathlib
 
 from toryu import PROGRAMS
 from toryu.installation import COMMAND
+from toryu.program import given, path
 from toryu.remote.placement import add_options
 
 
@@ -18,8 +18,8 @@ def parse(arguments):
                "options go to the programs. Exit codes: 0 done, 1 a bug, 2 bad input, 3 physics failed, "
                "4 a process was lost, 5 a fault of the machine (disk, network, threads), 130 interrupted.")
     parser.add_argument("case", metavar="CASE", nargs="?")
-    parser.add_argument("--out", metavar="DIR", help="results folder; default out/<case name>. Results of a former run "
-                        "that are there are kept in DIR.1, DIR.2, ...")
+    parser.add_argument("--out", type=given, metavar="DIR", help="results folder; default out/<case name>. Results of a "
+                        "former run that are there are kept in DIR.1, DIR.2, ...")
     parser.add_argument("--overwrite", action="store_true", help="remove the results of a former run")
     parser.add_argument("--restart", metavar="FOLDER", nargs="?", const="", help="go on with the run in the results "
                         "folder, or in FOLDER, from its newest checkpoint; with --end-time beyond its end")
@@ -34,39 +34,36 @@ def parse(arguments):
                         "will write, as FILE.csv:COLUMN")
     parser.add_argument("--picture", metavar="FILE", nargs="?", const="", help="with --check: draw the scene as an SVG or, by "
                         "the ending of FILE, a PNG; default out/<case name>_scene.svg")
-    parser.add_argument("--compare", metavar=("OUT_A", "OUT_B"), nargs=2, help="lay the results of two runs over each other, "
-                        "in place of a run")
+    parser.add_argument("--compare", type=given, metavar=("OUT_A", "OUT_B"), nargs=2, help="lay the results of two runs over "
+                        "each other, in place of a run")
     parser.add_argument("--describe", action="store_true", help="list the keys of the case's sections with units, "
                                                                 "defaults and ranges")
     parser.add_argument("--print-case", action="store_true", help="print the case as it is read, with its base and the "
                                                                   "values of --set")
-    parser.add_argument("--replay", metavar="RESULTS", help="run one side alone, against what the other one answered in "
-                        "the run that left RESULTS with [coupling] record = 'every_window'; what it answers is compared")
+    parser.add_argument("--replay", type=given, metavar="RESULTS", help="run one side alone, against what the other one "
+                        "answered in the run that left RESULTS with [coupling] record = 'every_window'; what it answers is "
+                        "compared")
     parser.add_argument("--only", choices=["fluid", "solid"], help="the side of a replay that runs")
-    parser.add_argument("--fluid", metavar="EXE", help="another program in the place of fluid_solver")
-    parser.add_argument("--solid", metavar="EXE", help="another program in the place of solid_solver")
+    parser.add_argument("--fluid", type=given, metavar="EXE", help="another program in the place of fluid_solver")
+    parser.add_argument("--solid", type=given, metavar="EXE", help="another program in the place of solid_solver")
     parser.add_argument("--ranks", metavar="N", help="compute the fluid by N processes with a part of it each, over MPI; the "
                         "results are the same to the last bit (docs/ranks.md)")
     parser.add_argument("--watch", metavar="PORT", nargs="?", const="", help="serve the report of the run while it runs, to a "
                         "browser on this machine, with a button that ends it; --watch OUT in place of a case watches the "
                         "run that writes into the results folder OUT")
-    parser.add_argument("--secure", metavar="FOLDER", help="only programs that prove an identity of FOLDER take part in a "
-                        "coupled run, and nobody else can change or, as FOLDER was made, read what they send")
+    parser.add_argument("--secure", type=given, metavar="FOLDER", help="only programs that prove an identity of FOLDER take "
+                        "part in a coupled run, and nobody else can change or, as FOLDER was made, read what they send")
     parser.add_argument("--make-identities", metavar="FOLDER", help="make the identities for that, in place of a run; with "
                         "--encrypt for messages that are encrypted too, with --days N for how long they are valid")
     add_options(parser)
     parser.add_argument("--no-report", action="store_true", help="leave report.html and frames.py out")
-    parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path,
-                        help=argparse.SUPPRESS)
+    parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=path, help=argparse.SUPPRESS)
     options, unknown = parser.parse_known_args(arguments)
     for name in ("restart", "watch"):  # "--restart CASE": the case stands where a folder may
         value = getattr(options, name)
         if options.case is None and value and any(map(os.path.isfile, (value, os.path.join(value, "case.toml")))):
             options.case = value
             setattr(options, name, "")
-    for name in ("out", "compare", "replay", "fluid", "solid", "secure", "bin"):  # "" would be the current folder, or none
-        if "" in (value := getattr(options, name), *(value if isinstance(value, list) else ())):
-            parser.error(f"argument --{name}: has no value")
     if options.case is None and not options.watch:
         parser.error("the following arguments are required: CASE")
     if options.secure is not None:

@@ -30,14 +30,13 @@ import pathlib
 import re
 import sys
 import threading
-import time
 from dataclasses import dataclass
 
 import numpy as np
 
-from toryu import PROGRAMS, counted
-from toryu.own_code import mistake_of, sources
-from toryu.processes import BAD_INPUT, BUG, PATIENCE, PHYSICS_FAILED, QUIET
+from toryu import PROGRAMS
+from toryu.own_code import give_up_threads, mistake_of, sources
+from toryu.processes import BAD_INPUT, BUG, PHYSICS_FAILED
 
 COLUMN = re.compile(r'([^,"\[\]]+)\[([^,"\[\]]*)\]')  # as CSV has it without quotes
 NUMBERS = (bool, int, float, complex)  # of Python, whose arithmetic is that of numpy's
@@ -166,20 +165,6 @@ class Solid(Participant):
     `advance(window, load)`, which answers a Motion, in each window."""
 
     side = "solid"
-
-
-def give_up_threads(name, code):
-    """Tells for which threads of the participant Python waits, and ends it where they go on: it would wait for ever."""
-    def tell(what):
-        print(f"{name}: warning: the run is over, and {what}", file=sys.stderr, flush=True)
-
-    time.sleep(QUIET)
-    if going_on := [t.name for t in threading.enumerate() if not t.daemon and t is not threading.main_thread()]:
-        tell(f"{counted(len(going_on), 'thread')} of this program, {', '.join(map(repr, going_on))}, is waited for, for "
-             f"{PATIENCE:g} s at most; one with daemon=True ends with the run")
-    time.sleep(max(0, PATIENCE - QUIET))
-    tell(f"a thread of this program goes on after {PATIENCE:g} s: it is ended")
-    os._exit(code)
 
 
 def compiled():

@@ -1,6 +1,7 @@
 """The frame of these programs, as common/run/program.hpp is that of the C++ ones: standard streams that may be closed,
 full or read by nobody; how a program ends; how one starts another."""
 
+import argparse
 import contextlib
 import errno
 import io
@@ -41,6 +42,17 @@ SHORTAGES = {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.EIO, 
 def python(part, *arguments):
     """The command that starts toryu.PART, untouched by PYTHONPATH, PYTHONIOENCODING, the locale and the like."""
     return [sys.executable, "-I", "-X", "utf8", str(PACKAGE), part, *map(str, arguments)]
+
+
+def given(value):
+    """The value of an option; an empty one would be the current folder, or count as none given."""
+    if not value:
+        raise argparse.ArgumentTypeError("has no value")
+    return value
+
+
+def path(value):
+    return pathlib.Path(given(value))
 
 
 class StandardStream(io.RawIOBase):

@@ -138,11 +138,7 @@ TEST(CoarseFlow, IsItsOwnImage) {
 /// A no-slip slit 0.5 m wide about y = 0.25 m, whose pistons move as prescribed.
 Setting driven_slit() {
   const Motion motion{.velocity = {{0.0, 0.0, 0.0}, {0.05, 0.3, 0.0}}};
-  Setting s = empty_space();
-  s.parameters.artificial_viscosity.reset();
-  s.parameters.density_diffusion.reset();
-  s.parameters.model = Model::implicit;
-  s.parameters.laminar_viscosity = LaminarViscosity{2000};
+  Setting s = space_of_implicit_steps();
   s.parameters.kernel = KernelForm::wendland_c2;
   s.parameters.smoothing_ratio = 2;
   s.parameters.background_pressure = BackgroundPressure{1e5};

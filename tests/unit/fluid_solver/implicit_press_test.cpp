@@ -127,11 +127,7 @@ void set_masses(Setting& s, double mass) {
 
 /// A medium without weight between two pistons without inertia, 1 m by 0.5 m, whose walls hold no shear.
 Setting between_pistons(const Press& left, const Press& right) {
-  Setting s = empty_space();
-  s.parameters.artificial_viscosity.reset();
-  s.parameters.density_diffusion.reset();
-  s.parameters.model = Model::implicit;
-  s.parameters.laminar_viscosity = LaminarViscosity{2000};
+  Setting s = space_of_implicit_steps();
   s.parameters.kernel = KernelForm::wendland_c2;
   s.parameters.smoothing_ratio = 2;
   s.parameters.wall_model.slip = WallSlip::free_slip;

@@ -146,11 +146,7 @@ TEST(ImplicitMatrix, GivesAndTakesMomentumPairByPair) {
 
 /// A medium between plates, stirred: walls extrapolate.
 Setting stirred_slit() {
-  Setting s = empty_space();
-  s.parameters.artificial_viscosity.reset();
-  s.parameters.density_diffusion.reset();
-  s.parameters.model = Model::implicit;
-  s.parameters.laminar_viscosity = LaminarViscosity{2000};
+  Setting s = space_of_implicit_steps();
   s.parameters.start_disorder = 0.1;
   s.parameters.regions = {{"medium", {Vec(0, 0), Vec(1, 0.6)}, Vec(0.3, 0.1)}};
   s.scene.walls = {{"lower", {Vec(-0.2, -0.2), Vec(1.2, 0)}, {}},

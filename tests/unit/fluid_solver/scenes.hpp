@@ -22,6 +22,16 @@ inline Setting empty_space() {
   return s;
 }
 
+/// Of a viscous medium, for implicit steps.
+inline Setting space_of_implicit_steps() {
+  Setting s = empty_space();
+  s.parameters.artificial_viscosity.reset();
+  s.parameters.density_diffusion.reset();
+  s.parameters.model = Model::implicit;
+  s.parameters.laminar_viscosity = LaminarViscosity{2000};
+  return s;
+}
+
 /// Two blocks of fluid that meet askew in empty space: all terms act, nothing outside does.
 inline Setting colliding_drops() {
   Setting s = empty_space();

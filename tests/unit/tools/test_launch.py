@@ -66,7 +66,7 @@ class WhatIsStarted(Launch):
 
 class BadInput(Launch):
     def test_an_option_with_an_empty_value(self):
-        for name in ("out", "fluid", "secure"):
+        for name in ("out", "fluid", "secure", "bin"):
             done = self.launch(f"--{name}", "")
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"error: argument --{name}: has no value", done.stderr)

@@ -36,15 +36,16 @@ def parse(arguments):
         epilog="Exit codes: 0 done (runs whose physics failed are results), 1 done but a run of a map hung, 2 bad input, "
                "5 a fault of the machine, 130 interrupted, else that of the run that ended the study.")
     parser.add_argument("study", metavar="STUDY.toml", type=pathlib.Path)
-    parser.add_argument("--out", metavar="DIR", type=pathlib.Path, help="results folder; default out/<case>_<study>")
+    parser.add_argument("--out", metavar="DIR", type=program.path, help="results folder; default out/<case>_<study>")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[],
                         help="another value for a key of the case in every run; repeatable")
     parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time; default: as many as fit the cores, one if "
                         "the study has [timing]")
     parser.add_argument("--threads", metavar="N", type=int, default=1, help="threads of each run; default 1")
-    parser.add_argument("--secure", metavar="FOLDER", help="the identities of the programs of every run")
+    parser.add_argument("--secure", type=program.given, metavar="FOLDER", help="the identities of the programs of every run")
     for side in ("fluid", "solid"):
-        parser.add_argument(f"--{side}", metavar="EXE", help=f"another program in the place of {side}_solver in every run")
+        parser.add_argument(f"--{side}", type=program.given, metavar="EXE", help=f"another program in the place of {side}_solver "
+                            "in every run")
     parser.add_argument("--on", metavar="WHERE", help="run elsewhere, where this folder is too: 'slurm', or hosts that ssh "
                         "reaches, with commas between or one a line in a file, for GNU parallel; --jobs is then the most at "
                         "a time, on each host")
@@ -55,7 +56,7 @@ def parse(arguments):
     parser.add_argument("--small", action="store_true", help="the small version that the study's table [small] describes")
     parser.add_argument("--check", action="store_true", help="only check the study and what it sets in the case")
     parser.add_argument("--list", action="store_true", help="list the runs, and which are done")
-    parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=pathlib.Path, help=argparse.SUPPRESS)
+    parser.add_argument("--bin", metavar="DIR", default=PROGRAMS, type=program.path, help=argparse.SUPPRESS)
     placement.add_options(parser)
     options = parser.parse_args(arguments)
     cores = len(os.sched_getaffinity(0))

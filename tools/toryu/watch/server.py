@@ -43,7 +43,6 @@ class Server(http.server.ThreadingHTTPServer):
         self.connected = 0  # whose answer is under way
         self.ended = 0  # streams that told the end, after which each page is asked for once more
         self.last_pages = 0  # read whole since the end
-        self.connections = threading.Semaphore(MOST_CONNECTIONS)
         super().__init__((LOOPBACK, port), Handler)
 
     @property
@@ -54,9 +53,10 @@ class Server(http.server.ThreadingHTTPServer):
         return [asked for asked in self.opening if time.monotonic() - asked < PATIENCE]
 
     def process_request(self, request, client_address):
-        if self.connections.acquire(blocking=False):
-            with self.lock:
-                self.connected += 1
+        with self.lock:
+            free = self.connected < MOST_CONNECTIONS
+            self.connected += free
+        if free:
             return super().process_request(request, client_address)
         self.shutdown_request(request)
 
@@ -66,7 +66,6 @@ class Server(http.server.ThreadingHTTPServer):
         finally:
             with self.lock:
                 self.connected -= 1
-            self.connections.release()
 
     def handle_error(self, request, client_address):
         """A reader that went away is no fault, and there is nobody to tell of others: the page shows what it has."""

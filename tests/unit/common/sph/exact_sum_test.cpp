@@ -47,5 +47,16 @@ TEST(ExactSum, IsNoNumberWhereAPartIsNone) {
   }
 }
 
+TEST(ExactSum, IsNoNumberBeyondItsLimit) {
+  ExactSum sum, other;
+  for (int k = 0; k < 2; ++k) sum.add(1e11);
+  EXPECT_TRUE(std::isnan(sum.value()));
+  other.add(1e11);
+  ExactSum both = other;
+  both.add(other);
+  EXPECT_EQ(other.value(), 1e11);
+  EXPECT_TRUE(std::isnan(both.value()));
+}
+
 }  // namespace
 }  // namespace toryu
